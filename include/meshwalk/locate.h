@@ -1,0 +1,177 @@
+/* locate.h - which triangle contains a point.
+ *
+ * A locator prepares one mesh for queries: it decides whether the mesh is an embedding, and, where the mesh is not
+ * convex, fills the pockets and holes with marked ghost triangles of its own, so that every walk can cross them. It is
+ * const while it is queried; what a query changes sits in a cursor that each thread owns.
+ *
+ * The answer is exact and unique: a point on an edge or a vertex belongs to the lowest-numbered triangle that contains
+ * it. It does not depend on walk, start, arithmetic, seed, threads or the order of the queries. */
+#ifndef MESHWALK_LOCATE_H
+#define MESHWALK_LOCATE_H
+
+#include <meshwalk/mesh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum mw_walk_kind {
+    MW_WALK_AUTO = 0,
+#define X(id, name, source, help) MW_WALK_##id,
+#include <meshwalk/walks.def>
+#undef X
+    MW_WALK_COUNT
+} mw_walk_kind;
+
+typedef enum mw_start_kind {
+    MW_START_AUTO = 0,
+#define X(id, name, source, help) MW_START_##id,
+#include <meshwalk/starts.def>
+#undef X
+    MW_START_COUNT
+} mw_start_kind;
+
+/* How a walk decides its turns. The final triangle is decided exactly in either case; MW_DOUBLE is for measuring. */
+typedef enum mw_arithmetic { MW_EXACT = 0, MW_DOUBLE } mw_arithmetic;
+
+/* Names as on the command line ("straight", "sorted", "auto"); NULL for a number that is no walk or start. */
+MW_API const char *mw_walk_name(mw_walk_kind walk);
+MW_API const char *mw_walk_source(mw_walk_kind walk);
+MW_API const char *mw_walk_help(mw_walk_kind walk);
+MW_API const char *mw_start_name(mw_start_kind start);
+MW_API const char *mw_start_help(mw_start_kind start);
+/* The number of a name; MW_WALK_COUNT or MW_START_COUNT if there is none. */
+MW_API mw_walk_kind mw_walk_by_name(const char *name);
+MW_API mw_start_kind mw_start_by_name(const char *name);
+
+typedef enum mw_where {
+    MW_INSIDE = 0, /* inside `triangle`                                                                */
+    MW_ON_EDGE,    /* on local edge `local` of `triangle`                                              */
+    MW_ON_VERTEX,  /* at local vertex `local` of `triangle`                                            */
+    MW_OUTSIDE,    /* in no triangle and no hole                                                       */
+    MW_IN_HOLE,    /* in hole `hole`: a bounded part of the plane that the mesh surrounds              */
+    MW_NEAR,       /* outside or in a hole, but within the tolerance: `triangle` is the nearest one's  */
+    MW_BAD,        /* the point has a coordinate that is NaN or infinite                               */
+    MW_WHERE_COUNT
+} mw_where;
+
+/* "inside", "edge", "vertex", "outside", "hole", "near", "bad"; NULL for another number. */
+MW_API const char *mw_where_name(mw_where where);
+
+/* Where a point lies. */
+typedef struct mw_location {
+    double weight[3];  /* barycentric weights of the triangle's vertices: >= 0, sum 1 up to rounding, exactly 0 for the
+                          vertices off the edge the point is on; for MW_NEAR, of the nearest point; else NaN        */
+    uint32_t triangle; /* the caller's number, or MW_NONE                                                           */
+    uint32_t hole;     /* MW_IN_HOLE and MW_NEAR in a hole: number of the hole; else MW_NONE                        */
+    uint8_t where;     /* mw_where                                                                                  */
+    uint8_t local;     /* MW_ON_EDGE and MW_NEAR: local edge; MW_ON_VERTEX: local vertex; else 255                  */
+    uint16_t reserved;
+    uint32_t reserved2;
+} mw_location;
+
+typedef struct mw_locator mw_locator;
+
+typedef struct mw_locator_options {
+    int any;     /* 1: take also a mesh that is no embedding; see mw_locator_void_promise                      */
+    int border;  /* 1: build the index that nearest-border queries and a tolerance need                        */
+    int layout;  /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
+    uint32_t reserved[5];
+} mw_locator_options;
+
+/* Prepare a mesh for queries.
+ *   mesh     must outlive the locator and not change while it exists
+ *   options  NULL = all zero
+ *   out      owned by the caller (mw_locator_destroy); NULL on failure
+ * MW_ERROR_INPUT: the mesh has no triangle with an area, or is no embedding; the error names the first defect. */
+MW_API mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options, mw_locator **out,
+                                   mw_error *error);
+MW_API void mw_locator_destroy(mw_locator *locator); /* NULL is allowed */
+
+/* What the locator has built beside the mesh. */
+typedef struct mw_locator_info {
+    size_t bytes;             /* all memory of the locator, mesh not counted       */
+    size_t border_bytes;      /* of it, the index of the border                    */
+    uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
+    uint32_t holes;
+    int copied;               /* 1: walks run on an own copy in Hilbert order      */
+    int embedding;            /* 0: only with options.any                          */
+} mw_locator_info;
+MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
+
+/* For a mesh taken with options.any although it is no embedding: which promise is void, as a text; else NULL. */
+MW_API const char *mw_locator_void_promise(const mw_locator *locator);
+
+/* How to answer a query. All zero = choose what is fast. */
+typedef struct mw_query_options {
+    mw_walk_kind walk;
+    mw_start_kind start;
+    mw_arithmetic arithmetic;
+    uint64_t seed;      /* for everything random; answers do not depend on it                                  */
+    uint32_t sample;    /* MW_START_SAMPLE: number of triangles looked at; 0 = cube root of their number        */
+    uint32_t threads;   /* batches: 0 = what OpenMP gives                                                      */
+    double tolerance;   /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
+    int count;          /* 1: fill the counters                                                                */
+    uint32_t lanes;     /* batches: walks in flight at a time; 0 = choose, at most MW_MAX_LANES                 */
+    uint32_t reserved[4];
+} mw_query_options;
+
+#define MW_MAX_LANES 64
+
+/* What the walks did, summed over queries. `init` is the turning round the first vertex of the straight walk. */
+typedef struct mw_counters {
+    uint64_t queries;
+    uint64_t triangles_init, triangles; /* triangles visited, the first one included     */
+    uint64_t triangles_max;             /* most triangles visited by one query           */
+    uint64_t tests_init, tests;         /* orientation tests, the final answer's three not counted */
+    uint64_t handovers;                 /* walks that ran out of steps and were ended by the celestial walk */
+} mw_counters;
+
+/* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. */
+typedef struct mw_cursor {
+    mw_counters counters;
+    uint64_t random;     /* state of the random numbers                 */
+    double tolerance;    /* as in the options                           */
+    uint32_t last;       /* triangle of the query before (internal number) */
+    uint32_t sample;     /* resolved number of samples                  */
+    uint8_t walk, start, arithmetic, count; /* resolved options          */
+    uint32_t reserved[3];
+} mw_cursor;
+
+/* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a negative or NaN tolerance, or a tolerance
+ * without the border index. MW_START_SORTED in single queries means MW_START_LAST. */
+MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options,
+                                mw_error *error);
+
+/* Locate one point. Thread-safe with one cursor per thread; no allocation, no failure. */
+MW_API mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y);
+
+/* Locate n points.
+ *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
+ *   locations n results, in input order, the same for every number of threads
+ *   counters  NULL or filled with the sum over the batch (options->count)
+ * MW_ERROR_ARGUMENT as mw_cursor_init; MW_ERROR_MEMORY (then locations is unspecified). */
+MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,
+                                 const mw_query_options *options, mw_location *locations, mw_counters *counters,
+                                 mw_error *error);
+
+/* The border edge nearest to a point, exactly: of several at the same distance the lowest triangle, then edge. */
+typedef struct mw_border_hit {
+    uint32_t triangle; /* the caller's number */
+    uint32_t edge;     /* local edge */
+    double distance;   /* mesh units, rounded; 0 for a point on the border */
+    double point[2];   /* nearest point of that edge, rounded */
+} mw_border_hit;
+
+/* MW_ERROR_ARGUMENT if the locator was made without options.border, or the point is not finite. Thread-safe. */
+MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_border_hit *hit, mw_error *error);
+
+/* Linear interpolation: value[i] = sum of location[i].weight[k] * values[vertex k of its triangle], exact at vertices;
+ * NaN where the location has no triangle. values: one per vertex of the mesh. Thread-safe. */
+MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations, size_t n,
+                           double *result);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

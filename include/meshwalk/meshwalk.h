@@ -1,0 +1,13 @@
+/* meshwalk.h - point location in triangle meshes by walking: the whole public interface. */
+#ifndef MESHWALK_MESHWALK_H
+#define MESHWALK_MESHWALK_H
+
+#include <meshwalk/version.h>
+#include <meshwalk/base.h>
+#include <meshwalk/predicates.h>
+#include <meshwalk/mesh.h>
+#include <meshwalk/triangulate.h>
+#include <meshwalk/locate.h>
+#include <meshwalk/io.h>
+
+#endif

@@ -1,0 +1,65 @@
+/* mesh.h - the records of a planar mesh. Private.
+ *
+ *              2            Edge k of a triangle joins its vertices k and k+1 (mod 3); the apex of edge k is vertex
+ *             / \           k+2. Triangles are stored counter-clockwise, so that their inside lies to the left of each
+ *        e2  /   \  e1      edge. A link names the triangle across an edge and the edge there in one number:
+ *           /     \         4 * triangle + edge; MW_NONE where there is none.
+ *          0-------1        A triangle that the user gave clockwise is stored with vertices 1 and 2 exchanged and is
+ *             e0            marked MW_FLIPPED. */
+#ifndef MW_SRC_MESH_H
+#define MW_SRC_MESH_H
+
+#include "base/base.h"
+#include "predicates/predicates.h"
+
+#include <meshwalk/mesh.h>
+
+/* 32 bytes, two to a cache line. v[3] repeats v[0], so that edge k is v[k], v[k + 1] without a modulo. */
+typedef struct mw_triangle {
+    uint32_t v[4];
+    uint32_t link[3];
+    uint32_t user; /* the user's number of the triangle, and marks in the two upper bits */
+} mw_triangle;
+
+#define MW_FLIPPED (UINT32_C(1) << 31) /* vertices 1 and 2 are exchanged against the user's order                  */
+#define MW_GHOST (UINT32_C(1) << 30)   /* no triangle of the user's: fills a hole (the number below) or a pocket   */
+#define MW_USER_MASK (MW_GHOST - 1)
+#define MW_POCKET MW_USER_MASK         /* number of a ghost that lies in no hole but between border and hull       */
+
+static MW_INLINE uint32_t mw__next(uint32_t k) { return k == 2 ? 0 : k + 1; }
+static MW_INLINE uint32_t mw__prev(uint32_t k) { return k == 0 ? 2 : k - 1; }
+static MW_INLINE uint32_t mw__link(uint32_t triangle, uint32_t edge) { return triangle << 2 | edge; }
+static MW_INLINE uint32_t mw__link_triangle(uint32_t link) { return link >> 2; }
+static MW_INLINE uint32_t mw__link_edge(uint32_t link) { return link & 3; }
+
+/* Edge k of a stored triangle as the user numbers it, and vertex k. */
+static MW_INLINE uint32_t mw__user_edge(uint32_t user, uint32_t k) { return user & MW_FLIPPED ? 2 - k : k; }
+static MW_INLINE uint32_t mw__user_vertex(uint32_t user, uint32_t k) { return user & MW_FLIPPED ? (3 - k) % 3 : k; }
+
+typedef struct mw_field {
+    char *name;
+    double *values;
+} mw_field;
+
+struct mw_mesh {
+    mw_point *point;
+    mw_triangle *tri; /* tri[t].user is t, with MW_FLIPPED where it applies; flat triangles are among them */
+    uint32_t point_count, tri_count;
+    uint32_t flat_count, flipped_count;
+    mw_field *field;
+    size_t field_count;
+    bool tolerant; /* may hold triangles that are not usable: see mw__usable */
+};
+
+/* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). An edge of more than two
+ * triangles links the first two; *extra (may be NULL) is set to a link to a further one, MW_NONE if there is none.
+ * Links two triangles whatever their orientation. Returns false when out of memory. */
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *extra);
+
+/* Sign of the area of a triangle as stored: 0 for flat ones and those with vertices that are not finite. */
+static MW_INLINE bool mw__has_area(const mw_point *point, const mw_triangle *t)
+{
+    return mw__orient2d(point[t->v[0]], point[t->v[1]], point[t->v[2]]) > 0;
+}
+
+#endif
