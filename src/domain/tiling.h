@@ -1,0 +1,35 @@
+/* tiling.h - the convex hull of a mesh, tiled edge to edge: what the walks walk on. Private.
+ *
+ * The tiles are the user's triangles that have an area, and ghost triangles that fill the pockets between border and
+ * hull and the holes. All tiles are counter-clockwise and have an area; a link is MW_NONE on the hull only. Vertices of
+ * the user's with equal coordinates are one vertex here, so that pieces which touch are linked. Where flat triangles
+ * fill the gap beside an edge that has vertices inside it, the user's triangle at that edge is cut into several tiles
+ * of the same number.
+ *
+ * A convex mesh without flat triangles is its own tiling; its arrays are borrowed then. */
+#ifndef MW_SRC_TILING_H
+#define MW_SRC_TILING_H
+
+#include "mesh/mesh.h"
+
+typedef struct mw_tiling {
+    mw_point *point;
+    mw_triangle *tri;  /* tri[t].user: the user's triangle with MW_FLIPPED, or MW_GHOST and the number of the hole (MW_POCKET) */
+    uint32_t *owner;   /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned */
+    uint32_t point_count, tri_count, ghost_count, hole_count;
+    bool borrowed;     /* point and tri belong to the mesh                                                      */
+    bool cut;          /* some of the user's triangles are several tiles                                        */
+    bool embedding;    /* false: the mesh is no embedding (option any); the tiles are the mesh's own triangles, borrowed,
+                          links are MW_NONE on any border, and nothing above is promised                        */
+} mw_tiling;
+
+/* Tile the hull of `mesh`. Where the mesh is no embedding: with `any`, see mw_tiling.embedding; otherwise
+ * MW_ERROR_INPUT, the error naming the first defect. The mesh must outlive the tiling. */
+mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
+void mw__tiling_release(mw_tiling *tiling);
+size_t mw__tiling_bytes(const mw_tiling *tiling); /* what it owns */
+
+/* Lay out tiles and vertices along a Hilbert curve; a borrowed tiling becomes a copy. */
+mw_status mw__tiling_order(mw_tiling *tiling, mw_error *error);
+
+#endif
