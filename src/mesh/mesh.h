@@ -24,17 +24,38 @@ typedef struct mw_triangle {
 #define MW_FLIPPED (UINT32_C(1) << 31) /* vertices 1 and 2 are exchanged against the user's order                  */
 #define MW_GHOST (UINT32_C(1) << 30)   /* no triangle of the user's: fills a hole (the number below) or a pocket   */
 #define MW_USER_MASK (MW_GHOST - 1)
-#define MW_POCKET MW_USER_MASK         /* number of a ghost that lies in no hole but between border and hull       */
+#define MW_POCKET MW_USER_MASK /* number of a ghost that lies in no hole but between border and hull       */
 
-static MW_INLINE uint32_t mw__next(uint32_t k) { return k == 2 ? 0 : k + 1; }
-static MW_INLINE uint32_t mw__prev(uint32_t k) { return k == 0 ? 2 : k - 1; }
-static MW_INLINE uint32_t mw__link(uint32_t triangle, uint32_t edge) { return triangle << 2 | edge; }
-static MW_INLINE uint32_t mw__link_triangle(uint32_t link) { return link >> 2; }
-static MW_INLINE uint32_t mw__link_edge(uint32_t link) { return link & 3; }
+static MW_INLINE uint32_t mw__next(uint32_t k)
+{
+    return k == 2 ? 0 : k + 1;
+}
+static MW_INLINE uint32_t mw__prev(uint32_t k)
+{
+    return k == 0 ? 2 : k - 1;
+}
+static MW_INLINE uint32_t mw__link(uint32_t triangle, uint32_t edge)
+{
+    return triangle << 2 | edge;
+}
+static MW_INLINE uint32_t mw__link_triangle(uint32_t link)
+{
+    return link >> 2;
+}
+static MW_INLINE uint32_t mw__link_edge(uint32_t link)
+{
+    return link & 3;
+}
 
 /* Edge k of a stored triangle as the user numbers it, and vertex k. */
-static MW_INLINE uint32_t mw__user_edge(uint32_t user, uint32_t k) { return user & MW_FLIPPED ? 2 - k : k; }
-static MW_INLINE uint32_t mw__user_vertex(uint32_t user, uint32_t k) { return user & MW_FLIPPED ? (3 - k) % 3 : k; }
+static MW_INLINE uint32_t mw__user_edge(uint32_t user, uint32_t k)
+{
+    return user & MW_FLIPPED ? 2 - k : k;
+}
+static MW_INLINE uint32_t mw__user_vertex(uint32_t user, uint32_t k)
+{
+    return user & MW_FLIPPED ? (3 - k) % 3 : k;
+}
 
 typedef struct mw_field {
     char *name;

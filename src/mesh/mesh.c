@@ -1,0 +1,225 @@
+/* mesh.c - a planar mesh from arrays: copies, orientation, neighbours, fields. */
+#include "mesh/mesh.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Vertex number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
+static uint32_t index_at(const mw_arrays *arrays, size_t i)
+{
+    if (arrays->index_type == MW_UINT32) return ((const uint32_t *)arrays->triangles)[i];
+    int64_t v = arrays->index_type == MW_INT32 ? ((const int32_t *)arrays->triangles)[i]
+                                               : ((const int64_t *)arrays->triangles)[i];
+    return v < 0 || v >= MW_NONE ? MW_NONE : (uint32_t)v;
+}
+
+static mw_status check_arguments(const mw_arrays *arrays, mw_error *error)
+{
+    if (!arrays || (!arrays->points && arrays->point_count) || (!arrays->triangles && arrays->triangle_count))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
+    if (arrays->point_stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a point stride of 1 holds no y");
+    if (arrays->index_type > MW_INT64) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of index");
+    if (arrays->point_count > MW_MAX_VERTICES)
+        return mw__fail(error, MW_ERROR_LIMIT, "%zu vertices, at most %" PRIu32 " are possible", arrays->point_count,
+                        MW_MAX_VERTICES);
+    if (arrays->triangle_count > MW_MAX_TRIANGLES)
+        return mw__fail(error, MW_ERROR_LIMIT, "%zu triangles, at most %" PRIu32 " are possible",
+                        arrays->triangle_count, MW_MAX_TRIANGLES);
+    return MW_OK;
+}
+
+static void copy_points(mw_mesh *mesh, const mw_arrays *arrays)
+{
+    size_t stride = arrays->point_stride ? arrays->point_stride : 2;
+    for (size_t i = 0; i < arrays->point_count; i++)
+        mesh->point[i] = (mw_point){arrays->points[i * stride], arrays->points[i * stride + 1]};
+}
+
+static bool is_finite(mw_point p)
+{
+    return isfinite(p.x) && isfinite(p.y);
+}
+
+/* Copy the vertices of triangle t; the error names what makes them unusable, unless the mesh tolerates it. */
+static mw_status copy_triangle(mw_mesh *mesh, const mw_arrays *arrays, uint32_t t, mw_error *error)
+{
+    mw_triangle *tri = &mesh->tri[t];
+    for (size_t k = 0; k < 3; k++) {
+        uint32_t v = index_at(arrays, 3 * (size_t)t + k);
+        if (v >= mesh->point_count)
+            return mw__fail_at(error, t, -1, "triangle %" PRIu32 ": corner %zu is no vertex; there are %" PRIu32, t, k,
+                               mesh->point_count);
+        if (!mesh->tolerant && !is_finite(mesh->point[v]))
+            return mw__fail_at(error, t, v, "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);
+        tri->v[k] = v;
+        tri->link[k] = MW_NONE;
+    }
+    tri->v[3] = tri->v[0];
+    tri->user = t;
+    for (uint32_t k = 0; k < 3 && !mesh->tolerant; k++)
+        if (tri->v[k] == tri->v[k + 1])
+            return mw__fail_at(error, t, tri->v[k], "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t,
+                               tri->v[k]);
+    return MW_OK;
+}
+
+/* Store the triangle counter-clockwise; count those that were not, and those without area. */
+static void orient(mw_mesh *mesh, mw_triangle *t)
+{
+    mw_point a = mesh->point[t->v[0]], b = mesh->point[t->v[1]], c = mesh->point[t->v[2]];
+    double area = is_finite(a) && is_finite(b) && is_finite(c) ? mw__orient2d(a, b, c) : 0;
+    if (area == 0) mesh->flat_count++;
+    if (area >= 0) return;
+    uint32_t v = t->v[1];
+    t->v[1] = t->v[2];
+    t->v[2] = v;
+    t->user |= MW_FLIPPED;
+    mesh->flipped_count++;
+}
+
+static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
+{
+    copy_points(mesh, arrays);
+    for (uint32_t t = 0; t < mesh->tri_count; t++) {
+        mw_status status = copy_triangle(mesh, arrays, t, error);
+        if (status) return status;
+        orient(mesh, &mesh->tri[t]);
+    }
+    uint32_t extra;
+    if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &extra)) return mw__fail_memory(error);
+    if (extra == MW_NONE || mesh->tolerant) return MW_OK;
+    const mw_triangle *t = &mesh->tri[mw__link_triangle(extra)];
+    uint32_t e = mw__link_edge(extra);
+    return mw__fail_at(error, mw__link_triangle(extra), t->v[e],
+                       "triangle %" PRIu32 ": two others share its edge %" PRIu32 ", from vertex %" PRIu32
+                       " to %" PRIu32,
+                       mw__link_triangle(extra), mw__user_edge(t->user, e), t->v[e], t->v[e + 1]);
+}
+
+mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out, mw_error *error)
+{
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");
+    *out = NULL;
+    mw_status status = check_arguments(arrays, error);
+    if (status) return status;
+    mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
+    if (!mesh) return mw__fail_memory(error);
+    mesh->tolerant = options && options->tolerant;
+    mesh->point_count = (uint32_t)arrays->point_count;
+    mesh->tri_count = (uint32_t)arrays->triangle_count;
+    mesh->point = mw__alloc(mesh->point_count, sizeof *mesh->point);
+    mesh->tri = mw__alloc(mesh->tri_count, sizeof *mesh->tri);
+    status = mesh->point && mesh->tri ? fill(mesh, arrays, error) : mw__fail_memory(error);
+    if (status)
+        mw_mesh_destroy(mesh);
+    else
+        *out = mesh;
+    return status;
+}
+
+void mw_mesh_destroy(mw_mesh *mesh)
+{
+    if (!mesh) return;
+    for (size_t i = 0; i < mesh->field_count; i++) {
+        free(mesh->field[i].name);
+        free(mesh->field[i].values);
+    }
+    free(mesh->field);
+    free(mesh->tri);
+    free(mesh->point);
+    free(mesh);
+}
+
+uint32_t mw_mesh_vertex_count(const mw_mesh *mesh)
+{
+    return mesh->point_count;
+}
+
+uint32_t mw_mesh_triangle_count(const mw_mesh *mesh)
+{
+    return mesh->tri_count;
+}
+
+void mw_mesh_vertex(const mw_mesh *mesh, uint32_t vertex, double point[2])
+{
+    point[0] = mesh->point[vertex].x;
+    point[1] = mesh->point[vertex].y;
+}
+
+void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t vertices[3])
+{
+    const mw_triangle *t = &mesh->tri[triangle];
+    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(t->user, k)] = t->v[k];
+}
+
+uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge, unsigned *edge)
+{
+    const mw_triangle *t = &mesh->tri[triangle];
+    uint32_t link = t->link[mw__user_edge(t->user, local_edge)]; /* the exchange is its own inverse */
+    if (link == MW_NONE) return MW_NONE;
+    uint32_t other = mw__link_triangle(link);
+    if (edge) *edge = mw__user_edge(mesh->tri[other].user, mw__link_edge(link));
+    return other;
+}
+
+size_t mw_mesh_bytes(const mw_mesh *mesh)
+{
+    return sizeof *mesh + mesh->point_count * (sizeof *mesh->point + mesh->field_count * sizeof(double)) +
+           mesh->tri_count * sizeof *mesh->tri + mesh->field_count * sizeof *mesh->field;
+}
+
+static mw_field *find_field(const mw_mesh *mesh, const char *name)
+{
+    for (size_t i = 0; i < mesh->field_count; i++)
+        if (strcmp(mesh->field[i].name, name) == 0) return &mesh->field[i];
+    return NULL;
+}
+
+/* Append a field that owns copies of the name and room for the values; NULL when out of memory. */
+static mw_field *add_field(mw_mesh *mesh, const char *name)
+{
+    mw_field *fields = mw__realloc(mesh->field, mesh->field_count + 1, sizeof *fields);
+    if (!fields) return NULL;
+    mesh->field = fields;
+    mw_field *field = &fields[mesh->field_count];
+    size_t size = strlen(name) + 1;
+    field->name = mw__alloc(size, 1);
+    field->values = mw__alloc(mesh->point_count, sizeof(double));
+    if (!field->name || !field->values) {
+        free(field->name);
+        free(field->values);
+        return NULL;
+    }
+    memcpy(field->name, name, size);
+    mesh->field_count++;
+    return field;
+}
+
+mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values, size_t stride, mw_error *error)
+{
+    if (!mesh || !name || (!values && mesh->point_count))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a field needs a mesh, a name and values");
+    mw_field *field = find_field(mesh, name);
+    if (!field) field = add_field(mesh, name);
+    if (!field) return mw__fail_memory(error);
+    if (stride == 0) stride = 1;
+    for (size_t i = 0; i < mesh->point_count; i++) field->values[i] = values[i * stride];
+    return MW_OK;
+}
+
+const double *mw_mesh_field(const mw_mesh *mesh, const char *name)
+{
+    const mw_field *field = find_field(mesh, name);
+    return field ? field->values : NULL;
+}
+
+size_t mw_mesh_field_count(const mw_mesh *mesh)
+{
+    return mesh->field_count;
+}
+
+const char *mw_mesh_field_name(const mw_mesh *mesh, size_t index)
+{
+    return index < mesh->field_count ? mesh->field[index].name : NULL;
+}
