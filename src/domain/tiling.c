@@ -1,0 +1,147 @@
+/* tiling.c - the tiling a mesh needs: its own arrays, or completed ones; and its layout in memory. */
+#include "domain/tiling.h"
+
+#include "domain/convex.h"
+#include "mesh/order.h"
+
+#include <stdlib.h>
+
+/* owner[v]: the lowest-numbered triangle of the user's, with an area, that has vertex v. */
+static bool find_owners(mw_tiling *tiling)
+{
+    tiling->owner = mw__alloc(tiling->point_count, sizeof *tiling->owner);
+    if (!tiling->owner) return false;
+    for (uint32_t v = 0; v < tiling->point_count; v++) tiling->owner[v] = MW_NONE;
+    for (uint32_t t = 0; t < tiling->tri_count; t++) {
+        const mw_triangle *tri = &tiling->tri[t];
+        if (tri->user & MW_GHOST || !mw__has_area(tiling->point, tri)) continue;
+        uint32_t user = tri->user & MW_USER_MASK;
+        for (int k = 0; k < 3; k++)
+            if (user < tiling->owner[tri->v[k]]) tiling->owner[tri->v[k]] = user;
+    }
+    return true;
+}
+
+static void borrow(const mw_mesh *mesh, mw_tiling *tiling)
+{
+    tiling->point = mesh->point;
+    tiling->tri = mesh->tri;
+    tiling->point_count = mesh->point_count;
+    tiling->tri_count = mesh->tri_count;
+    tiling->borrowed = true;
+}
+
+mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
+{
+    *tiling = (mw_tiling){.embedding = mw__convex(mesh)};
+    if (!tiling->embedding && !any) return mw__fail(error, MW_ERROR_INPUT, "the mesh does not fill a convex polygon");
+    borrow(mesh, tiling);
+    if (find_owners(tiling)) return MW_OK;
+    mw__tiling_release(tiling);
+    return mw__fail_memory(error);
+}
+
+static void release_arrays(mw_tiling *tiling)
+{
+    if (!tiling->borrowed) {
+        free(tiling->point);
+        free(tiling->tri);
+    }
+    tiling->point = NULL;
+    tiling->tri = NULL;
+}
+
+void mw__tiling_release(mw_tiling *tiling)
+{
+    release_arrays(tiling);
+    free(tiling->owner);
+    *tiling = (mw_tiling){0};
+}
+
+size_t mw__tiling_bytes(const mw_tiling *tiling)
+{
+    size_t bytes = tiling->point_count * sizeof *tiling->owner;
+    if (tiling->borrowed) return bytes;
+    return bytes + tiling->point_count * sizeof *tiling->point + tiling->tri_count * sizeof *tiling->tri;
+}
+
+/* place[order[i]] = i */
+static void invert(const uint32_t *order, uint32_t n, uint32_t *place)
+{
+    for (uint32_t i = 0; i < n; i++) place[order[i]] = i;
+}
+
+static void renumber(mw_triangle *t, const uint32_t *triangle_place, const uint32_t *vertex_place)
+{
+    for (int k = 0; k < 4; k++) t->v[k] = vertex_place[t->v[k]];
+    for (int k = 0; k < 3; k++)
+        if (t->link[k] != MW_NONE)
+            t->link[k] = mw__link(triangle_place[mw__link_triangle(t->link[k])], mw__link_edge(t->link[k]));
+}
+
+/* The four permutations of a new layout, and the arrays laid out by them. */
+typedef struct layout {
+    uint32_t *triangle_order, *triangle_place, *vertex_order, *vertex_place;
+    mw_point *point;
+    mw_triangle *tri;
+    uint32_t *owner;
+} layout;
+
+static bool reserve(layout *to, const mw_tiling *from)
+{
+    to->triangle_order = mw__alloc(from->tri_count, sizeof *to->triangle_order);
+    to->triangle_place = mw__alloc(from->tri_count, sizeof *to->triangle_place);
+    to->vertex_order = mw__alloc(from->point_count, sizeof *to->vertex_order);
+    to->vertex_place = mw__alloc(from->point_count, sizeof *to->vertex_place);
+    to->point = mw__alloc(from->point_count, sizeof *to->point);
+    to->tri = mw__alloc(from->tri_count, sizeof *to->tri);
+    to->owner = mw__alloc(from->point_count, sizeof *to->owner);
+    return to->triangle_order && to->triangle_place && to->vertex_order && to->vertex_place && to->point && to->tri &&
+           to->owner;
+}
+
+static bool order_all(layout *to, const mw_tiling *from)
+{
+    if (!mw__order_triangles(from->point, from->tri, from->tri_count, to->triangle_order) ||
+        !mw__order_vertices(from->tri, to->triangle_order, from->tri_count, from->point_count, to->vertex_order))
+        return false;
+    invert(to->triangle_order, from->tri_count, to->triangle_place);
+    invert(to->vertex_order, from->point_count, to->vertex_place);
+    return true;
+}
+
+static void fill(layout *to, const mw_tiling *from)
+{
+    for (uint32_t i = 0; i < from->tri_count; i++) {
+        to->tri[i] = from->tri[to->triangle_order[i]];
+        renumber(&to->tri[i], to->triangle_place, to->vertex_place);
+    }
+    for (uint32_t i = 0; i < from->point_count; i++) {
+        to->point[i] = from->point[to->vertex_order[i]];
+        to->owner[i] = from->owner[to->vertex_order[i]];
+    }
+}
+
+mw_status mw__tiling_order(mw_tiling *tiling, mw_error *error)
+{
+    layout to = {0};
+    bool done = reserve(&to, tiling) && order_all(&to, tiling);
+    if (done) {
+        fill(&to, tiling);
+        release_arrays(tiling);
+        free(tiling->owner);
+        tiling->point = to.point;
+        tiling->tri = to.tri;
+        tiling->owner = to.owner;
+        tiling->borrowed = false;
+    } else {
+        free(to.point);
+        free(to.tri);
+        free(to.owner);
+    }
+    free(to.triangle_order);
+    free(to.triangle_place);
+    free(to.vertex_order);
+    free(to.vertex_place);
+    return done ? MW_OK : mw__fail_memory(error);
+}
