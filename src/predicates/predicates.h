@@ -1,20 +1,49 @@
-/* predicates.h - exact predicates on internal points: inline filters, exact stages out of line. Private. */
+/* predicates.h - exact predicates on internal points: inline filters, exact stages out of line. Private.
+ *
+ * Every predicate is first evaluated in plain doubles. A bound on the rounding error [Shewchuk 1997, sec. 4] decides
+ * nearly every call; the others go to an exact stage: expansions (expansion.h), and big integers (big.h) where a
+ * coordinate is so large or so small that expansions could over- or underflow. So the signs are right for all finite
+ * doubles. With a coordinate that is NaN or infinite the result is 0.
+ *
+ * How the bounds are found. Let u = 2^-53. A sum or difference of doubles is fl(x) = x(1 + d), and also x = fl(x)(1 + d),
+ * with |d| <= u; so is a product, up to 2^-1075 where it underflows. Rounding is monotone: the bound, which is computed
+ * from the absolute values in the same order, is never less than the value itself rounded, so a value that overflows
+ * comes with an infinite bound and is not trusted. */
 #ifndef MW_SRC_PREDICATES_H
 #define MW_SRC_PREDICATES_H
 
 #include "base/base.h"
 
+#include <float.h>
 #include <math.h>
 #include <meshwalk/predicates.h>
+
+/* x87 arithmetic, which keeps more bits than a double has, breaks filters and expansions alike. */
+_Static_assert(FLT_EVAL_METHOD == 0 && FLT_RADIX == 2 && DBL_MANT_DIG == 53 && DBL_MIN_EXP == -1021,
+               "the exact predicates need IEEE double arithmetic without excess precision");
 
 typedef struct mw_point {
     double x, y;
 } mw_point;
 
-/* orient2d when the filter could not decide. */
+/* The exact stages, for when a filter could not decide. Their value has a relative error below 2^-50; a determinant above
+ * the doubles gives +-DBL_MAX, one below the normal doubles something nonzero of its sign, at most DBL_MIN. */
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c);
-/* incircle when the filter could not decide. */
+double mw__dot2d_exact(mw_point a, mw_point b, mw_point c);
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d);
+
+/* What products that underflow can add to the error: at most 2^-970, see each filter. */
+#define MW_UNDERFLOW_ERROR 0x1p-960
+
+/* Bound for det = left - right, where left and right are products of two differences.
+ * Three roundings each: the true values are off left and right by at most (3u + 3u^2 + u^3)(|left| + |right|), and
+ * |left| + |right| <= sum (1 + u), |left - right| >= |det| (1 - u): the sign is right when |det| > (3u + 9u^2 + ...) sum.
+ * Computing the bound rounds twice, which leaves (3u + 16u^2)(1 - u)^2 > 3u + 9u^2 + .... Underflow: 2 * 2^-1075. */
+#define MW_ORIENT2D_ERROR ((3.0 + 16.0 * 0x1p-53) * 0x1p-53)
+static MW_INLINE double mw__orient2d_bound(double left, double right)
+{
+    return MW_ORIENT2D_ERROR * (fabs(left) + fabs(right)) + MW_UNDERFLOW_ERROR;
+}
 
 /* Plain doubles: the determinant as rounded. */
 static MW_INLINE double mw__orient2d_double(mw_point a, mw_point b, mw_point c)
@@ -22,20 +51,52 @@ static MW_INLINE double mw__orient2d_double(mw_point a, mw_point b, mw_point c)
     return (a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x);
 }
 
-/* Sign-exact. The filter [Shewchuk 1997, sec. 4.1, stage A]: the rounded determinant of the rounded differences is off
- * by at most (3 + 16 eps) eps (|left| + |right|), eps = 2^-53; ABSOLUTE covers products that underflow. Infinite and
- * NaN values compare false and go to the exact stage. */
-#define MW_ORIENT2D_ERROR (3.0 + 16.0 * 0x1p-53) * 0x1p-53
-#define MW_ORIENT2D_ABSOLUTE 0x1p-960
+/* > 0: c lies to the left of a->b; < 0: to the right; 0: on the line. Sign-exact. */
 static MW_INLINE double mw__orient2d(mw_point a, mw_point b, mw_point c)
 {
     double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x), det = left - right;
-    double bound = MW_ORIENT2D_ERROR * (fabs(left) + fabs(right)) + MW_ORIENT2D_ABSOLUTE;
-    if (MW_LIKELY(fabs(det) > bound)) return det;
+    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
     return mw__orient2d_exact(a, b, c);
 }
 
-/* Sign-exact incircle; defined in incircle.c with its filter. */
-double mw__incircle(mw_point a, mw_point b, mw_point c, mw_point d);
+/* (b - a) . (c - a): > 0 where b and c lie less than 90 degrees apart, seen from a. Sign-exact; the same form as
+ * orient2d, with the second product negated, and so the same bound. */
+static MW_INLINE double mw__dot2d(mw_point a, mw_point b, mw_point c)
+{
+    double left = (b.x - a.x) * (c.x - a.x), right = (a.y - b.y) * (c.y - a.y), det = left - right;
+    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
+    return mw__dot2d_exact(a, b, c);
+}
+
+/* Bound for incircle in terms of permanent, the determinant with absolute values.
+ * A minor m of two products of differences is off by (4u + 4u^2 + ...) times its permanent P, as above with its own
+ * rounding; a lift by the factor (1 + u)^4; their product, rounded once more, by (9u + 32u^2 + ...) lift P, which is
+ * (9u + 50u^2 + ...) of its computed permanent. The first sum adds u and one more factor 1 + u: 10u + 59u^2; the sum of
+ * the permanents and the last rounding of det make it 10u + 79u^2 + .... (10u + 128u^2)(1 - u)^2 is more than that.
+ * Underflow: an error of 2^-1075 in a product is multiplied by a lift or a minor. Both are below `lifts`, the sum of the
+ * lifts, so with lifts < 2^100 that is at most 12 * 2^100 * 2^-1075 < 2^-971. */
+#define MW_INCIRCLE_ERROR ((10.0 + 128.0 * 0x1p-53) * 0x1p-53)
+#define MW_INCIRCLE_LIFTS 0x1p100
+
+/* For a, b, c counter-clockwise: > 0: d lies inside their circle; < 0: outside; 0: on it. Sign-exact. */
+static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_point d)
+{
+    double adx = a.x - d.x, ady = a.y - d.y, bdx = b.x - d.x, bdy = b.y - d.y, cdx = c.x - d.x, cdy = c.y - d.y;
+    double bc = bdx * cdy, cb = cdx * bdy, ca = cdx * ady, ac = adx * cdy, ab = adx * bdy, ba = bdx * ady;
+    double alift = adx * adx + ady * ady, blift = bdx * bdx + bdy * bdy, clift = cdx * cdx + cdy * cdy;
+    double det = alift * (bc - cb) + blift * (ca - ac) + clift * (ab - ba);
+    double permanent =
+        alift * (fabs(bc) + fabs(cb)) + blift * (fabs(ca) + fabs(ac)) + clift * (fabs(ab) + fabs(ba));
+    double bound = MW_INCIRCLE_ERROR * permanent + MW_UNDERFLOW_ERROR;
+    if (MW_LIKELY(fabs(det) > bound && alift + blift + clift < MW_INCIRCLE_LIFTS)) return det;
+    return mw__incircle_exact(a, b, c, d);
+}
+
+/* Compare the distance of q to the closed segment ab with its distance to the closed segment cd, exactly: -1 where ab is
+ * nearer, 0 where they are equal, 1 where cd is nearer. A segment may be a point (a equals b). Finite coordinates. */
+int mw__compare_distance(mw_point q, mw_point a, mw_point b, mw_point c, mw_point d);
+
+/* Compare the distance of q to the closed segment ab with the length |d|, exactly. d may be infinite, but not NaN. */
+int mw__compare_distance_to(mw_point q, mw_point a, mw_point b, double d);
 
 #endif

@@ -1,0 +1,173 @@
+#include "predicates/big.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+__extension__ typedef unsigned __int128 wide;
+
+/* |v| = mantissa * 2^exponent. v is finite. */
+static uint64_t mantissa(double v, int *exponent)
+{
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    uint64_t fraction = bits & (UINT64_MAX >> 12);
+    int field = (int)(bits >> 52 & 2047);
+    *exponent = field == 0 ? -1074 : field - 1075;
+    return field == 0 ? fraction : fraction | UINT64_C(1) << 52;
+}
+
+int mw__big_base(const double *v, int n)
+{
+    bool found = false;
+    int base = 0;
+    for (int i = 0; i < n; i++) {
+        int exponent;
+        uint64_t m = mantissa(v[i], &exponent);
+        if (m == 0) continue;
+        exponent += __builtin_ctzll(m);
+        if (!found || exponent < base) base = exponent;
+        found = true;
+    }
+    return base;
+}
+
+static void trim(mw_big *r)
+{
+    while (r->n > 0 && r->limb[r->n - 1] == 0) r->n--;
+    if (r->n == 0) r->sign = 0;
+}
+
+static void set(mw_big *r, double v, int base)
+{
+    int exponent;
+    uint64_t m = mantissa(v, &exponent);
+    int shift = exponent - base;
+    if (m == 0) {
+        r->sign = r->n = 0;
+        return;
+    }
+    if (shift < 0) { /* those bits of the mantissa are 0 */
+        m >>= -shift;
+        shift = 0;
+    }
+    int first = shift / 64;
+    wide shifted = (wide)m << shift % 64;
+    for (int i = 0; i < first; i++) r->limb[i] = 0;
+    r->limb[first] = (uint64_t)shifted;
+    r->limb[first + 1] = (uint64_t)(shifted >> 64);
+    r->n = first + 2;
+    r->sign = signbit(v) ? -1 : 1;
+    trim(r);
+}
+
+void mw__big_difference(mw_big *r, double a, double b, int base)
+{
+    mw_big subtrahend;
+    set(r, a, base);
+    set(&subtrahend, b, base);
+    mw__big_subtract(r, r, &subtrahend);
+}
+
+void mw__big_unit(mw_big *r)
+{
+    r->sign = r->n = 1;
+    r->limb[0] = 1;
+}
+
+static int compare_magnitude(const mw_big *a, const mw_big *b)
+{
+    if (a->n != b->n) return a->n < b->n ? -1 : 1;
+    for (int i = a->n - 1; i >= 0; i--) {
+        if (a->limb[i] != b->limb[i]) return a->limb[i] < b->limb[i] ? -1 : 1;
+    }
+    return 0;
+}
+
+/* |a| + |b|, a the longer one. */
+static void add_magnitude(mw_big *r, const mw_big *a, const mw_big *b)
+{
+    int n = a->n, shorter = b->n;
+    uint64_t carry = 0;
+    for (int i = 0; i < n; i++) {
+        wide sum = (wide)a->limb[i] + (i < shorter ? b->limb[i] : 0) + carry;
+        r->limb[i] = (uint64_t)sum;
+        carry = (uint64_t)(sum >> 64);
+    }
+    r->n = n;
+    if (carry) r->limb[r->n++] = carry;
+}
+
+/* |a| - |b|, a the larger one. */
+static void subtract_magnitude(mw_big *r, const mw_big *a, const mw_big *b)
+{
+    int n = a->n, shorter = b->n;
+    uint64_t borrow = 0;
+    for (int i = 0; i < n; i++) {
+        wide difference = (wide)a->limb[i] - (i < shorter ? b->limb[i] : 0) - borrow;
+        r->limb[i] = (uint64_t)difference;
+        borrow = (uint64_t)(difference >> 64) & 1;
+    }
+    r->n = n;
+}
+
+/* r = a + b, where b is taken with the given sign. */
+static void add_signed(mw_big *r, const mw_big *a, const mw_big *b, int b_sign)
+{
+    int order = compare_magnitude(a, b), sign = order < 0 ? b_sign : a->sign;
+    const mw_big *larger = order < 0 ? b : a, *smaller = order < 0 ? a : b;
+    if (a->sign * b_sign < 0)
+        subtract_magnitude(r, larger, smaller);
+    else
+        add_magnitude(r, larger, smaller);
+    r->sign = sign;
+    trim(r);
+}
+
+void mw__big_add(mw_big *r, const mw_big *a, const mw_big *b)
+{
+    add_signed(r, a, b, b->sign);
+}
+
+void mw__big_subtract(mw_big *r, const mw_big *a, const mw_big *b)
+{
+    add_signed(r, a, b, -b->sign);
+}
+
+void mw__big_multiply(mw_big *r, const mw_big *a, const mw_big *b)
+{
+    r->n = a->n + b->n;
+    r->sign = a->sign * b->sign;
+    memset(r->limb, 0, (size_t)r->n * sizeof r->limb[0]);
+    for (int i = 0; i < a->n; i++) {
+        uint64_t carry = 0;
+        for (int j = 0; j < b->n; j++) {
+            wide sum = (wide)a->limb[i] * b->limb[j] + r->limb[i + j] + carry;
+            r->limb[i + j] = (uint64_t)sum;
+            carry = (uint64_t)(sum >> 64);
+        }
+        r->limb[i + b->n] = carry;
+    }
+    trim(r);
+}
+
+void mw__big_cross(mw_big *r, const mw_big *a, const mw_big *b, const mw_big *c, const mw_big *d)
+{
+    mw_big left, right;
+    mw__big_multiply(&left, a, d);
+    mw__big_multiply(&right, b, c);
+    mw__big_subtract(r, &left, &right);
+}
+
+double mw__big_double(const mw_big *a, int exponent)
+{
+    if (a->sign == 0) return 0;
+    uint64_t top = a->limb[a->n - 1];
+    int zeros = __builtin_clzll(top);
+    if (zeros > 0) {
+        top <<= zeros;
+        if (a->n > 1) top |= a->limb[a->n - 2] >> (64 - zeros);
+    }
+    double magnitude = ldexp((double)top, 64 * (a->n - 1) - zeros + exponent);
+    return a->sign * fmin(fmax(magnitude, DBL_MIN), DBL_MAX);
+}

@@ -1,0 +1,73 @@
+/* incircle.c - the exact stage of incircle: the determinant of the rows x, y, x^2 + y^2 of a - d, b - d, c - d. */
+#include "predicates/big.h"
+#include "predicates/expansion.h"
+
+/* Expansions are exact for nonzero coordinates of magnitude 2^-216 to 2^253: products of four differences are multiples
+ * of 2^(4 * (-216 - 52)) = 2^-1072, and the twelve of them are at most 12 * 2^(4 * 254) < 2^1020. */
+#define LOW 0x1p-216
+#define HIGH 0x1p253
+
+/* A term, lift times minor, has 16 * 16 * 2 = 512 parts, and takes room for both and twice its own. */
+#define TERM_PARTS 512
+#define TERM_ROOM (2 * MW_CROSS_ROOM + 2 * TERM_PARTS)
+
+typedef struct row {
+    mw_expansion x, y, minus_y;
+} row;
+
+static mw_expansion expansion_term(mw_arena *arena, const row *p, const row *q, const row *r)
+{
+    mw_expansion lift = mw__expansion_cross(arena, p->x, p->minus_y, p->y, p->x);
+    mw_expansion minor = mw__expansion_cross(arena, q->x, q->y, r->x, r->y);
+    return mw__expansion_multiply(arena, lift, minor);
+}
+
+/* v: a, b, c, d, two coordinates each. */
+static double with_expansions(const double v[8])
+{
+    double room[18 + 3 * TERM_ROOM + 5 * TERM_PARTS];
+    mw_arena arena = {room};
+    row p[3];
+    mw_expansion term[3];
+    for (int i = 0; i < 3; i++) {
+        p[i].x = mw__expansion_difference(&arena, v[2 * i], v[6]);
+        p[i].y = mw__expansion_difference(&arena, v[2 * i + 1], v[7]);
+        p[i].minus_y = mw__expansion_difference(&arena, v[7], v[2 * i + 1]);
+    }
+    for (int i = 0; i < 3; i++) term[i] = expansion_term(&arena, &p[i], &p[(i + 1) % 3], &p[(i + 2) % 3]);
+    mw_expansion sum = mw__expansion_add(&arena, term[0], term[1]);
+    return mw__expansion_estimate(mw__expansion_add(&arena, sum, term[2]));
+}
+
+static double with_integers(const double v[8])
+{
+    mw_big x[3], y[3], square, lift, minor, term, sum = {0};
+    int base = mw__big_base(v, 8);
+    for (int i = 0; i < 3; i++) {
+        mw__big_difference(&x[i], v[2 * i], v[6], base);
+        mw__big_difference(&y[i], v[2 * i + 1], v[7], base);
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        mw__big_multiply(&lift, &x[i], &x[i]);
+        mw__big_multiply(&square, &y[i], &y[i]);
+        mw__big_add(&lift, &lift, &square);
+        mw__big_cross(&minor, &x[j], &y[j], &x[k], &y[k]);
+        mw__big_multiply(&term, &lift, &minor);
+        mw__big_add(&sum, &sum, &term);
+    }
+    return mw__big_double(&sum, 4 * base);
+}
+
+double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d)
+{
+    const double v[8] = {a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y};
+    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return with_expansions(v);
+    return mw__all_finite(v, 8) ? with_integers(v) : 0;
+}
+
+double mw_incircle(const double a[2], const double b[2], const double c[2], const double d[2])
+{
+    return mw__incircle((mw_point){a[0], a[1]}, (mw_point){b[0], b[1]}, (mw_point){c[0], c[1]},
+                        (mw_point){d[0], d[1]});
+}

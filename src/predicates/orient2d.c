@@ -1,0 +1,50 @@
+/* orient2d.c - the exact stage of the predicates that are two products of differences: orient2d and dot2d. */
+#include "predicates/big.h"
+#include "predicates/expansion.h"
+
+/* Expansions are exact for nonzero coordinates of magnitude 2^-485 to 2^509. Below: differences are multiples of the
+ * lowest bit, 2^(-485 - 52), and their products of 2^-1074, the lowest bit of a double. Above: differences are at most
+ * 2^510, the two products together 2^1021. */
+#define LOW 0x1p-485
+#define HIGH 0x1p509
+
+/* (v0 - v1)(v2 - v3) - (v4 - v5)(v6 - v7) */
+static double with_expansions(const double v[8])
+{
+    double room[8 + MW_CROSS_ROOM];
+    mw_arena arena = {room};
+    mw_expansion difference[4];
+    for (int i = 0; i < 4; i++) difference[i] = mw__expansion_difference(&arena, v[2 * i], v[2 * i + 1]);
+    return mw__expansion_estimate(
+        mw__expansion_cross(&arena, difference[0], difference[2], difference[3], difference[1]));
+}
+
+static double with_integers(const double v[8])
+{
+    mw_big difference[4], result;
+    int base = mw__big_base(v, 8);
+    for (int i = 0; i < 4; i++) mw__big_difference(&difference[i], v[2 * i], v[2 * i + 1], base);
+    mw__big_cross(&result, &difference[0], &difference[2], &difference[3], &difference[1]);
+    return mw__big_double(&result, 2 * base);
+}
+
+static double exact(const double v[8])
+{
+    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return with_expansions(v);
+    return mw__all_finite(v, 8) ? with_integers(v) : 0;
+}
+
+double mw__orient2d_exact(mw_point a, mw_point b, mw_point c)
+{
+    return exact((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x});
+}
+
+double mw__dot2d_exact(mw_point a, mw_point b, mw_point c)
+{
+    return exact((const double[8]){b.x, a.x, c.x, a.x, a.y, b.y, c.y, a.y});
+}
+
+double mw_orient2d(const double a[2], const double b[2], const double c[2])
+{
+    return mw__orient2d((mw_point){a[0], a[1]}, (mw_point){b[0], b[1]}, (mw_point){c[0], c[1]});
+}
