@@ -1,0 +1,9 @@
+/* commands.h - the sub-commands, one file each. */
+#ifndef CLI_COMMANDS_H
+#define CLI_COMMANDS_H
+
+#include "options.h"
+
+extern const command info_command, check_command, triangulate_command, locate_command, sample_command;
+
+#endif

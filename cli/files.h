@@ -1,0 +1,22 @@
+/* files.h - the files a command reads and writes. */
+#ifndef CLI_FILES_H
+#define CLI_FILES_H
+
+#include "text.h"
+
+#include <meshwalk/meshwalk.h>
+
+/* "-" and NULL: a standard stream. */
+bool files_is_stream(const char *path);
+
+/* Refuse an output that is one of the inputs, also through a link or as the other half of .node and .ele: complains and
+ * returns END_USAGE. Also refuses to read standard input twice. Returns 0 if all is well. */
+int files_check(const char *output, const char *const *inputs, int count);
+
+/* Read a mesh, complaining about what is wrong with it. Returns 0 or an exit code. */
+int files_read_mesh(const char *path, mw_mesh_file *file);
+
+/* Write a text as a whole; output NULL is standard output. The text is released. Returns 0 or an exit code. */
+int files_write_text(const char *output, text *t);
+
+#endif

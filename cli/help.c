@@ -1,0 +1,95 @@
+/* help.c - the text of --help, from the tables of options. */
+#include "options.h"
+
+#include <string.h>
+
+#define LINE_WIDTH 80
+#define HELP_COLUMN 24
+
+static void blanks(text *t, size_t count)
+{
+    while (count--) text_string(t, " ");
+}
+
+/* Words from `column` on; later lines are indented. A newline in the words begins a new line. */
+static void wrap_from(text *t, const char *words, size_t column, size_t indent)
+{
+    bool first = true;
+    while (*words) {
+        if (*words == '\n' || *words == ' ') {
+            if (*words == '\n') {
+                text_string(t, "\n");
+                column = 0;
+                first = true;
+            }
+            words++;
+            continue;
+        }
+        size_t length = strcspn(words, " \n");
+        if (!first && column + 1 + length > LINE_WIDTH) {
+            text_string(t, "\n");
+            column = 0;
+            first = true;
+        }
+        if (column < indent) {
+            blanks(t, indent - column);
+            column = indent;
+        } else if (!first) {
+            text_string(t, " ");
+            column++;
+        }
+        text_bytes(t, words, length);
+        column += length;
+        words += length;
+        first = false;
+    }
+    text_string(t, "\n");
+}
+
+void options_wrap(text *t, const char *words, size_t indent)
+{
+    wrap_from(t, words, 0, indent);
+}
+
+static void help_of_choices(text *t, const choices *c)
+{
+    for (int i = 0; i < c->count; i++) {
+        const char *name = c->name(i), *help = c->help ? c->help(i) : NULL;
+        if (!help) continue;
+        blanks(t, HELP_COLUMN + 2);
+        text_string(t, name);
+        size_t column = HELP_COLUMN + 2 + strlen(name);
+        size_t indent = HELP_COLUMN + 16;
+        blanks(t, column < indent ? indent - column : 1);
+        wrap_from(t, help, column < indent ? indent : column + 1, indent);
+    }
+}
+
+static void help_of_option(text *t, const option *o)
+{
+    size_t begin = t->size;
+    if (o->letter)
+        text_printf(t, "  -%c, --%s", o->letter, o->name);
+    else
+        text_printf(t, "      --%s", o->name);
+    if (o->argument) text_printf(t, " %s", o->argument);
+    size_t column = t->size - begin;
+    if (column + 2 > HELP_COLUMN) {
+        text_string(t, "\n");
+        column = 0;
+    }
+    blanks(t, HELP_COLUMN - column);
+    wrap_from(t, o->help, HELP_COLUMN, HELP_COLUMN);
+    if (o->kind == OPTION_CHOICE) help_of_choices(t, o->choices);
+}
+
+void options_help(text *t, const command *c)
+{
+    text_printf(t, "meshwalk %s - %s\n\nusage: meshwalk %s [options] %s\n\n", c->name, c->summary, c->name,
+                c->operands);
+    options_wrap(t, c->description, 0);
+    text_string(t, "\noptions:\n");
+    for (const option *const *table = c->options; *table; table++)
+        for (const option *o = *table; o->name; o++) help_of_option(t, o);
+    text_printf(t, "\nThe manual page meshwalk-%s(1) tells more.\n", c->name);
+}

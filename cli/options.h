@@ -1,0 +1,71 @@
+/* options.h - the options of a command: tables that parse, print the help, and are checked against the man pages.
+ *
+ * A command keeps what its options say in a structure of its own, its settings. Each option names a member of it. All
+ * zero is the default of every setting. */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include "text.h"
+
+typedef enum option_kind {
+    OPTION_FLAG,   /* bool: no argument                          */
+    OPTION_TEXT,   /* const char *                               */
+    OPTION_LENGTH, /* double: finite and not negative            */
+    OPTION_COUNT,  /* uint32_t                                   */
+    OPTION_SEED,   /* uint64_t                                   */
+    OPTION_CHOICE, /* int: the number of a name, see choices     */
+} option_kind;
+
+/* The names an OPTION_CHOICE accepts. */
+typedef struct choices {
+    const char *noun; /* "walk" */
+    int count;
+    const char *(*name)(int);
+    const char *(*help)(int); /* a line for --help; NULL: the names alone are listed */
+} choices;
+
+typedef struct option {
+    const char *name; /* "walk", given as --walk; NULL ends a table */
+    char letter;      /* 'o', given as -o; 0: none */
+    option_kind kind;
+    size_t offset;        /* of the setting */
+    const char *argument; /* as the help calls it: "NAME" */
+    const char *help;
+    const choices *choices;
+} option;
+
+#define MOST_OPERANDS 2
+
+/* A sub-command. */
+typedef struct command {
+    const char *name;
+    const char *operands;         /* as in the usage line: "MESH POINTS" */
+    int operand_count;            /* exactly so many */
+    const char *summary;          /* one line */
+    const char *description;      /* a paragraph or more */
+    const option *const *options; /* tables; NULL ends them */
+    size_t settings_size;
+    int (*run)(const void *settings, const char *const *operands); /* returns the exit code */
+} command;
+
+/* The settings every command begins with, and their options. */
+typedef struct common_settings {
+    const char *output; /* NULL or "-": standard output */
+    uint64_t seed;
+    uint32_t threads;
+    bool quiet, help;
+} common_settings;
+
+extern const option common_options[];
+
+/* Parse the arguments after the command's name. Returns 0, or an exit code after a complaint. With `help` set in the
+ * settings nothing else has been checked. */
+int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MOST_OPERANDS]);
+
+/* The text that `--help` prints. */
+void options_help(text *t, const command *c);
+
+/* Add words to a text, wrapped and indented. */
+void options_wrap(text *t, const char *words, size_t indent);
+
+#endif

@@ -1,0 +1,224 @@
+#include "query.h"
+#include "files.h"
+#include "message.h"
+#include "progress.h"
+#include "tally.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BLOCK ((size_t)1 << 18) /* points in memory at a time */
+#define CHUNK ((size_t)1 << 12) /* of a block: rows that one thread formats in one go */
+#define CHUNKS (BLOCK / CHUNK)
+
+static const char *walk_name(int i)
+{
+    return mw_walk_name((mw_walk_kind)i);
+}
+static const char *walk_help(int i)
+{
+    return mw_walk_help((mw_walk_kind)i);
+}
+static const char *start_name(int i)
+{
+    return mw_start_name((mw_start_kind)i);
+}
+static const char *start_help(int i)
+{
+    return mw_start_help((mw_start_kind)i);
+}
+static const char *arithmetic_name(int i)
+{
+    return i == MW_EXACT ? "exact" : "double";
+}
+
+static const choices walks = {"walk", MW_WALK_COUNT, walk_name, walk_help};
+static const choices starts = {"start", MW_START_COUNT, start_name, start_help};
+static const choices arithmetics = {"arithmetic", 2, arithmetic_name, NULL};
+
+const option query_options[] = {
+    {"walk", 0, OPTION_CHOICE, offsetof(query_settings, walk), "NAME",
+     "how to walk to the triangle (default: auto):", &walks},
+    {"start", 0, OPTION_CHOICE, offsetof(query_settings, start), "NAME",
+     "how to choose the first triangle (default: auto):", &starts},
+    {"arithmetic", 0, OPTION_CHOICE, offsetof(query_settings, arithmetic), "NAME",
+     "how walks decide their turns, exact or double (default: exact); the triangle found is exact in either case",
+     &arithmetics},
+    {"tolerance", 0, OPTION_LENGTH, offsetof(query_settings, tolerance), "D",
+     "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
+    {"columns", 0, OPTION_TEXT, offsetof(query_settings, columns), "LIST",
+     "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: 1,2)", NULL},
+    {"any", 0, OPTION_FLAG, offsetof(query_settings, any), NULL,
+     "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
+    {"strict", 0, OPTION_FLAG, offsetof(query_settings, strict), NULL, "exit with 1 if a point has no answer", NULL},
+    {"stats", 0, OPTION_FLAG, offsetof(query_settings, stats), NULL,
+     "print counts and times on standard error when done", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(query_settings, json), NULL, "with --stats: as JSON", NULL},
+    {0},
+};
+
+static void warn_if_void(const query *q, const char *path)
+{
+    const char *promise = mw_locator_void_promise(q->locator);
+    if (promise && !q->settings->common.quiet) complain("%s: warning: not an embedding: %s", path, promise);
+}
+
+int query_open(query *q, const query_settings *settings, const char *const *operands, bool border)
+{
+    mw_error error;
+    *q = (query){.settings = settings};
+    int end = files_check(settings->common.output, operands, 2);
+    if (end) return end;
+    const char *path = operands[0];
+    end = files_read_mesh(path, &q->file);
+    if (end) return end;
+    progress_phase("preparing", path);
+    mw_arrays arrays = mw_mesh_file_arrays(&q->file);
+    mw_mesh_options mesh_options = {.tolerant = settings->any};
+    if (mw_mesh_create(&arrays, &mesh_options, &q->mesh, &error) != MW_OK) {
+        end = fail_mesh(path, &error);
+    } else {
+        mw_locator_options options = {.any = settings->any, .border = border || settings->tolerance > 0};
+        if (mw_locator_create(q->mesh, &options, &q->locator, &error) == MW_OK) {
+            warn_if_void(q, path);
+            return 0;
+        }
+        end = fail_mesh(path, &error);
+    }
+    if (end == END_INPUT && !settings->any && q->file.triangle_count > 0)
+        complain("'meshwalk check %s' lists every defect; --any locates points all the same", path);
+    return end;
+}
+
+void query_release(query *q)
+{
+    mw_locator_destroy(q->locator);
+    mw_mesh_destroy(q->mesh);
+    mw_mesh_file_release(&q->file);
+}
+
+/* The stream of points, a block of it, and its rows. */
+typedef struct stream {
+    const query *query;
+    query_row *row;
+    const void *self;
+    mw_point_reader *reader;
+    mw_output *out;
+    double *values;
+    size_t width;
+    mw_location *locations;
+    text chunk[CHUNKS];
+    uint64_t unanswered[CHUNKS];
+    tally tally;
+} stream;
+
+static void format_chunk(stream *s, size_t k, size_t count)
+{
+    size_t begin = k * CHUNK, end = begin + CHUNK < count ? begin + CHUNK : count;
+    text_clear(&s->chunk[k]);
+    s->unanswered[k] = 0;
+    for (size_t i = begin; i < end; i++)
+        s->unanswered[k] += !s->row(s->query, s->self, s->values + i * s->width, &s->locations[i], &s->chunk[k]);
+}
+
+/* Rows are made by several threads, and written in order. */
+static int write_block(stream *s, size_t count)
+{
+    long chunks = (long)((count + CHUNK - 1) / CHUNK);
+#ifdef _OPENMP
+    int threads = (int)s->query->settings->common.threads;
+    if (threads <= 0) threads = tally_threads(0);
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#endif
+    for (long k = 0; k < chunks; k++) format_chunk(s, (size_t)k, count);
+    for (long k = 0; k < chunks; k++) {
+        if (s->chunk[k].failed) return fail_memory();
+        mw_output_write(s->out, s->chunk[k].bytes, s->chunk[k].size);
+        s->tally.unanswered += s->unanswered[k];
+    }
+    return 0;
+}
+
+static int locate_block(stream *s, size_t count)
+{
+    const query_settings *settings = s->query->settings;
+    mw_error error;
+    mw_counters counters = {0};
+    mw_query_options options = {
+        .walk = (mw_walk_kind)settings->walk,
+        .start = (mw_start_kind)settings->start,
+        .arithmetic = (mw_arithmetic)settings->arithmetic,
+        .seed = settings->common.seed + s->tally.blocks, /* other random numbers in each block */
+        .threads = settings->common.threads,
+        .tolerance = settings->tolerance,
+        .count = settings->stats,
+    };
+    double begin = tally_clock();
+    mw_status status =
+        mw_locate_batch(s->query->locator, s->values, count, s->width, &options, s->locations, &counters, &error);
+    if (status != MW_OK) {
+        complain("%s", error.message);
+        return status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
+    }
+    tally_block(&s->tally, s->locations, count, &counters, tally_clock() - begin);
+    return 0;
+}
+
+static int run_blocks(stream *s, const char *points)
+{
+    mw_error error;
+    progress_phase("locating", points);
+    while (!mw_output_failed(s->out)) {
+        size_t count;
+        if (mw_points_read(s->reader, s->values, BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
+        if (count == 0) return 0;
+        int end = locate_block(s, count);
+        if (end == 0) end = write_block(s, count);
+        if (end) return end;
+        progress_points(s->tally.counters.queries);
+    }
+    return 0; /* closing the output reports what failed */
+}
+
+/* Points and output are open. */
+static int run_stream(stream *s, const char *points, const char *header)
+{
+    mw_error error;
+    s->width = mw_points_width(s->reader);
+    s->values = malloc(BLOCK * s->width * sizeof *s->values);
+    s->locations = malloc(BLOCK * sizeof *s->locations);
+    int end = s->values && s->locations ? 0 : fail_memory();
+    if (end == 0) {
+        mw_output_write(s->out, header, strlen(header));
+        end = run_blocks(s, points);
+    }
+    progress_phase("writing", s->query->settings->common.output);
+    if (mw_output_close(s->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
+    for (size_t k = 0; k < CHUNKS; k++) text_release(&s->chunk[k]);
+    free(s->locations);
+    free(s->values);
+    return end;
+}
+
+int query_run(const query *q, const char *points, const char *header, query_row *row, const void *self)
+{
+    const query_settings *settings = q->settings;
+    mw_error error;
+    mw_points_options options = {.columns = settings->columns};
+    stream *s = calloc(1, sizeof *s);
+    if (!s) return fail_memory();
+    *s = (stream){.query = q, .row = row, .self = self};
+    tally_begin(&s->tally);
+    int end;
+    if (mw_points_open(points, &options, &s->reader, &error) != MW_OK)
+        end = fail_reading(&error);
+    else if (mw_output_open(settings->common.output ? settings->common.output : "-", &s->out, &error) != MW_OK)
+        end = fail_writing(&error);
+    else
+        end = run_stream(s, points, header);
+    mw_points_close(s->reader);
+    if (end == 0 && settings->stats) end = tally_print(&s->tally, q);
+    if (end == 0 && settings->strict && s->tally.unanswered) end = END_UNLOCATED;
+    free(s);
+    return end;
+}

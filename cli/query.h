@@ -1,0 +1,39 @@
+/* query.h - what `locate` and `sample` have in common: a mesh, a stream of points, a row of output for each. */
+#ifndef CLI_QUERY_H
+#define CLI_QUERY_H
+
+#include "options.h"
+
+#include <meshwalk/meshwalk.h>
+
+typedef struct query_settings {
+    common_settings common;
+    const char *columns;
+    double tolerance;
+    int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
+    bool any, strict, stats, json;
+} query_settings;
+
+extern const option query_options[];
+
+/* A mesh ready to be asked. */
+typedef struct query {
+    const query_settings *settings;
+    mw_mesh_file file;
+    mw_mesh *mesh;
+    mw_locator *locator;
+} query;
+
+/* Write the row of one point, with its newline; false: the point has no answer. `self` is the command's own. Called by
+ * several threads at a time. */
+typedef bool query_row(const query *q, const void *self, const double point[2], const mw_location *where, text *out);
+
+/* Read the mesh and prepare it; `border`: rows will ask for the nearest border. Returns 0 or an exit code after a
+ * complaint. Release it in either case. */
+int query_open(query *q, const query_settings *settings, const char *const *operands, bool border);
+void query_release(query *q);
+
+/* Write `header`, then the row of every point, in order, in blocks of a fixed size. Returns the exit code. */
+int query_run(const query *q, const char *points, const char *header, query_row *row, const void *self);
+
+#endif

@@ -1,0 +1,102 @@
+#include "tally.h"
+#include "message.h"
+#include "progress.h"
+#include "report.h"
+
+#include <stdio.h>
+#include <time.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+double tally_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int tally_threads(uint32_t wanted)
+{
+#ifdef _OPENMP
+    return wanted > 0 ? (int)wanted : omp_get_max_threads();
+#else
+    (void)wanted;
+    return 1;
+#endif
+}
+
+void tally_begin(tally *t)
+{
+    *t = (tally){.begin = tally_clock()};
+}
+
+void tally_block(tally *t, const mw_location *locations, size_t count, const mw_counters *counters, double seconds)
+{
+    mw_counters *sum = &t->counters;
+    for (size_t i = 0; i < count; i++) t->where[locations[i].where]++;
+    sum->queries += count;
+    sum->triangles_init += counters->triangles_init;
+    sum->triangles += counters->triangles;
+    sum->tests_init += counters->tests_init;
+    sum->tests += counters->tests;
+    sum->handovers += counters->handovers;
+    if (sum->triangles_max < counters->triangles_max) sum->triangles_max = counters->triangles_max;
+    t->locating += seconds;
+    t->blocks++;
+}
+
+static double per(uint64_t sum, uint64_t count)
+{
+    return count ? (double)sum / (double)count : 0;
+}
+
+/* Three digits after the point are plenty for times and means. */
+static double rounded(double value)
+{
+    return (double)(int64_t)(value * 1000 + 0.5) / 1000;
+}
+
+static void report_walks(report *r, const tally *t)
+{
+    const mw_counters *c = &t->counters;
+    report_number(r, "triangles_per_query", rounded(per(c->triangles_init + c->triangles, c->queries)));
+    report_count(r, "triangles_max", c->triangles_max);
+    report_number(r, "tests_per_query", rounded(per(c->tests_init + c->tests, c->queries)));
+    report_count(r, "handovers", c->handovers);
+}
+
+static void report_times(report *r, const tally *t)
+{
+    report_number(r, "seconds", rounded(tally_clock() - t->begin));
+    report_number(r, "locating_seconds", rounded(t->locating));
+    double rate = t->locating > 0 ? (double)t->counters.queries / t->locating : 0;
+    report_count(r, "queries_per_second", (uint64_t)rate);
+}
+
+int tally_print(const tally *t, const query *q)
+{
+    const query_settings *settings = q->settings;
+    mw_locator_info info;
+    report r;
+    mw_locator_describe(q->locator, &info);
+    report_begin(&r, settings->json);
+    report_count(&r, "points", t->counters.queries);
+    for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(&r, mw_where_name((mw_where)i), t->where[i]);
+    report_string(&r, "walk", mw_walk_name((mw_walk_kind)settings->walk));
+    report_string(&r, "start", mw_start_name((mw_start_kind)settings->start));
+    report_string(&r, "arithmetic", settings->arithmetic == MW_EXACT ? "exact" : "double");
+    report_count(&r, "seed", settings->common.seed);
+    report_count(&r, "threads", (uint64_t)tally_threads(settings->common.threads));
+    report_walks(&r, t);
+    report_count(&r, "mesh_bytes", mw_mesh_bytes(q->mesh));
+    report_count(&r, "locator_bytes", info.bytes);
+    report_count(&r, "ghost_triangles", info.ghost_triangles);
+    report_times(&r, t);
+    report_end(&r);
+    progress_end();
+    int end = r.text.failed ? fail_memory() : 0;
+    if (end == 0) fwrite(r.text.bytes, 1, r.text.size, stderr);
+    text_release(&r.text);
+    return end;
+}
