@@ -1,0 +1,45 @@
+# Tests of the project as a whole: the examples in the documentation, the layout of the code, what is installed.
+
+# Blocks of code in the documentation: C blocks become programs, the shell blocks of a page one test.
+file(GLOB pages CONFIGURE_DEPENDS README.md docs/*.md)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${pages} tools/doc_blocks.awk)
+set(blocks_dir ${PROJECT_BINARY_DIR}/documentation)
+file(REMOVE_RECURSE ${blocks_dir})
+file(MAKE_DIRECTORY ${blocks_dir})
+foreach(page IN LISTS pages)
+  get_filename_component(name ${page} NAME_WE)
+  execute_process(COMMAND awk -f ${PROJECT_SOURCE_DIR}/tools/doc_blocks.awk -v prefix=${blocks_dir}/${name} ${page}
+    OUTPUT_VARIABLE blocks OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" blocks "${blocks}")
+  set(shell_blocks ${blocks})
+  list(FILTER shell_blocks INCLUDE REGEX "\\.sh$")
+  list(FILTER blocks INCLUDE REGEX "\\.c$")
+  foreach(block IN LISTS blocks)
+    get_filename_component(program ${block} NAME_WE)
+    set(program docs_${program})
+    string(REGEX REPLACE "\\.c$" ".expected" expected ${block})
+    add_executable(${program} ${block})
+    target_link_libraries(${program} PRIVATE meshwalk_static mw_flags m)
+    set(command ${program})
+    if(EXISTS ${expected})
+      set(command ${PROJECT_SOURCE_DIR}/tools/expect ${expected} $<TARGET_FILE:${program}>)
+    endif()
+    add_test(NAME ${program} COMMAND ${command} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  endforeach()
+  if(shell_blocks AND TARGET meshwalk)
+    add_test(NAME docs_${name}_shell COMMAND ${PROJECT_SOURCE_DIR}/tools/run_blocks
+      ${blocks_dir}/scratch_${name} $<TARGET_FILE:meshwalk> ${shell_blocks})
+  endif()
+endforeach()
+
+find_program(CLANG_FORMAT clang-format)
+if(CLANG_FORMAT)
+  add_test(NAME format COMMAND ${PROJECT_SOURCE_DIR}/tools/check_format)
+endif()
+if(NOT MW_SANITIZE) # a sanitized library is not one that others link
+  add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols ${PROJECT_SOURCE_DIR}/include
+    $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
+  if(MW_BUILD_CLI)
+    add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+  endif()
+endif()
