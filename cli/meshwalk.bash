@@ -1,1 +1,60 @@
-# Bash completion for meshwalk.
+# Bash completion for meshwalk. Completes commands, options, names that options take, and files.
+
+# Options of a command; all commands share the last ones.
+_meshwalk_options() {
+    local query='--walk --start --arithmetic --tolerance --columns --any --strict --stats --json'
+    local common='-o --output --threads --seed -q --quiet -h --help'
+    case $1 in
+        info | check) echo "--json $common" ;;
+        triangulate) echo "--kind --format --columns --class --json $common" ;;
+        locate) echo "--details $query $common" ;;
+        sample) echo "--field --outside $query $common" ;;
+    esac
+}
+
+# Names that an option takes.
+_meshwalk_names() {
+    case $1 in
+        --walk) echo 'auto lawson remembering stochastic straight celestial' ;;
+        --start) echo 'auto random sample centre last sorted' ;;
+        --arithmetic) echo 'exact double' ;;
+        --outside) echo 'empty nearest linear' ;;
+        --kind) echo 'delaunay' ;;
+        --format) echo 'auto off ply node csv vtk obj stl' ;;
+        --class)
+            echo 'never-classified unclassified ground low-vegetation medium-vegetation high-vegetation building'
+            echo 'low-noise water rail road wire-guard conductor tower connector bridge-deck high-noise'
+            ;;
+    esac
+}
+
+_meshwalk() {
+    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} names
+    COMPREPLY=()
+    # --walk=la comes as the three words --walk, = and la.
+    if [[ $word == = ]]; then
+        word=
+    elif [[ $before == = && $COMP_CWORD -ge 2 ]]; then
+        before=${COMP_WORDS[COMP_CWORD - 2]}
+    fi
+    if ((COMP_CWORD == 1)); then
+        mapfile -t COMPREPLY < <(compgen -W 'info check triangulate locate sample --help --version' -- "$word")
+        return
+    fi
+    names=$(_meshwalk_names "$before")
+    if [[ -n $names ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
+        return
+    fi
+    case $before in
+        --threads | --seed | --tolerance | --columns | --field) return ;;
+    esac
+    if [[ $word == -* ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")
+        return
+    fi
+    compopt -o filenames 2>/dev/null
+    mapfile -t COMPREPLY < <(compgen -f -- "$word")
+}
+
+complete -F _meshwalk meshwalk
