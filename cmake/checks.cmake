@@ -36,6 +36,7 @@ find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)
   add_test(NAME format COMMAND ${PROJECT_SOURCE_DIR}/tools/check_format)
 endif()
+add_test(NAME arrows COMMAND ${PROJECT_SOURCE_DIR}/tools/check_arrows)
 if(NOT MW_SANITIZE) # a sanitized library is not one that others link
   add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols ${PROJECT_SOURCE_DIR}/include
     $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
