@@ -11,8 +11,8 @@
 #define MW_BIG_LIMBS 200
 
 typedef struct mw_big {
-    int sign; /* -1, 0, 1 */
-    int n;    /* limbs in use, the last one not 0; 0 for the number 0 */
+    int sign;                    /* -1, 0, 1 */
+    int n;                       /* limbs in use, the last one not 0; 0 for the number 0 */
     uint64_t limb[MW_BIG_LIMBS]; /* the lowest first */
 } mw_big;
 

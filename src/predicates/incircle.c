@@ -68,6 +68,5 @@ double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d)
 
 double mw_incircle(const double a[2], const double b[2], const double c[2], const double d[2])
 {
-    return mw__incircle((mw_point){a[0], a[1]}, (mw_point){b[0], b[1]}, (mw_point){c[0], c[1]},
-                        (mw_point){d[0], d[1]});
+    return mw__incircle((mw_point){a[0], a[1]}, (mw_point){b[0], b[1]}, (mw_point){c[0], c[1]}, (mw_point){d[0], d[1]});
 }

@@ -85,8 +85,7 @@ static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_poin
     double bc = bdx * cdy, cb = cdx * bdy, ca = cdx * ady, ac = adx * cdy, ab = adx * bdy, ba = bdx * ady;
     double alift = adx * adx + ady * ady, blift = bdx * bdx + bdy * bdy, clift = cdx * cdx + cdy * cdy;
     double det = alift * (bc - cb) + blift * (ca - ac) + clift * (ab - ba);
-    double permanent =
-        alift * (fabs(bc) + fabs(cb)) + blift * (fabs(ca) + fabs(ac)) + clift * (fabs(ab) + fabs(ba));
+    double permanent = alift * (fabs(bc) + fabs(cb)) + blift * (fabs(ca) + fabs(ac)) + clift * (fabs(ab) + fabs(ba));
     double bound = MW_INCIRCLE_ERROR * permanent + MW_UNDERFLOW_ERROR;
     if (MW_LIKELY(fabs(det) > bound && alift + blift + clift < MW_INCIRCLE_LIFTS)) return det;
     return mw__incircle_exact(a, b, c, d);
