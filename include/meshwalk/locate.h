@@ -134,8 +134,9 @@ typedef struct mw_cursor {
     double tolerance;    /* as in the options                           */
     uint32_t last;       /* triangle of the query before (internal number) */
     uint32_t sample;     /* resolved number of samples                  */
+    uint32_t fuel;       /* steps after which a walk hands over         */
     uint8_t walk, start, arithmetic, count; /* resolved options          */
-    uint32_t reserved[3];
+    uint32_t reserved[2];
 } mw_cursor;
 
 /* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a negative or NaN tolerance, or a tolerance

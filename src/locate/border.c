@@ -1,0 +1,275 @@
+/* border.c - the nearest border edge, decided exactly.
+ *
+ * Rounded distances with sound margins steer the search through the tree; edges that rounding cannot part are compared
+ * by exact predicates. Equal distances go to the lowest triangle, then edge. */
+#include "locate/border.h"
+
+#include "base/hilbert.h"
+#include "locate/locator.h"
+#include "mesh/order.h"
+
+#include <stdlib.h>
+
+/* --- building ---------------------------------------------------------------------------------------------------- */
+
+static bool covered(const mw_tiling *tiling, uint32_t link)
+{
+    return link != MW_NONE && !(tiling->tri[mw__link_triangle(link)].user & MW_GHOST);
+}
+
+/* The user's edge that edge k of a tile is, or, where the tile is a piece of a cut triangle, is a part of. */
+static uint32_t users_edge(const mw_mesh *mesh, const mw_tiling *tiling, const mw_triangle *tile, uint32_t k)
+{
+    if (!tiling->cut) return mw__user_edge(tile->user, k);
+    const mw_triangle *t = &mesh->tri[tile->user & MW_USER_MASK];
+    mw_point a = tiling->point[tile->v[k]], b = tiling->point[tile->v[k + 1]];
+    for (uint32_t e = 0; e < 2; e++) {
+        mw_point from = mesh->point[t->v[e]], to = mesh->point[t->v[e + 1]];
+        if (mw__orient2d(from, to, a) == 0 && mw__orient2d(from, to, b) == 0) return mw__user_edge(t->user, e);
+    }
+    return mw__user_edge(t->user, 2);
+}
+
+/* Call once to count, and once more to store. */
+static uint32_t collect(const mw_mesh *mesh, const mw_tiling *tiling, mw_border_edge *edge)
+{
+    uint32_t n = 0;
+    for (uint32_t t = 0; t < tiling->tri_count; t++) {
+        const mw_triangle *tile = &tiling->tri[t];
+        if (tile->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tile))) continue;
+        for (uint32_t k = 0; k < 3; k++) {
+            if (covered(tiling, tile->link[k])) continue;
+            if (edge)
+                edge[n] = (mw_border_edge){tiling->point[tile->v[k]], tiling->point[tile->v[k + 1]],
+                                           tile->user & MW_USER_MASK, users_edge(mesh, tiling, tile, k)};
+            n++;
+        }
+    }
+    return n;
+}
+
+static bool sort_edges(mw_border *border, const mw_tiling *tiling)
+{
+    uint32_t n = border->edge_count;
+    mw_key *key = mw__alloc(2 * (size_t)n, sizeof *key);
+    mw_border_edge *sorted = mw__alloc(n, sizeof *sorted);
+    if (key && sorted) {
+        double low[2], high[2];
+        mw__extent(tiling->point, tiling->tri, tiling->tri_count, low, high);
+        mw_hilbert hilbert = mw__hilbert(low, high);
+        for (uint32_t i = 0; i < n; i++) {
+            const mw_border_edge *e = &border->edge[i];
+            key[i] = (mw_key){mw__hilbert_key(&hilbert, e->a.x / 2 + e->b.x / 2, e->a.y / 2 + e->b.y / 2), i};
+        }
+        mw__sort_keys(key, key + n, n);
+        for (uint32_t i = 0; i < n; i++) sorted[i] = border->edge[key[i].item];
+        free(border->edge);
+        border->edge = sorted;
+    } else {
+        free(sorted);
+    }
+    free(key);
+    return key && sorted;
+}
+
+static mw_box edge_box(const mw_border_edge *e)
+{
+    return (mw_box){{fmin(e->a.x, e->b.x), fmin(e->a.y, e->b.y)}, {fmax(e->a.x, e->b.x), fmax(e->a.y, e->b.y)}};
+}
+
+static void join(mw_box *box, mw_box other)
+{
+    for (int k = 0; k < 2; k++) {
+        box->low[k] = fmin(box->low[k], other.low[k]);
+        box->high[k] = fmax(box->high[k], other.high[k]);
+    }
+}
+
+static void build_level(mw_border *border, uint32_t level)
+{
+    uint32_t below = level ? border->count[level - 1] : border->edge_count;
+    for (uint32_t i = 0; i < border->count[level]; i++) {
+        mw_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+        for (uint32_t j = i * MW_BORDER_FAN; j < below && j < (i + 1) * MW_BORDER_FAN; j++)
+            join(&box, level ? border->box[border->first[level - 1] + j] : edge_box(&border->edge[j]));
+        border->box[border->first[level] + i] = box;
+    }
+}
+
+bool mw__border_create(mw_border *border, const mw_mesh *mesh, const mw_tiling *tiling)
+{
+    *border = (mw_border){.edge_count = collect(mesh, tiling, NULL)};
+    uint32_t boxes = 0, below = border->edge_count;
+    do {
+        uint32_t here = (below + MW_BORDER_FAN - 1) / MW_BORDER_FAN;
+        border->first[border->level_count] = boxes;
+        border->count[border->level_count++] = here;
+        boxes += here;
+        below = here;
+    } while (below > 1);
+    border->edge = mw__alloc(border->edge_count, sizeof *border->edge);
+    border->box = mw__alloc(boxes, sizeof *border->box);
+    if (!border->edge || !border->box) return false;
+    collect(mesh, tiling, border->edge);
+    if (!sort_edges(border, tiling)) return false;
+    for (uint32_t level = 0; level < border->level_count; level++) build_level(border, level);
+    return true;
+}
+
+void mw__border_release(mw_border *border)
+{
+    free(border->edge);
+    free(border->box);
+    *border = (mw_border){0};
+}
+
+size_t mw__border_bytes(const mw_border *border)
+{
+    size_t boxes = 0;
+    for (uint32_t level = 0; level < border->level_count; level++) boxes += border->count[level];
+    return border->edge_count * sizeof *border->edge + boxes * sizeof *border->box;
+}
+
+/* --- searching --------------------------------------------------------------------------------------------------- */
+
+typedef struct search {
+    const mw_border *border;
+    mw_point q;
+    const mw_border_edge *best;
+    double most; /* the distance to `best` is at most this */
+} search;
+
+/* Where on the segment is the point nearest to q? Exact. */
+typedef enum part { AT_A, AT_B, BETWEEN } part;
+
+static part nearest_part(const mw_border_edge *e, mw_point q)
+{
+    if (mw__dot2d(e->a, q, e->b) <= 0) return AT_A;
+    return mw__dot2d(e->b, q, e->a) <= 0 ? AT_B : BETWEEN;
+}
+
+static double distance(const mw_border_edge *e, mw_point q)
+{
+    switch (nearest_part(e, q)) {
+    case AT_A: return hypot(q.x - e->a.x, q.y - e->a.y);
+    case AT_B: return hypot(q.x - e->b.x, q.y - e->b.y);
+    case BETWEEN: break;
+    }
+    /* Height of the triangle abq: its area is exact up to one rounding. Halves keep it in range. */
+    mw_point a = {e->a.x - q.x, e->a.y - q.y};
+    double length = hypot(e->b.x - e->a.x, e->b.y - e->a.y);
+    double height = fabs(mw__orient2d_exact(e->a, e->b, q)) / length;
+    double above = hypot(a.x, a.y); /* the height is no longer than this, whatever over- or underflowed */
+    return height < above ? height : above;
+}
+
+/* Rounded distances are off by a few roundings of numbers no larger than the distances to the ends. */
+static double margin(const mw_border_edge *e, mw_point q)
+{
+    return 0x1p-49 * (fabs(e->a.x - q.x) + fabs(e->a.y - q.y) + fabs(e->b.x - q.x) + fabs(e->b.y - q.y)) + 0x1p-1000;
+}
+
+static void consider(search *s, const mw_border_edge *e)
+{
+    double d = distance(e, s->q), off = margin(e, s->q);
+    if (d - off > s->most) return;
+    if (s->best) {
+        int order = mw__compare_distance(s->q, s->best->a, s->best->b, e->a, e->b);
+        bool lower = e->triangle != s->best->triangle ? e->triangle < s->best->triangle : e->edge < s->best->edge;
+        if (order < 0 || (order == 0 && !lower)) return;
+    }
+    s->best = e;
+    s->most = d + off;
+}
+
+/* A lower bound of the distance from q to anything in the box. */
+static double box_distance(const mw_box *box, mw_point q)
+{
+    double dx = fmax(fmax(box->low[0] - q.x, q.x - box->high[0]), 0);
+    double dy = fmax(fmax(box->low[1] - q.y, q.y - box->high[1]), 0);
+    return hypot(dx, dy) * (1 - 0x1p-49) - 0x1p-1000;
+}
+
+static void descend(search *s, uint32_t level, uint32_t index)
+{
+    const mw_border *border = s->border;
+    uint32_t below = level ? border->count[level - 1] : border->edge_count;
+    uint32_t first = index * MW_BORDER_FAN, n = below - first < MW_BORDER_FAN ? below - first : MW_BORDER_FAN;
+    if (level == 0) {
+        for (uint32_t i = 0; i < n; i++) consider(s, &border->edge[first + i]);
+        return;
+    }
+    uint32_t child[MW_BORDER_FAN];
+    double least[MW_BORDER_FAN];
+    for (uint32_t i = 0; i < n; i++) { /* nearest first */
+        double d = box_distance(&border->box[border->first[level - 1] + first + i], s->q);
+        uint32_t k = i;
+        for (; k > 0 && least[k - 1] > d; k--) {
+            least[k] = least[k - 1];
+            child[k] = child[k - 1];
+        }
+        least[k] = d;
+        child[k] = first + i;
+    }
+    for (uint32_t i = 0; i < n && !(least[i] > s->most); i++) descend(s, level - 1, child[i]);
+}
+
+static const mw_border_edge *nearest(const mw_border *border, mw_point q)
+{
+    search s = {.border = border, .q = q, .most = INFINITY};
+    if (border->edge_count) descend(&s, border->level_count - 1, 0);
+    return s.best;
+}
+
+/* How far along ab the point nearest to q lies: 0 at a, 1 at b. Rounded, but exact at the ends. */
+static double share(const mw_border_edge *e, mw_point q)
+{
+    part where = nearest_part(e, q);
+    if (where != BETWEEN) return where == AT_B;
+    double ux = e->b.x / 2 - e->a.x / 2, uy = e->b.y / 2 - e->a.y / 2, length = hypot(ux, uy);
+    double along = (q.x / 2 - e->a.x / 2) * (ux / length) + (q.y / 2 - e->a.y / 2) * (uy / length);
+    return fmin(fmax(along / length, 0), 1);
+}
+
+/* The point of the edge nearest to q. */
+static mw_point foot(const mw_border_edge *e, mw_point q)
+{
+    double s = share(e, q);
+    if (s == 1) return e->b;
+    return (mw_point){e->a.x + s * (e->b.x - e->a.x), e->a.y + s * (e->b.y - e->a.y)};
+}
+
+mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_border_hit *hit, mw_error *error)
+{
+    if (!locator || !hit || !isfinite(x) || !isfinite(y))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest border needs a locator and a finite point");
+    if (!locator->has_border) return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
+    mw_point q = {x, y};
+    const mw_border_edge *e = nearest(&locator->border, q);
+    if (!e) return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border"); /* only a mesh that is no embedding */
+    mw_point at = foot(e, q);
+    *hit = (mw_border_hit){e->triangle, e->edge, distance(e, q), {at.x, at.y}};
+    return MW_OK;
+}
+
+/* Weights of a point on edge `edge` of the user's triangle. */
+static void edge_weights(const mw_mesh *mesh, uint32_t triangle, uint32_t edge, mw_point at, double weight[3])
+{
+    uint32_t v[3];
+    mw_mesh_triangle(mesh, triangle, v);
+    mw_border_edge whole = {mesh->point[v[edge]], mesh->point[v[mw__next(edge)]], triangle, edge};
+    double s = share(&whole, at);
+    weight[edge] = 1 - s;
+    weight[mw__next(edge)] = s;
+    weight[mw__prev(edge)] = 0;
+}
+
+void mw__border_near(const mw_border *border, const mw_mesh *mesh, mw_point q, double tolerance, mw_location *location)
+{
+    const mw_border_edge *e = nearest(border, q);
+    if (!e || mw__compare_distance_to(q, e->a, e->b, tolerance) > 0) return;
+    location->where = MW_NEAR;
+    location->triangle = e->triangle;
+    location->local = (uint8_t)e->edge;
+    edge_weights(mesh, e->triangle, e->edge, foot(e, q), location->weight);
+}

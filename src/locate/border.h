@@ -1,0 +1,40 @@
+/* border.h - the nearest border edge: a tree of boxes over the edges between the mesh and what it does not cover.
+ * Private. */
+#ifndef MW_SRC_BORDER_H
+#define MW_SRC_BORDER_H
+
+#include "domain/tiling.h"
+
+#include <meshwalk/locate.h>
+
+typedef struct mw_border_edge {
+    mw_point a, b;
+    uint32_t triangle; /* of the user's */
+    uint32_t edge;     /* as the user numbers it */
+} mw_border_edge;
+
+typedef struct mw_box {
+    double low[2], high[2];
+} mw_box;
+
+/* Edges in Hilbert order; box 0 of level 0 holds the first MW_BORDER_FAN edges, and so on; box i of level k + 1 holds
+ * boxes MW_BORDER_FAN * i ... of level k. The top level has one box. */
+#define MW_BORDER_FAN 8u
+#define MW_BORDER_LEVELS 12
+typedef struct mw_border {
+    mw_border_edge *edge;
+    mw_box *box;
+    uint32_t edge_count, level_count;
+    uint32_t first[MW_BORDER_LEVELS]; /* of the boxes of a level */
+    uint32_t count[MW_BORDER_LEVELS];
+} mw_border;
+
+/* Returns false when out of memory. */
+bool mw__border_create(mw_border *border, const mw_mesh *mesh, const mw_tiling *tiling);
+void mw__border_release(mw_border *border);
+size_t mw__border_bytes(const mw_border *border);
+
+/* Turn a location outside into MW_NEAR if the border is within the tolerance of q. */
+void mw__border_near(const mw_border *border, const mw_mesh *mesh, mw_point q, double tolerance, mw_location *location);
+
+#endif

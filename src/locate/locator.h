@@ -1,0 +1,40 @@
+/* locator.h - what a locator holds, and the steps of a query that the single and the batch query share. Private. */
+#ifndef MW_SRC_LOCATOR_H
+#define MW_SRC_LOCATOR_H
+
+#include "domain/tiling.h"
+#include "locate/border.h"
+#include "walk/walk.h"
+
+#include <meshwalk/locate.h>
+
+struct mw_locator {
+    const mw_mesh *mesh;
+    mw_tiling tiling;
+    mw_border border;       /* edge_count 0 and box NULL without options.border                         */
+    double low[2], high[2]; /* extent of the tiling                                                    */
+    double near2;           /* a tile within this squared distance beats a sample, by expectation      */
+    uint32_t centre;        /* tile in the middle                                                       */
+    bool has_border;
+    char promise[640]; /* which promise is void; empty for an embedding                            */
+};
+
+/* Where the finished walk found its point: ends it exactly if it was not, and applies the rule of ties. Leaves in walk->t
+ * the tile where the point is (or the last one before the hull), and counts. */
+mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
+                         mw_counters *counters);
+
+/* The walk of one query: first tile by the cursor's start (MW_START_LAST and _SORTED: the cursor's last). */
+mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random);
+
+/* A location that names no triangle. */
+static MW_INLINE mw_location mw__nowhere(mw_where where)
+{
+    return (mw_location){
+        .weight = {NAN, NAN, NAN}, .triangle = MW_NONE, .hole = MW_NONE, .where = (uint8_t)where, .local = 255};
+}
+
+/* Location of q in triangle t of the user's, which contains it: where, local number, weights. */
+mw_location mw__place(const mw_mesh *mesh, uint32_t t, mw_point q);
+
+#endif

@@ -1,0 +1,62 @@
+/* place.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
+#include "locate/locator.h"
+
+/* Areas of the triangles that q makes with the sides of t, area[k] opposite to vertex k: exact in sign. */
+static void areas(const mw_mesh *mesh, const mw_triangle *t, mw_point q, double area[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
+        area[k] = mw__orient2d(mesh->point[t->v[mw__next(k)]], mesh->point[t->v[mw__prev(k)]], q);
+}
+
+/* The same up to a common factor, for triangles so small or so large that their areas leave the range of doubles: all
+ * distances from q are scaled to about 1 first. Signs stay those of the exact areas. */
+static void scaled_areas(const mw_mesh *mesh, const mw_triangle *t, mw_point q, double area[3])
+{
+    double x[3], y[3], size = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        x[k] = mesh->point[t->v[k]].x / 2 - q.x / 2;
+        y[k] = mesh->point[t->v[k]].y / 2 - q.y / 2;
+        size = fmax(size, fmax(fabs(x[k]), fabs(y[k])));
+    }
+    int exponent;
+    frexp(size, &exponent);
+    for (uint32_t k = 0; k < 3; k++) {
+        x[k] = ldexp(x[k], -exponent);
+        y[k] = ldexp(y[k], -exponent);
+    }
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t a = mw__next(k), b = mw__prev(k);
+        if (area[k] != 0) area[k] = fmax(x[a] * y[b] - y[a] * x[b], 0x1p-1000);
+    }
+}
+
+mw_location mw__place(const mw_mesh *mesh, uint32_t triangle, mw_point q)
+{
+    const mw_triangle *t = &mesh->tri[triangle];
+    double area[3];
+    areas(mesh, t, q, area);
+    double sum = area[0] + area[1] + area[2];
+    if (MW_UNLIKELY(!(sum > 0x1p-900 && sum < 0x1p900))) {
+        scaled_areas(mesh, t, q, area);
+        sum = area[0] + area[1] + area[2];
+    }
+    mw_location location = {.triangle = triangle, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
+    uint32_t zeros = 0, on = 0, at = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        location.weight[mw__user_vertex(t->user, k)] = area[k] / sum;
+        if (area[k] != 0) {
+            at = k;
+        } else {
+            zeros++;
+            on = mw__next(k); /* the edge opposite to vertex k */
+        }
+    }
+    if (zeros == 1) {
+        location.where = MW_ON_EDGE;
+        location.local = (uint8_t)mw__user_edge(t->user, on);
+    } else if (zeros == 2) {
+        location.where = MW_ON_VERTEX;
+        location.local = (uint8_t)mw__user_vertex(t->user, at);
+    }
+    return location;
+}

@@ -1,0 +1,33 @@
+/* start.h - ways to choose the first tile of a walk: one file each. Private. "Last" needs no file: it is a number in the
+ * cursor. */
+#ifndef MW_SRC_START_H
+#define MW_SRC_START_H
+
+#include "base/hilbert.h"
+#include "domain/tiling.h"
+
+/* Any tile with the same chance. */
+uint32_t mw__start_random(const mw_tiling *tiling, uint64_t *random);
+
+/* The nearest to q, by its vertex 0, of `count` random tiles, and of `rival` unless that is MW_NONE. */
+uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, uint32_t rival, uint64_t *random);
+
+/* Cube root of the number of tiles: what balances sampling and walking [Devroye, Muecke, Zhu 1998]. */
+uint32_t mw__sample_count(const mw_tiling *tiling);
+
+/* The tile that holds the middle of the extent low..high; found by walking, so it is looked for once. */
+uint32_t mw__start_centre(const mw_tiling *tiling, const double low[2], const double high[2]);
+
+/* The order of queries along a Hilbert curve over that part of their extent which lies within low..high, the extent of
+ * the mesh: order[i].item is the query that comes i-th. scratch: room for n keys. */
+void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2], const double high[2],
+                      mw_key *order, mw_key *scratch);
+
+/* Square of the rounded distance: a guide, never a decision. */
+static MW_INLINE double mw__distance2(mw_point a, mw_point b)
+{
+    double dx = a.x - b.x, dy = a.y - b.y;
+    return dx * dx + dy * dy;
+}
+
+#endif

@@ -1,0 +1,18 @@
+/* remembering.c - the remembering walk [Devillers, Pion, Teillaud 2002, sec. 3.2; thesis App. A, sec. 2].
+ *
+ * Lawson's walk that remembers the edge it came by: q cannot lie beyond it, so at most two tests a tile. In the first
+ * tile, where no edge was crossed, all three. Ends and cycles as Lawson's walk does. */
+#include "walk/drive.h"
+
+static MW_INLINE mw_verdict remembering_step(mw_walk *w, mw_policy P)
+{
+    if (w->e == MW_NO_EDGE) {
+        if (beyond(w, 0, P)) return cross(w, 0, P);
+        w->e = 0; /* as if entered there: the rest is the same */
+    }
+    uint32_t first = mw__next(w->e);
+    if (beyond(w, first, P)) return cross(w, first, P);
+    return leave(w, mw__prev(w->e), P);
+}
+
+MW_STAMP_WALK(remembering, false)

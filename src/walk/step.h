@@ -1,0 +1,59 @@
+/* step.h - the vocabulary of the planar walks: the only place where policy is looked at. Private. */
+#ifndef MW_SRC_STEP_H
+#define MW_SRC_STEP_H
+
+#include "walk/walk.h"
+
+/* How a kernel works. Always a literal where a kernel is stamped; the compiler deletes what is off. */
+typedef struct mw_policy {
+    bool exact, count, lanes;
+} mw_policy;
+
+static MW_INLINE double orient(mw_walk *w, mw_point a, mw_point b, mw_point c, mw_policy P)
+{
+    if (P.count) w->tests++;
+    return P.exact ? mw__orient2d(a, b, c) : mw__orient2d_double(a, b, c);
+}
+
+/* Sign of (b - a) . (c - a). */
+static MW_INLINE double dot(mw_walk *w, mw_point a, mw_point b, mw_point c, mw_policy P)
+{
+    if (P.count) w->tests++;
+    return P.exact ? mw__dot2d(a, b, c) : (b.x - a.x) * (c.x - a.x) + (b.y - a.y) * (c.y - a.y);
+}
+
+static MW_INLINE mw_point corner(const mw_walk *w, uint32_t k)
+{
+    return w->point[w->tri[w->t].v[k]];
+}
+
+/* The vertex of the current tile off edge e. */
+static MW_INLINE mw_point apex(const mw_walk *w, uint32_t e)
+{
+    return corner(w, mw__prev(e));
+}
+
+/* Does q lie strictly to the right of edge e, so that the edge parts it from the tile? */
+static MW_INLINE bool beyond(mw_walk *w, uint32_t e, mw_policy P)
+{
+    return orient(w, corner(w, e), corner(w, e + 1), w->q, P) < 0;
+}
+
+/* Go to the tile across edge e. Reads nothing of it: a step ends here. */
+static MW_INLINE mw_verdict cross(mw_walk *w, uint32_t e, mw_policy P)
+{
+    uint32_t link = w->tri[w->t].link[e];
+    if (MW_UNLIKELY(link == MW_NONE)) return MW_LEFT;
+    w->t = mw__link_triangle(link);
+    w->e = mw__link_edge(link);
+    if (P.count) w->visited++;
+    return MW_GO;
+}
+
+/* Leave through edge e if q lies beyond it; otherwise q is here. */
+static MW_INLINE mw_verdict leave(mw_walk *w, uint32_t e, mw_policy P)
+{
+    return beyond(w, e, P) ? cross(w, e, P) : MW_FOUND;
+}
+
+#endif

@@ -1,0 +1,65 @@
+/* straight.c - the straight walk [Devillers, Pion, Teillaud 2002, sec. 3.1; thesis App. A, Alg. 1 and App. E, Alg. 4].
+ *
+ *        l                 First turn round p, a vertex of the first tile, to the tile at p that the line from p to q
+ *       /|\                enters: one test a tile. Then follow the line: with l and r the left and right ends of the edge
+ *    p / | \ s   * q       just crossed and s the third vertex, the line leaves over rs where s lies to its left, over
+ *      \ | /               sl otherwise; and q lies beyond that edge, or here: two tests a tile.
+ *       \|/
+ *        r
+ * Departures from the printed pseudocode: slip 3 (the side of q is taken against the edge as the tile's boundary runs);
+ * vertices on the line count as left of it.
+ * Edge cases. q = p: every test is zero and the first tile is the answer. p on the hull: where the turn meets the hull
+ * before it finds the line, the line points out of the hull, because the hull's angle at p is at most pi, and the turn
+ * takes the short way round; so q is outside.
+ * Ends on every tiling: the turn passes each tile at p at most once. After it, the point where the line meets the exit
+ * edge never moves back; while it rests (at a vertex on the line), the tiles turn one way round that vertex. So no tile
+ * is entered twice. */
+#include "walk/drive.h"
+
+enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
+
+/* Is s strictly left (> 0) or right (< 0) of the line from p to q? */
+static MW_INLINE double side(mw_walk *w, mw_point s, mw_policy P)
+{
+    return orient(w, w->p, w->q, s, P);
+}
+
+/* The line leaves the tile through edge e, off p: the turn ends here. */
+static MW_INLINE mw_verdict follow(mw_walk *w, uint32_t e, mw_policy P)
+{
+    w->phase = FOLLOW;
+    if (P.count) {
+        w->visited_init = w->visited - 1;
+        w->tests_init = w->tests;
+    }
+    return leave(w, e, P);
+}
+
+/* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
+static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
+{
+    w->p = corner(w, 0);
+    if (side(w, corner(w, 1), P) > 0) {
+        w->phase = TURN_RIGHT;
+        return cross(w, 0, P);
+    }
+    if (side(w, corner(w, 2), P) < 0) {
+        w->phase = TURN_LEFT;
+        return cross(w, 2, P);
+    }
+    return follow(w, 1, P);
+}
+
+static MW_INLINE mw_verdict straight_step(mw_walk *w, mw_policy P)
+{
+    uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
+    if (MW_LIKELY(w->phase == FOLLOW)) /* entered over edge e = lr */
+        return leave(w, side(w, apex(w, w->e), P) >= 0 ? next : prev, P);
+    if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is off it */
+        return side(w, apex(w, w->e), P) > 0 ? cross(w, next, P) : follow(w, prev, P);
+    if (w->phase == TURN_LEFT) /* entered over edge e = pr, the new l is off it */
+        return side(w, apex(w, w->e), P) < 0 ? cross(w, prev, P) : follow(w, next, P);
+    return aim(w, P);
+}
+
+MW_STAMP_WALK(straight, true)

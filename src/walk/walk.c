@@ -1,0 +1,62 @@
+/* walk.c - the table of walks. */
+#include "walk/walk.h"
+
+#include <string.h>
+
+typedef struct mw_walk_entry {
+    const char *name, *source, *help;
+} mw_walk_entry;
+
+static const mw_walk_entry entries[MW_WALK_COUNT] = {
+    [MW_WALK_AUTO] = {"auto", "", "chosen by the mesh and the queries"},
+#define X(id, name, source, help) [MW_WALK_##id] = {name, source, help},
+#include <meshwalk/walks.def>
+#undef X
+};
+
+static const mw_kernels *const kernels[MW_WALK_COUNT] = {
+    [MW_WALK_LAWSON] = &mw__lawson,         [MW_WALK_REMEMBERING] = &mw__remembering,
+    [MW_WALK_STOCHASTIC] = &mw__stochastic, [MW_WALK_STRAIGHT] = &mw__straight,
+    [MW_WALK_CELESTIAL] = &mw__celestial,
+};
+
+static const mw_walk_entry *entry(mw_walk_kind walk)
+{
+    static const mw_walk_entry none = {NULL, NULL, NULL};
+    return (unsigned)walk < MW_WALK_COUNT ? &entries[walk] : &none;
+}
+
+const char *mw_walk_name(mw_walk_kind walk)
+{
+    return entry(walk)->name;
+}
+
+const char *mw_walk_source(mw_walk_kind walk)
+{
+    return entry(walk)->source;
+}
+
+const char *mw_walk_help(mw_walk_kind walk)
+{
+    return entry(walk)->help;
+}
+
+mw_walk_kind mw_walk_by_name(const char *name)
+{
+    mw_walk_kind walk = MW_WALK_AUTO;
+    while (walk < MW_WALK_COUNT && strcmp(name, entries[walk].name) != 0) walk++;
+    return walk;
+}
+
+const mw_kernels *mw__walk_kernels(mw_walk_kind kind)
+{
+    return kernels[kind];
+}
+
+uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling)
+{
+    double tiles = tiling->tri_count;
+    double steps =
+        kernels[kind]->ends && arithmetic == MW_EXACT && tiling->embedding ? tiles + 1 : 4096 + 45 * sqrt(tiles);
+    return steps < UINT32_MAX ? (uint32_t)steps : UINT32_MAX;
+}
