@@ -6,8 +6,9 @@
  *      \ | /               sl otherwise; and q lies beyond that edge, or here: two tests a tile.
  *       \|/
  *        r
- * Departures from the printed pseudocode: slip 3 (the side of q is taken against the edge as the tile's boundary runs);
- * vertices on the line count as left of it.
+ * Departures from the printed pseudocode: slip 3 (the side of q is taken against the edge as the tile's boundary runs). A
+ * vertex s on the line counts as neither side: where r is on the line too, the line runs along rs and leaves over sl at
+ * s; otherwise it leaves over rs at s; and if q lies beyond neither, it is here.
  * Edge cases. q = p: every test is zero and the first tile is the answer. p on the hull: where the turn meets the hull
  * before it finds the line, the line points out of the hull, because the hull's angle at p is at most pi, and the turn
  * takes the short way round; so q is outside.
@@ -18,7 +19,7 @@
 
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
 
-/* Is s strictly left (> 0) or right (< 0) of the line from p to q? */
+/* > 0: s lies to the left of the line from p to q; < 0: to the right. */
 static MW_INLINE double side(mw_walk *w, mw_point s, mw_policy P)
 {
     return orient(w, w->p, w->q, s, P);
@@ -53,8 +54,11 @@ static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
 static MW_INLINE mw_verdict straight_step(mw_walk *w, mw_policy P)
 {
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
-    if (MW_LIKELY(w->phase == FOLLOW)) /* entered over edge e = lr */
-        return leave(w, side(w, apex(w, w->e), P) >= 0 ? next : prev, P);
+    if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
+        double s = side(w, apex(w, w->e), P);
+        if (MW_UNLIKELY(s == 0) && beyond(w, next, P)) return cross(w, next, P);
+        return leave(w, s > 0 ? next : prev, P);
+    }
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is off it */
         return side(w, apex(w, w->e), P) > 0 ? cross(w, next, P) : follow(w, prev, P);
     if (w->phase == TURN_LEFT) /* entered over edge e = pr, the new l is off it */

@@ -1,0 +1,167 @@
+/* meshes.h - small meshes for tests, as the arrays a user would bring. */
+#ifndef MW_TEST_MESHES_H
+#define MW_TEST_MESHES_H
+
+#include <math.h>
+#include <meshwalk/meshwalk.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+
+typedef struct arrays {
+    double *points;
+    uint32_t *triangles;
+    uint32_t point_count, triangle_count;
+} arrays;
+
+static arrays arrays_make(uint32_t point_room, uint32_t triangle_room)
+{
+    return (arrays){calloc(point_room + 1, 2 * sizeof(double)), calloc(triangle_room + 1, 3 * sizeof(uint32_t)), 0, 0};
+}
+
+static void arrays_free(arrays *a)
+{
+    free(a->points);
+    free(a->triangles);
+}
+
+static uint32_t arrays_point(arrays *a, double x, double y)
+{
+    a->points[2 * a->point_count] = x;
+    a->points[2 * a->point_count + 1] = y;
+    return a->point_count++;
+}
+
+static void arrays_triangle(arrays *a, uint32_t u, uint32_t v, uint32_t w)
+{
+    uint32_t *t = a->triangles + 3 * (size_t)a->triangle_count++;
+    t[0] = u;
+    t[1] = v;
+    t[2] = w;
+}
+
+static mw_arrays arrays_view(const arrays *a)
+{
+    return (mw_arrays){.points = a->points,
+                       .point_count = a->point_count,
+                       .triangles = a->triangles,
+                       .triangle_count = a->triangle_count};
+}
+
+static double random_unit(uint64_t *random)
+{
+    return (double)(mw__random(random) >> 11) * 0x1p-53;
+}
+
+/* n x n cells cut along random diagonals. jitter 0: points on integers (many collinear and cocircular ones). */
+static arrays grid_mesh(uint32_t n, double jitter, uint64_t *random)
+{
+    arrays a = arrays_make((n + 1) * (n + 1), 2 * n * n);
+    for (uint32_t y = 0; y <= n; y++)
+        for (uint32_t x = 0; x <= n; x++) {
+            double dx = x > 0 && x < n ? jitter * (random_unit(random) - 0.5) : 0;
+            double dy = y > 0 && y < n ? jitter * (random_unit(random) - 0.5) : 0;
+            arrays_point(&a, x + dx, y + dy);
+        }
+    for (uint32_t y = 0; y < n; y++)
+        for (uint32_t x = 0; x < n; x++) {
+            uint32_t p = y * (n + 1) + x, q = p + 1, r = p + n + 2, s = p + n + 1;
+            if (mw__random(random) >> 63) {
+                arrays_triangle(&a, p, q, r);
+                arrays_triangle(&a, p, r, s);
+            } else {
+                arrays_triangle(&a, p, q, s);
+                arrays_triangle(&a, q, r, s);
+            }
+        }
+    return a;
+}
+
+/* A fan of n thin triangles round the origin, in a circle: a vertex of high degree. */
+static arrays fan_mesh(uint32_t n)
+{
+    arrays a = arrays_make(n + 1, n);
+    uint32_t hub = arrays_point(&a, 0, 0);
+    for (uint32_t i = 0; i < n; i++)
+        arrays_point(&a, cos(2 * 3.14159265358979 * i / n), sin(2 * 3.14159265358979 * i / n));
+    for (uint32_t i = 0; i < n; i++) arrays_triangle(&a, hub, 1 + i, 1 + (i + 1) % n);
+    return a;
+}
+
+/* The mesh on which a celestial walk cycles that does not begin at the first edge of the chain. */
+static arrays trap_mesh(void)
+{
+    static const double p[8][2] = {{.169678, .0175461}, {1, 0}, {.74616, .12756},  {.322629, .0519267},
+                                   {.391841, .269754},  {1, 1}, {.811393, .632747}};
+    static const uint32_t t[7][3] = {{0, 1, 2}, {3, 0, 2}, {3, 4, 0}, {5, 4, 3}, {6, 5, 3}, {6, 1, 5}, {2, 1, 6}};
+    arrays a = arrays_make(8, 8);
+    for (int i = 0; i < 7; i++) arrays_point(&a, p[i][0], p[i][1]);
+    for (int i = 0; i < 7; i++) arrays_triangle(&a, t[i][0], t[i][1], t[i][2]);
+    return a;
+}
+
+/* Number triangles at random, begin each at a random corner, turn every second one round if mixed. */
+static void scramble(arrays *a, int mixed, uint64_t *random)
+{
+    for (uint32_t i = 0; i < a->triangle_count; i++) {
+        uint32_t j = i + mw__random_below(random, a->triangle_count - i), k = mw__random_below(random, 3), t[3];
+        memcpy(t, a->triangles + 3 * (size_t)j, sizeof t);
+        memcpy(a->triangles + 3 * (size_t)j, a->triangles + 3 * (size_t)i, sizeof t);
+        int turn = mixed && mw__random(random) >> 63;
+        for (uint32_t l = 0; l < 3; l++) a->triangles[3 * (size_t)i + l] = t[(k + (turn ? 3 - l : l)) % 3];
+    }
+}
+
+static void transform(arrays *a, double scale, double dx, double dy)
+{
+    for (uint32_t i = 0; i < a->point_count; i++) {
+        a->points[2 * i] = a->points[2 * i] * scale + dx;
+        a->points[2 * i + 1] = a->points[2 * i + 1] * scale + dy;
+    }
+}
+
+/* Remove a share of the triangles: holes, pinched vertices, pieces. */
+static void punch(arrays *a, double share, uint64_t *random)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < a->triangle_count; i++)
+        if (random_unit(random) >= share || a->triangle_count - i + kept <= 1) {
+            memmove(a->triangles + 3 * (size_t)kept, a->triangles + 3 * (size_t)i, 3 * sizeof(uint32_t));
+            kept++;
+        }
+    a->triangle_count = kept;
+}
+
+/* Queries that find fault: n of each kind - anywhere, at vertices, on edges, a rounding away from both, outside, far. */
+static double *nasty_queries(const arrays *a, size_t n, size_t *count, uint64_t *random)
+{
+    enum { KINDS = 8 };
+    double *q = malloc(KINDS * n * 2 * sizeof(double)), low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < a->point_count; i++)
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], a->points[2 * i + (uint32_t)k]);
+            high[k] = fmax(high[k], a->points[2 * i + (uint32_t)k]);
+        }
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t *t = a->triangles + 3 * (size_t)mw__random_below(random, a->triangle_count);
+        uint32_t k = mw__random_below(random, 3);
+        const double *u = a->points + 2 * (size_t)t[k], *v = a->points + 2 * (size_t)t[(k + 1) % 3];
+        double s = random_unit(random), *out = q + 2 * KINDS * i;
+        for (int c = 0; c < 2; c++) {
+            double r = random_unit(random), away = mw__random(random) >> 63 ? INFINITY : -INFINITY;
+            out[c] = low[c] + r * (high[c] - low[c]);
+            out[2 + c] = u[c];
+            out[4 + c] = u[c] / 2 + v[c] / 2;
+            out[6 + c] = u[c] + s * (v[c] - u[c]);
+            out[8 + c] = nextafter(u[c], away);
+            out[10 + c] = nextafter(u[c] / 2 + v[c] / 2, away);
+            out[12 + c] = low[c] + (3 * r - 1) * (high[c] - low[c]);
+            out[14 + c] = u[c] + (r - 0.5) * 1e6 * (high[c] - low[c]);
+        }
+    }
+    *count = KINDS * n;
+    return q;
+}
+
+#endif

@@ -1,0 +1,280 @@
+/* test_locate.c - every walk from every start in both arithmetics against brute force in rationals. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "meshes.h"
+#include "oracle.h"
+
+#include <stdio.h>
+
+static mw_mesh *mesh_of(const arrays *a)
+{
+    mw_arrays view = arrays_view(a);
+    mw_mesh *mesh;
+    mw_error error;
+    if (mw_mesh_create(&view, NULL, &mesh, &error)) fail_msg("mesh: %s", error.message);
+    return mesh;
+}
+
+static mw_locator *locator_of(const mw_mesh *mesh, int layout, int border)
+{
+    mw_locator *locator;
+    mw_error error;
+    mw_locator_options options = {.layout = layout, .border = border};
+    if (mw_locator_create(mesh, &options, &locator, &error)) fail_msg("locator: %s", error.message);
+    return locator;
+}
+
+static void compare(const mw_location *got, const oracle_answer *want, const double q[2], const char *how)
+{
+    int where = got->where == MW_IN_HOLE ? MW_OUTSIDE : got->where;
+    if (got->triangle == want->triangle && where == want->where && got->local == want->local) return;
+    fail_msg("%s: (%.17g, %.17g): triangle %u where %d local %d, not %u %d %d", how, q[0], q[1], got->triangle,
+             got->where, got->local, want->triangle, want->where, want->local);
+}
+
+/* Weights are not negative, sum to 1, vanish where they must, and reproduce the point. */
+static void check_weights(const arrays *a, const mw_location *at, const double q[2])
+{
+    if (at->triangle == MW_NONE) {
+        assert_true(isnan(at->weight[0]));
+        return;
+    }
+    double sum = 0, x = 0, y = 0, size = 0;
+    int zeros = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *p = a->points + 2 * (size_t)a->triangles[3 * (size_t)at->triangle + (size_t)k];
+        assert_true(at->weight[k] >= 0 && at->weight[k] <= 1);
+        zeros += at->weight[k] == 0;
+        sum += at->weight[k];
+        x += at->weight[k] * p[0];
+        y += at->weight[k] * p[1];
+        size = fmax(size, fmax(fabs(p[0]), fabs(p[1])));
+    }
+    assert_true(fabs(sum - 1) < 1e-15);
+    double off = 1e-12 * size + 0x1p-1070; /* subnormal coordinates round coarsely */
+    assert_true(fabs(x - q[0]) <= off && fabs(y - q[1]) <= off);
+    if (at->where == MW_ON_EDGE) assert_true(zeros >= 1 && at->weight[(at->local + 2) % 3] == 0);
+    if (at->where == MW_ON_VERTEX) assert_true(zeros == 2 && at->weight[at->local] == 1);
+}
+
+static void try_singles(const arrays *a, const mw_locator *locator, const mw_query_options *options, const double *q,
+                        const oracle_answer *want, size_t n, const char *how)
+{
+    mw_cursor cursor;
+    assert_int_equal(mw_cursor_init(&cursor, locator, options, NULL), MW_OK);
+    for (size_t i = 0; i < n; i++) {
+        mw_location at = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
+        compare(&at, &want[i], q + 2 * i, how);
+        check_weights(a, &at, q + 2 * i);
+    }
+}
+
+static void try_batch(const mw_locator *locator, const mw_query_options *options, const double *q,
+                      const oracle_answer *want, size_t n, const char *how)
+{
+    mw_location *at = malloc(n * sizeof *at);
+    assert_int_equal(mw_locate_batch(locator, q, n, 2, options, at, NULL, NULL), MW_OK);
+    for (size_t i = 0; i < n; i++) compare(&at[i], &want[i], q + 2 * i, how);
+    free(at);
+}
+
+/* All walks x starts x arithmetics, single, and in batches of different lanes. */
+static void try_everything(const arrays *a, size_t queries, uint64_t *random)
+{
+    size_t n;
+    double *q = nasty_queries(a, queries, &n, random);
+    oracle_answer *want = malloc(n * sizeof *want);
+    for (size_t i = 0; i < n; i++) want[i] = oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
+    mw_mesh *mesh = mesh_of(a);
+    for (int layout = 1; layout <= 2; layout++) {
+        mw_locator *locator = locator_of(mesh, layout, 0);
+        for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
+            for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)
+                for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
+                    char how[80];
+                    snprintf(how, sizeof how, "%s from %s, arithmetic %d, layout %d", mw_walk_name((mw_walk_kind)walk),
+                             mw_start_name((mw_start_kind)start), arithmetic, layout);
+                    mw_query_options options = {.walk = (mw_walk_kind)walk,
+                                                .start = (mw_start_kind)start,
+                                                .arithmetic = (mw_arithmetic)arithmetic,
+                                                .seed = mw__random(random),
+                                                .count = walk % 2};
+                    try_singles(a, locator, &options, q, want, n, how);
+                    options.lanes = 1 + mw__random_below(random, 40);
+                    options.threads = 1 + mw__random_below(random, 3);
+                    try_batch(locator, &options, q, want, n, how);
+                }
+        mw_locator_destroy(locator);
+    }
+    mw_mesh_destroy(mesh);
+    free(want);
+    free(q);
+}
+
+static void test_grids(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    for (uint32_t n = 1; n <= 9; n += 2)
+        for (int kind = 0; kind < 4; kind++) {
+            arrays a = grid_mesh(n, kind % 2 ? 0.4 : 0, &random);
+            scramble(&a, kind >= 2, &random);
+            try_everything(&a, 12, &random);
+            arrays_free(&a);
+        }
+}
+
+static void test_offset_and_scale(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    const double to[][3] = {{1, 5e6, 5e6},  {1e-3, 5e6, -5e6}, {1e-9, 1, 1},
+                            {1e-300, 0, 0}, {1e300, 0, 0},     {0x1p-1060, 0, 0}};
+    for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
+        arrays a = grid_mesh(4, i < 3 ? 0.3 : 0, &random);
+        scramble(&a, 1, &random);
+        transform(&a, to[i][0], to[i][1], to[i][2]);
+        try_everything(&a, 6, &random);
+        arrays_free(&a);
+    }
+}
+
+static void test_slivers(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    for (int i = 0; i < 4; i++) {
+        arrays a = grid_mesh(6, 0.3, &random);
+        for (uint32_t v = 0; v < a.point_count; v++)
+            a.points[2 * v + 1] = a.points[2 * v + 1] * 0x1p-40 + 3 * a.points[2 * v];
+        scramble(&a, i % 2, &random);
+        mw_check check;
+        mw_arrays view = arrays_view(&a);
+        assert_int_equal(mw_check_arrays(&view, &check, NULL), MW_OK);
+        if (check.embedding) try_everything(&a, 8, &random); /* rounding may have folded it */
+        mw_check_release(&check);
+        arrays_free(&a);
+    }
+}
+
+static void test_fan(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    arrays a = fan_mesh(60);
+    scramble(&a, 1, &random);
+    try_everything(&a, 12, &random);
+    arrays_free(&a);
+}
+
+static void test_holes(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    for (int i = 0; i < 24; i++) {
+        arrays a = grid_mesh(2 + (uint32_t)i / 4, i % 2 ? 0.4 : 0, &random);
+        punch(&a, 0.1 + 0.1 * (i % 7), &random);
+        scramble(&a, i % 3 == 0, &random);
+        try_everything(&a, 6, &random);
+        arrays_free(&a);
+    }
+}
+
+static void test_celestial_trap(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    arrays a = trap_mesh();
+    mw_mesh *mesh = mesh_of(&a);
+    mw_locator *locator = locator_of(mesh, 2, 0);
+    mw_query_options options = {.walk = MW_WALK_CELESTIAL, .start = MW_START_LAST, .count = 1};
+    const double q[2] = {.551665, .106155};
+    for (uint32_t start = 0; start < a.triangle_count; start++) {
+        mw_cursor cursor;
+        assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+        cursor.last = start;
+        mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
+        oracle_answer want = oracle_locate(a.points, a.triangles, a.triangle_count, q);
+        compare(&at, &want, q, "celestial in its trap");
+        assert_int_equal(cursor.counters.handovers, 0);
+    }
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    try_everything(&a, 40, &random);
+    arrays_free(&a);
+}
+
+static void test_bad_points(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    arrays a = grid_mesh(3, 0, &random);
+    mw_mesh *mesh = mesh_of(&a);
+    mw_locator *locator = locator_of(mesh, 0, 0);
+    const double q[] = {NAN, 1, 1, INFINITY, -INFINITY, NAN, 1.5, 1.5, 1e308, -1e308, 5e-324, 5e-324, -5e-324, 1};
+    mw_location at[7];
+    for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
+        mw_query_options options = {.start = (mw_start_kind)start};
+        assert_int_equal(mw_locate_batch(locator, q, 7, 0, &options, at, NULL, NULL), MW_OK);
+        for (int i = 0; i < 7; i++) {
+            oracle_answer want = oracle_locate(a.points, a.triangles, a.triangle_count, q + 2 * i);
+            compare(&at[i], &want, q + 2 * i, "odd points");
+        }
+    }
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
+/* Counters do not depend on the number of threads, answers on nothing. */
+static void test_determinism(void **state)
+{
+    (void)state;
+    uint64_t random = 8;
+    arrays a = grid_mesh(150, 0.4, &random);
+    scramble(&a, 1, &random);
+    mw_mesh *mesh = mesh_of(&a);
+    mw_locator *locator = locator_of(mesh, 0, 0);
+    enum { N = 100000 };
+    double *q = malloc(2 * N * sizeof *q);
+    for (int i = 0; i < 2 * N; i++) q[i] = 160 * random_unit(&random) - 5;
+    mw_location *first = malloc(N * sizeof *first), *again = malloc(N * sizeof *again);
+    assert_int_equal(mw_locate_batch(locator, q, N, 2, NULL, first, NULL, NULL), MW_OK);
+    for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
+        mw_counters one = {0};
+        for (uint32_t threads = 1; threads <= 5; threads += 2) {
+            mw_query_options options = {.start = (mw_start_kind)start, .threads = threads, .count = 1, .seed = 5};
+            mw_counters counters;
+            assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, again, &counters, NULL), MW_OK);
+            for (int i = 0; i < N; i++)
+                if (!isnan(first[i].weight[0]) || !isnan(again[i].weight[0]))
+                    assert_memory_equal(&first[i], &again[i], sizeof *first);
+                else
+                    assert_int_equal(first[i].where, again[i].where);
+            if (threads == 1) one = counters;
+            assert_memory_equal(&one, &counters, sizeof one);
+            assert_int_equal(counters.queries, N);
+        }
+    }
+    free(q);
+    free(first);
+    free(again);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_grids),      cmocka_unit_test(test_offset_and_scale),
+        cmocka_unit_test(test_slivers),    cmocka_unit_test(test_fan),
+        cmocka_unit_test(test_holes),      cmocka_unit_test(test_celestial_trap),
+        cmocka_unit_test(test_bad_points), cmocka_unit_test(test_determinism),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
