@@ -1,0 +1,137 @@
+#!/usr/bin/env bash
+# locate: answers, in order, the same for every walk, start and number of threads; forms of input; statistics.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+header=x,y,status,triangle,w0,w1,w2
+printf '%s\n' "$square" >square.off
+printf '%s\n' "$ring" >ring.off
+printf '%s\n' "$overlap" >overlap.off
+
+points='0.75 0.25
+0.25 0.75
+0.5 0.5
+0 0
+1 1
+0 1
+0 0.5
+2 2
+nan 1
+-0.0 1
+1e300 -1e300
+'
+answers="$header
+0.75,0.25,inside,0,0.25,0.5,0.25
+0.25,0.75,inside,1,0.25,0.25,0.5
+0.5,0.5,edge,0,0.5,0,0.5
+0,0,vertex,0,1,0,0
+1,1,vertex,0,0,0,1
+0,1,vertex,1,0,0,1
+0,0.5,edge,1,0.5,0,0.5
+2,2,outside,-1,,,
+nan,1,bad,-1,,,
+-0,1,vertex,1,0,0,1
+1e300,-1e300,outside,-1,,,"
+run_on "$points" locate square.off -; exits 0; says_nothing
+holds "the answers are right: $(diff <(sed 's/e+300/e300/g' "$logs/out") <(echo "$answers"))" \
+    test "$(sed 's/e+300/e300/g' "$logs/out")" == "$answers"
+answers=$(<"$logs/out")
+
+# Whatever the walk, the start, the arithmetic, the threads and the seed.
+names() { # names OPTION: as the help lists them
+    "$meshwalk" locate --help | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p'
+}
+walks="auto $(names walk)" starts="auto $(names start)"
+holds "there are walks" test "$(wc -w <<<"$walks")" -ge 5
+for walk in $walks; do
+    for start in $starts; do
+        run_on "$points" locate --walk "$walk" --start "$start" square.off -; exits 0; prints "$answers"
+    done
+    run_on "$points" locate --walk "$walk" --arithmetic double --threads 3 --seed 7 square.off -
+    exits 0; prints "$answers"
+done
+run_on "$(cat square.off)" locate - <(printf '%s' "$points"); exits 0; prints "$answers"
+
+# Holes, tolerance, details.
+queries='1.5 1.5
+1.5 1.25
+0.5 0.5
+5 1.5
+'
+run_on "$queries" locate --details ring.off -; exits 0
+prints "$header,local,border_triangle,border_edge,distance,hole
+1.5,1.5,hole,-1,,,,,1,1,0.5,0
+1.5,1.25,hole,-1,,,,,1,1,0.25,0
+0.5,0.5,edge,1,0.5,0,0.5,2,,,,
+5,1.5,outside,-1,,,,,2,0,2,"
+run_on "$queries" locate --tolerance 0.25 ring.off -; exits 0
+prints "$header
+1.5,1.5,hole,-1,,,
+1.5,1.25,near,1,0,0.5,0.5
+0.5,0.5,edge,1,0.5,0,0.5
+5,1.5,outside,-1,,,"
+run_on "$queries" locate --tolerance 2 --details ring.off -; exits 0
+prints_line '^5,1.5,near,2,0.5,0.5,0,0,2,0,2,$'
+prints_line '^1.5,1.25,near,1,0,0.5,0.5,1,1,1,0.25,0$'
+
+# --strict: 1 where a point has no triangle; the output is complete all the same.
+run_on "$points" locate --strict square.off -; exits 1; prints "$answers"; says_nothing
+run_on $'0.5 0.5\n' locate --strict square.off -; exits 0
+run_on $'1.5 0.5\n' locate --strict --tolerance 0.5 square.off -; exits 0
+run_on $'1.5 0.5\n' locate --strict --tolerance 0.25 square.off -; exits 1
+
+# Points in other clothes: BOM, CRLF, header, separators, columns by name and number, a third column, blank lines.
+inside="$header
+0.75,0.25,inside,0,0.25,0.5,0.25
+0.25,0.75,inside,1,0.25,0.25,0.5"
+for input in $'0.75,0.25\n0.25,0.75' $'\xef\xbb\xbfx,y\r\n0.75,0.25\r\n0.25,0.75\r\n' $'0.75;0.25\n0.25;0.75\n' \
+    $'0.75\t0.25\n0.25\t0.75\n' $'  0.75   0.25 \n\n0.25 0.75\n' $'x y z\n0.75 0.25 9\n0.25 0.75 9\n' \
+    $'+7.5e-1 2.5E-1\n.25 .75\n'; do
+    run_on "$input" locate square.off -; exits 0; prints "$inside"
+done
+table=$'name,lat,lon\na,0.25,0.75\nb,0.75,0.25\n'
+run_on "$table" locate --columns lon,lat square.off -; exits 0; prints "$inside"
+run_on "$table" locate --columns 3,2 square.off -; exits 0; prints "$inside"
+run_on "$table" locate --columns lon,height square.off -; refused '[23]' 'height'
+gzip -c square.off >zipped.off.gz
+run_on $'0.75 0.25\n0.25 0.75\n' locate zipped.off.gz -; exits 0; prints "$inside"
+
+# Points that are none: the line is named, and no output is left.
+printf '0.5 0.5\n0,5 oops\n' >bad.xyz
+run locate square.off bad.xyz -o out.csv; refused 3 'bad\.xyz:2: '; absent out.csv
+printf '0.5;0,5\n0,25;0.5\n' >comma.csv
+run locate square.off comma.csv -o out.csv; refused 3 'comma\.csv:[12]: '; absent out.csv
+printf '1\n2\n' >one.csv
+run locate square.off one.csv -o out.csv; refused 3 'one\.csv'; absent out.csv
+: >empty.csv
+run locate square.off empty.csv; holds "an empty file of points is refused or has no answers" \
+    test "$code" == 3 -o "$(<"$logs/out")" == "$header"
+run locate square.off missing.xyz; refused 3 'missing\.xyz: .*No such file'
+run locate square.off .; refused 3 "^meshwalk: \.: .*[Dd]irectory"
+
+# A mesh that is no embedding.
+run_on $'0.2 0.2\n5 5\n' locate overlap.off -; refused 3 'overlap\.off'; says "'meshwalk check overlap.off'.*--any"
+run_on $'0.2 0.2\n5 5\n' locate --any overlap.off -; exits 0; says 'warning: not an embedding'
+prints_line '^0.2,0.2,inside,[01],'
+prints_line '^5,5,(outside|hole),-1,,,$'
+run_on $'0.2 0.2\n' locate --any --quiet overlap.off -; exits 0; says_nothing
+# Points in the place of a mesh.
+printf '0 0\n1 0\n0 1\n' >points.xyz
+run locate points.xyz points.xyz; refused 3 'points\.xyz'; says "'meshwalk triangulate points.xyz -o MESH'"
+
+# Statistics: on standard error, and sums that agree.
+run_on "$points" locate --stats square.off -; exits 0; prints "$answers"
+says '^points +11$'; says '^inside +2$'; says '^edge +2$'; says '^vertex +4$'; says '^outside +2$'; says '^bad +1$'
+says '^queries per second +[0-9]+$'; says '^seed +0$'
+run_on "$points" locate --stats --json --seed 5 --walk lawson square.off -; exits 0; prints "$answers"
+holds "the statistics are JSON" is_json "$logs/err"
+says '"seed": 5'; says '"walk": "lawson"'; says '"triangles_per_query": [1-9]'
+
+# More points than one block holds; the output does not depend on the threads, and its rows are in order.
+awk 'BEGIN { for (i = 0; i < 300000; i++) printf "%d.%d,%.3f\n", i % 3, i % 7, (i % 1001) / 400 }' >many.csv
+run locate --threads 1 ring.off many.csv -o one.csv; exits 0
+run locate --threads 2 ring.off many.csv -o two.csv; exits 0
+holds "one thread and two print the same" same_text one.csv two.csv
+holds "there is a row for each point" test "$(wc -l <two.csv)" == 300001
+paste -d, many.csv <(tail -n +2 two.csv) | awk -F, '$1 != $3 || $2 != $4 { exit 1 }'
+holds "the rows are in the order of the points" test "${PIPESTATUS[*]}" == "0 0"
+finish

@@ -1,0 +1,132 @@
+#!/usr/bin/env bash
+# Options: help, mistakes and their hints, strict numbers; help, manual pages and completion name the same options.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+
+commands=(info check triangulate locate sample)
+
+run; refused 2 "which command\?.*--help"
+run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
+run --help; exits 0; says_nothing
+for c in "${commands[@]}"; do prints_line "^  $c "; done
+for c in "${commands[@]}"; do
+    for option in --help -h; do
+        run "$c" "$option"; exits 0; says_nothing
+        prints_line "^usage: meshwalk $c "
+        holds "no line of the help is longer than 80 characters" test -z "$(grep -E '.{81}' "$logs/out")"
+    done
+done
+
+# Mistakes.
+run locat a b; refused 2 "unknown command 'locat'; did you mean 'locate'\?"
+run --versoin; refused 2 "did you mean '--version'\?"
+run zzzzzz; refused 2 "unknown command 'zzzzzz'$"
+run locate --tolerence 1 a b; refused 2 "unknown option '--tolerence'; did you mean '--tolerance'\?"
+run locate --arith double a b; refused 2 "did you mean '--arithmetic'\?"
+run locate --xyzzy a b; refused 2 "unknown option '--xyzzy'$"
+run locate -Z a b; refused 2 "unknown option '-Z'"
+run locate --walk lawsn a b; refused 2 "unknown walk 'lawsn'; did you mean 'lawson'\?"
+run locate --start centr a b; refused 2 "unknown start 'centr'; did you mean 'centre'\?"
+run locate --arithmetic fuzzy a b; refused 2 "unknown arithmetic 'fuzzy'"
+run locate --walk; refused 2 "'--walk' wants an argument: NAME"
+run locate --any=yes a b; refused 2 "'--any' takes no argument"
+run locate a; refused 2 "wants MESH POINTS, not 1 file;"
+run locate a b c; refused 2 "wants MESH POINTS, not 3 files"
+run locate '' b; refused 2 "empty name"
+run info a b; refused 2 "wants MESH, not 2 files"
+run locate - -; refused 2 "can be read once"
+run triangulate a; refused 2 "-o MESH is missing"
+run triangulate a -o -; refused 2 "wants --format"
+run triangulate a -o b.ply --kind greedy; refused 2 "not available"
+run triangulate a -o b.ply --kind gredy; refused 2 "did you mean 'greedy'\?"
+run triangulate a -o b.ply --class swamp; refused 2 "unknown class 'swamp'"
+run triangulate a -o b.ply --class 2,256; refused 2 "unknown class '256'"
+run triangulate a -o b.ply --class grond; refused 2 "did you mean 'ground'\?"
+run triangulate a -o b.ply --class 2,; refused 2 "unknown class ''"
+run triangulate a -o b.ply --format pyl; refused 2 "unknown format 'pyl'; did you mean 'ply'\?"
+run check --fix weld a; refused 2 "unknown option '--fix'"
+
+# Numbers are taken as a whole or not at all.
+for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5; do
+    run locate --tolerance "$value" a b; refused 2 "'--tolerance' wants a length"
+done
+for value in '' x 1.5 -1 +1 ' 1' 1e3 0x10 4294967296 99999999999999999999; do
+    run locate --threads "$value" a b; refused 2 "'--threads' wants"
+done
+run locate --threads 1025 a b; refused 2 "at most 1024"
+for value in '' x -1 1.0 18446744073709551616; do
+    run locate --seed "$value" a b; refused 2 "'--seed' wants"
+done
+only_files # none
+
+# Forms of one option; the last one counts; -- ends them.
+printf '%s\n' "$square" >m.off
+printf '0.5 0.25\n' >p.xyz
+run locate m.off p.xyz
+answer=$(<"$logs/out")
+for form in '--walk lawson' '--walk=lawson' '--walk straight --walk=lawson' '--seed 18446744073709551615' '-q' \
+    '--threads=2 -q' '--tolerance 0' '--tolerance=1e-3'; do
+    # shellcheck disable=SC2086 # words
+    run locate $form m.off p.xyz; exits 0; prints "$answer"; says_nothing
+    # shellcheck disable=SC2086
+    run locate m.off p.xyz $form; exits 0; prints "$answer"
+done
+run locate -qo a.csv m.off p.xyz; exits 0; prints ''
+run locate -ob.csv m.off p.xyz; exits 0; prints ''
+run locate m.off --output=c.csv -- p.xyz; exits 0; prints ''
+for f in a b c; do holds "$f.csv holds the answer" test "$(<$f.csv)" == "$answer"; done
+cp p.xyz ./--walk
+run locate m.off -- --walk; exits 0; prints "$answer"
+
+# The help, the manual page and the completion of a command name the same options and the same names.
+manual_options() {
+    sed -nE '/^\.It Fl/ { s/^\.It //; s/Fl Fl ([a-z-]+)/--\1/g; s/Fl ([a-z])/-\1/g; p }' "$1" |
+        grep -oE -- '(^|[ ,])--?[a-z-]+' | tr -d ' ,' | sort
+}
+help_options() { sed -nE '/^  (-[a-z],|   ) --[a-z]/p' "$logs/out" | grep -oE -- '^ +(-[a-z], )?--[a-z-]+' | tr -d ',' | xargs -n 1 | sort; }
+# shellcheck disable=SC1091
+. "$source_tree/cli/meshwalk.bash"
+complete_words() { # complete_words WORDS...: what the completion offers for the last word
+    COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
+    _meshwalk
+    printf '%s\n' "${COMPREPLY[@]}" | sort
+}
+for c in "${commands[@]}"; do
+    run "$c" --help
+    help_options >"$logs/help"
+    holds "the help of $c names options" grep -qx -- --quiet "$logs/help"
+    manual_options "$source_tree/docs/man/meshwalk-$c.1" >"$logs/manual"
+    holds "help and manual page of $c differ: $(diff "$logs/help" "$logs/manual")" same_text "$logs/help" "$logs/manual"
+    complete_words meshwalk "$c" - >"$logs/completion"
+    holds "help and completion of $c differ: $(diff "$logs/help" "$logs/completion")" \
+        same_text "$logs/help" "$logs/completion"
+done
+listed() { # listed OPTION: the names that the help lists below an option
+    sed -nE "/ --$1 NAME/,/^ {0,6}-/p" "$logs/out" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p' | sort
+}
+run locate --help
+for option in walk start; do
+    holds "help and completion of --$option differ" \
+        test "$(complete_words meshwalk locate --$option '' | grep -vx auto)" == "$(listed $option)"
+    holds "the help lists names of --$option" test -n "$(listed $option)"
+done
+run sample --help
+holds "help and completion of --outside differ" \
+    test "$(complete_words meshwalk sample --outside '')" == "$(listed outside)"
+for name in $(complete_words meshwalk triangulate --class ''); do
+    run triangulate absent --class "$name" -o b.ply; exits 3
+done
+for name in $(complete_words meshwalk triangulate --format ''); do
+    run triangulate absent --format "$name" -o b.ply; exits 3
+done
+holds "commands are completed" test "$(complete_words meshwalk lo)" == locate
+holds "--walk=st is completed" test "$(complete_words meshwalk locate --walk = st | tr '\n' ' ')" == "stochastic straight "
+
+# Manual pages: sound, and one for each command.
+for page in "$source_tree"/docs/man/*.1; do
+    if command -v mandoc >/dev/null; then
+        holds "$(basename "$page"): $(mandoc -T lint -W warning "$page")" mandoc -T lint -W warning "$page"
+    fi
+done
+for c in "${commands[@]}"; do holds "meshwalk.1 names $c" grep -q "^.It Cm $c\$" "$source_tree/docs/man/meshwalk.1"; done
+finish

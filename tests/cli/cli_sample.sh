@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# sample: heights and fields, and what points outside get.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+printf '%s\n' "$square" >square.off
+points=$'0.75 0.25\n1 1\n2 0.5\n-1 -1\nnan 0\n'
+
+run_on "$points" sample square.off -; exits 0; says_nothing
+prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,\n-1,-1,\nnan,0,'
+# The mesh lies in the plane z = x + y.
+run_on "$points" sample --outside nearest square.off -; exits 0
+prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,1.5\n-1,-1,0\nnan,0,'
+run_on "$points" sample --outside linear square.off -; exits 0
+prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,2.5\n-1,-1,-2\nnan,0,'
+run_on "$points" sample --outside empty --tolerance 1 square.off -; exits 0
+prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,1.5\n-1,-1,\nnan,0,'
+run_on "$points" sample --strict square.off -; exits 1
+run_on $'3 3\n' sample --strict --outside nearest square.off -; exits 0; prints $'x,y,z\n3,3,2'
+for threads in 1 2; do
+    run_on "$points" sample --threads $threads --walk straight --start random square.off -; exits 0
+    prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,\n-1,-1,\nnan,0,'
+done
+
+# Fields: attributes of a .node file, named in the header.
+printf '4 2 2 0\n0 0 0 10 5\n1 1 0 20 5\n2 1 1 30 5\n3 0 1 20 5\n' >flow.node
+printf '2 3 0\n0 0 1 2\n1 0 2 3\n' >flow.ele
+run info --json flow.node; exits 0
+mapfile -t fields < <(perl -MJSON::PP -e 'local $/; print "$_\n" for @{decode_json(<STDIN>)->{fields}}' <"$logs/out")
+holds "the mesh has heights or fields" test "${#fields[@]}" -ge 1
+for field in "${fields[@]}"; do
+    run_on $'0.5 0.5\n' sample --field "$field" flow.ele -; exits 0
+    prints_line "^x,y,$field\$"; prints_line '^0.5,0.5,(20|5)$'
+done
+run_on $'0.5 0.5\n' sample --field salt flow.node -; refused 3 "flow\.node: has no field 'salt'; --field may be one of:"
+
+# A mesh with nothing to sample.
+printf '3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n' >bare.node
+printf '1 3 0\n1 1 2 3\n' >bare.ele
+run_on $'0.1 0.1\n' sample bare.node - -o out.csv; refused 3 'bare\.node: has neither heights nor fields'; absent out.csv
+run_on $'0.1 0.1\n' locate bare -; exits 0; prints_line '^0.1,0.1,inside,0,'
+finish

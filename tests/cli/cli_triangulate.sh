@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# triangulate: formats, columns, duplicates, reports, and points that have no triangulation.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+points=$'0 0 0\n2 0 2\n2 2 4\n0 2 2\n1 1 2\n1 1 7\n'
+printf '%s' "$points" >p.xyz
+
+for format in off ply node vtk obj stl csv; do
+    run triangulate p.xyz -o "m.$format"; exits 0; says_nothing
+    prints_line '^points +6$'; prints_line '^duplicates +1$'; prints_line '^triangles +4$'
+    holds "m.$format is there" test -s "m.$format"
+done
+holds "node writes m.ele" test -s m.ele
+for mesh in m.off m.ply m.node m.obj m.stl; do
+    run info "$mesh"; exits 0
+    prints_line '^triangles +4$'; prints_line '^convex +yes$'; prints_line '^delaunay +yes$'; prints_line '^area +4$'
+    run check "$mesh"; exits 0; prints_line "^$mesh: an embedding"
+    run_on $'0.5 1\n1 1\n' sample "$mesh" -; exits 0
+    [[ $mesh == m.stl || $mesh == m.node ]] || prints $'x,y,z\n0.5,1,1.5\n1,1,2'
+done
+
+# Streams: the mesh to standard output, the report to standard error.
+run_on "$points" triangulate - -o - --format off; exits 0
+prints_line '^OFF'; says '^triangles +4$'
+cp "$logs/out" streamed.off
+holds "both ways give one mesh" same_text streamed.off m.off
+run triangulate p.xyz -o - --format ply -q; exits 0; says_nothing
+run triangulate p.xyz -q -o q.off; exits 0; says_nothing; prints ''
+run triangulate p.xyz --json -o q.off; exits 0; holds "the report is JSON" is_json "$logs/out"
+prints_line '"duplicates": 1'
+run triangulate p.xyz -o m.xyzzy; refused 2 'm\.xyzzy'; absent m.xyzzy
+run triangulate p.xyz --format off -o m.xyzzy; exits 0; holds "m.xyzzy is OFF" same_text m.xyzzy m.off
+
+# Columns and fields.
+printf 'id,height,north,east,salt\n1,5,0,0,9\n2,5,0,1,8\n3,6,1,0,7\n' >table.csv
+run triangulate table.csv --columns east,north,height,salt -o t.ply; exits 0
+run info t.ply; prints_line '^heights +yes$'; prints_line '^height range +5 6$'; prints_line '^fields +salt$'
+run_on $'0 0\n1 0\n' sample t.ply - --field salt; exits 0; prints $'x,y,salt\n0,0,9\n1,0,8'
+run triangulate table.csv --columns east,north,depth -o u.ply; refused '[23]' 'depth'; absent u.ply
+
+# No triangulation: a clear message, code 3, and no file.
+none() { # none NAME PATTERN TEXT
+    printf '%b' "$3" >"$1.xyz"
+    for format in ply node; do
+        run triangulate "$1.xyz" -o "$1.$format"; refused 3 "$1\.xyz.*$2"; absent "$1.$format"; absent "$1.ele"
+    done
+}
+none empty '' ''
+none single '' '1 2\n'
+none pair '' '0 0\n1 0\n'
+none equal '' '3 4\n3 4\n3 4\n3 4\n'
+none line '' '0 0\n1 1\n2 2\n3 3\n'
+none notfinite '' '0 0\n1 0\n0 nan\n1 1\n'
+none three ':2: ' '0 0\n1\n0 1\n'
+none word ':3: ' '0 0\n1 0\n0 one\n'
+# Negative zero is zero.
+printf -- '-0.0 0\n0 -0.0\n1 0\n0 1\n' >zero.xyz
+run triangulate zero.xyz -o zero.off; exits 0; prints_line '^duplicates +1$'; prints_line '^triangles +1$'
+
+# Existing output survives a failure.
+printf 'precious\n' >keep.ply
+run triangulate line.xyz -o keep.ply; exits 3; holds "the old file is untouched" test "$(<keep.ply)" == precious
+finish
