@@ -51,7 +51,7 @@ int main(void)
     uint32_t last = MW_NONE, entered = 0;
     for (int i = 0; i < 10000; i++) {
         double angle = 6.283185307179586 * i / 10000;
-        mw_location at = mw_locate(locator, &cursor, 50 + 40 * cos(angle), 50 + 40 * sin(angle));
+        mw_location at = mw_locate(locator, &cursor, 50.3 + 40 * cos(angle), 49.9 + 40 * sin(angle));
         if (at.triangle != last) entered++;
         last = at.triangle;
     }
