@@ -40,7 +40,7 @@ answers=$(<"$logs/out")
 names() { # names OPTION: as the help lists them
     "$meshwalk" locate --help | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p'
 }
-walks="auto $(names walk)" starts="auto $(names start)"
+walks=$(names walk) starts=$(names start)
 holds "there are walks" test "$(wc -w <<<"$walks")" -ge 5
 for walk in $walks; do
     for start in $starts; do

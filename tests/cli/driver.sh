@@ -75,6 +75,9 @@ refused() {
     ! grep -Evq '^meshwalk: ' "$logs/err" || fail "every message should begin with 'meshwalk: '"
 }
 
+# Words on a line, sorted.
+words() { tr ' ' '\n' <<<"$1" | sort | xargs; }
+
 # No file of this name; no file at all but those named.
 absent() {
     checks=$((checks + 1))
@@ -83,8 +86,8 @@ absent() {
 only_files() {
     checks=$((checks + 1))
     local found
-    found=$(find . -mindepth 1 -maxdepth 1 -printf '%f\n' | sort | tr '\n' ' ')
-    [[ $found == "$(printf '%s\n' "$@" | sort | tr '\n' ' ')" ]] || fail "there should be no files but $*: $found"
+    found=$(find . -mindepth 1 -maxdepth 1 -printf '%f ')
+    [[ $(words "$found") == "$(words "$*")" ]] || fail "there should be no files but $*: $found"
 }
 
 # holds DESCRIPTION COMMAND...: any other condition.
