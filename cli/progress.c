@@ -4,6 +4,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 #include <threads.h>
 #include <time.h>
 #include <unistd.h>
@@ -47,7 +48,7 @@ static void paint(void)
 {
     if (!watch.doing) return;
     fprintf(stderr, "\r\033[K%s", watch.doing);
-    if (watch.what) fprintf(stderr, " %s", watch.what);
+    if (watch.what) fprintf(stderr, " %s", strcmp(watch.what, "-") == 0 ? "standard input" : watch.what);
     if (watch.points) fprintf(stderr, ": %" PRIu64 " points", watch.points);
     fprintf(stderr, ", %.0f s", seconds_since(&watch.begin));
     fflush(stderr);

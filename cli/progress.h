@@ -8,7 +8,8 @@
 /* Shown only where standard error is a terminal, and only once the work has taken a second. */
 void progress_begin(bool quiet);
 
-/* What is being done now, and on what: "reading", "terrain.ply". Both must live until the next call. */
+/* What is being done now, and on what: "reading", "terrain.ply"; "-" is standard input, NULL nothing worth a name. Both
+ * must live until the next call. */
 void progress_phase(const char *doing, const char *what);
 
 /* How many points this phase has done. */

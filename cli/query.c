@@ -192,7 +192,7 @@ static int run_stream(stream *s, const char *points, const char *header)
         mw_output_write(s->out, header, strlen(header));
         end = run_blocks(s, points);
     }
-    progress_phase("writing", s->query->settings->common.output);
+    progress_phase("writing", NULL);
     if (mw_output_close(s->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
     for (size_t k = 0; k < CHUNKS; k++) text_release(&s->chunk[k]);
     free(s->locations);

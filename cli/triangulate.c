@@ -220,7 +220,7 @@ static int run(const void *settings, const char *const *operands)
     if (end == 0) end = triangulate(operands[0], &w);
     if (end == 0) {
         const char *format = s->format == FORMAT_BY_ENDING ? NULL : formats[s->format];
-        progress_phase("writing", s->common.output);
+        progress_phase("writing", NULL);
         if (mw_write_mesh(s->common.output, format, &w.file, &error) != MW_OK) end = fail_writing(&error);
     }
     if (end == 0) end = print_report(s, &w);

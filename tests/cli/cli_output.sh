@@ -118,6 +118,22 @@ umask 022
 run locate m.off p.xyz -o fresh.csv; exits 0
 holds "a fresh file has the mode that the umask says: $(stat -c %a fresh.csv)" test "$(stat -c %a fresh.csv)" == 644
 
-# Progress is not shown where standard error is no terminal.
-run locate m.off p.xyz; exits 0; says_nothing
+# Progress is shown on a terminal when the work takes longer than a second, and only then.
+on_terminal() { # on_terminal SECONDS ARGUMENTS...: what a terminal shows while the points take so long to come
+    local seconds=$1
+    shift
+    last="meshwalk $* on a terminal, with points that take $seconds s"
+    code=0
+    script -qec "sh -c '{ head -n 9 p.xyz; sleep $seconds; } | \"$meshwalk\" $* >/dev/null'" /dev/null </dev/null \
+        >"$logs/terminal" 2>&1
+}
+if command -v script >/dev/null; then
+    on_terminal 1.8 locate m.off -
+    holds "progress is shown" grep -q 'locating standard input, 1 s' "$logs/terminal"
+    on_terminal 1.8 locate --quiet m.off -
+    holds "--quiet shows none" test ! -s "$logs/terminal"
+    on_terminal 0.3 locate m.off -
+    holds "short work shows none" test ! -s "$logs/terminal"
+fi
+run_on "$(head -n 9 p.xyz; sleep 1.5)" locate m.off -; exits 0; says_nothing
 finish
