@@ -39,13 +39,26 @@ typedef struct chunk {
     mw_counters counters;
 } chunk;
 
+/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their way. */
+static MW_INLINE void fetch_ahead(const batch *b, uint32_t query, uint32_t end)
+{
+    enum { AHEAD = 8 };
+    if (query + AHEAD >= end) return;
+    uint32_t later = b->order[query + AHEAD].item;
+    __builtin_prefetch(&b->points[later * b->stride]);
+    __builtin_prefetch(&b->locations[later], 1);
+}
+
 /* Put the next query of a lane into *walk; queries that are no points are answered on the way. */
 static bool depart(chunk *c, uint32_t lane, mw_walk *walk)
 {
     const batch *b = c->batch;
     while (c->next[lane] < c->end[lane]) {
         uint32_t query = c->next[lane]++;
-        if (b->order) query = b->order[query].item;
+        if (b->order) {
+            fetch_ahead(b, query, c->end[lane]);
+            query = b->order[query].item;
+        }
         mw_point q = {b->points[query * b->stride], b->points[query * b->stride + 1]};
         if (MW_UNLIKELY(!isfinite(q.x) || !isfinite(q.y))) {
             b->locations[query] = mw__nowhere(MW_BAD);

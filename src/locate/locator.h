@@ -34,7 +34,19 @@ static MW_INLINE mw_location mw__nowhere(mw_where where)
         .weight = {NAN, NAN, NAN}, .triangle = MW_NONE, .hole = MW_NONE, .where = (uint8_t)where, .local = 255};
 }
 
-/* Location of q in triangle t of the user's, which contains it: where, local number, weights. */
-mw_location mw__place(const mw_mesh *mesh, uint32_t t, mw_point q);
+/* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to corner k: exact signs. */
+static MW_INLINE void mw__areas(const mw_point corner[3], mw_point q, double area[3])
+{
+    area[0] = mw__orient2d(corner[1], corner[2], q);
+    area[1] = mw__orient2d(corner[2], corner[0], q);
+    area[2] = mw__orient2d(corner[0], corner[1], q);
+}
+
+/* The location of q in a triangle that contains it: corners as stored, `user` its number and mark, area from mw__areas
+ * (overwritten). */
+mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, double area[3]);
+
+/* The same for a triangle of the user's mesh by its number. */
+mw_location mw__place_in(const mw_mesh *mesh, uint32_t triangle, mw_point q);
 
 #endif

@@ -1,21 +1,14 @@
 /* place.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
 #include "locate/locator.h"
 
-/* Areas of the triangles that q makes with the sides of t, area[k] opposite to vertex k: exact in sign. */
-static void areas(const mw_mesh *mesh, const mw_triangle *t, mw_point q, double area[3])
-{
-    for (uint32_t k = 0; k < 3; k++)
-        area[k] = mw__orient2d(mesh->point[t->v[mw__next(k)]], mesh->point[t->v[mw__prev(k)]], q);
-}
-
-/* The same up to a common factor, for triangles so small or so large that their areas leave the range of doubles: all
+/* Areas up to a common factor, for triangles so small or so large that their areas leave the range of doubles: all
  * distances from q are scaled to about 1 first. Signs stay those of the exact areas. */
-static void scaled_areas(const mw_mesh *mesh, const mw_triangle *t, mw_point q, double area[3])
+static void rescale(const mw_point corner[3], mw_point q, double area[3])
 {
     double x[3], y[3], size = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        x[k] = mesh->point[t->v[k]].x / 2 - q.x / 2;
-        y[k] = mesh->point[t->v[k]].y / 2 - q.y / 2;
+        x[k] = corner[k].x / 2 - q.x / 2;
+        y[k] = corner[k].y / 2 - q.y / 2;
         size = fmax(size, fmax(fabs(x[k]), fabs(y[k])));
     }
     int exponent;
@@ -30,20 +23,17 @@ static void scaled_areas(const mw_mesh *mesh, const mw_triangle *t, mw_point q, 
     }
 }
 
-mw_location mw__place(const mw_mesh *mesh, uint32_t triangle, mw_point q)
+mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, double area[3])
 {
-    const mw_triangle *t = &mesh->tri[triangle];
-    double area[3];
-    areas(mesh, t, q, area);
     double sum = area[0] + area[1] + area[2];
     if (MW_UNLIKELY(!(sum > 0x1p-900 && sum < 0x1p900))) {
-        scaled_areas(mesh, t, q, area);
+        rescale(corner, q, area);
         sum = area[0] + area[1] + area[2];
     }
-    mw_location location = {.triangle = triangle, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
+    mw_location location = {.triangle = user & MW_USER_MASK, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
     uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        location.weight[mw__user_vertex(t->user, k)] = area[k] / sum;
+        location.weight[mw__user_vertex(user, k)] = area[k] / sum;
         if (area[k] != 0) {
             at = k;
         } else {
@@ -53,10 +43,19 @@ mw_location mw__place(const mw_mesh *mesh, uint32_t triangle, mw_point q)
     }
     if (zeros == 1) {
         location.where = MW_ON_EDGE;
-        location.local = (uint8_t)mw__user_edge(t->user, on);
+        location.local = (uint8_t)mw__user_edge(user, on);
     } else if (zeros == 2) {
         location.where = MW_ON_VERTEX;
-        location.local = (uint8_t)mw__user_vertex(t->user, at);
+        location.local = (uint8_t)mw__user_vertex(user, at);
     }
     return location;
+}
+
+mw_location mw__place_in(const mw_mesh *mesh, uint32_t triangle, mw_point q)
+{
+    const mw_triangle *t = &mesh->tri[triangle];
+    mw_point corner[3] = {mesh->point[t->v[0]], mesh->point[t->v[1]], mesh->point[t->v[2]]};
+    double area[3];
+    mw__areas(corner, q, area);
+    return mw__place(corner, t->user, q, area);
 }

@@ -5,72 +5,93 @@
 
 /* --- the conclusion ---------------------------------------------------------------------------------------------- */
 
-/* The tile t contains q. Which side of its edges q is on is known from the walk, but not kept: three tests, which the
- * filter decides and whose points are in cache, say whether it is on one. Returns the user's triangle, or MW_NONE with
- * *ghost set to the ghost's mark where only ghosts contain q. */
-static uint32_t owner(const mw_tiling *tiling, uint32_t t, mw_point q, uint32_t *ghost)
+/* q is on the boundary of tile t, which contains it: the areas of two or one of its edges vanish. The lowest of the
+ * user's triangles that contain q, or MW_NONE where only ghosts do. */
+static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const double area[3])
 {
-    const mw_triangle *tile = &tiling->tri[t];
-    const mw_point *point = tiling->point;
-    uint32_t zeros = 0, on = 0, off = 0;
+    uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++)
-        if (mw__orient2d(point[tile->v[k]], point[tile->v[k + 1]], q) == 0) {
+        if (area[k] == 0) {
             zeros++;
-            on = k;
+            on = mw__next(k); /* the edge opposite to vertex k */
         } else {
-            off = k;
+            at = k;
         }
-    if (MW_UNLIKELY(zeros == 2)) return tiling->owner[tile->v[mw__prev(off)]]; /* off both edges at the apex */
-    *ghost = tile->user;
+    if (zeros == 2) return tiling->owner[tile->v[at]];
+    if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is no embedding */
     uint32_t best = tile->user & MW_GHOST ? MW_NONE : tile->user & MW_USER_MASK;
-    if (MW_UNLIKELY(zeros == 1) && tile->link[on] != MW_NONE) {
+    if (tile->link[on] != MW_NONE) {
         uint32_t other = tiling->tri[mw__link_triangle(tile->link[on])].user;
         if (!(other & MW_GHOST) && (other & MW_USER_MASK) < best) best = other & MW_USER_MASK;
     }
-    return zeros == 3 ? MW_NONE : best; /* 3: a flat triangle of a mesh that is no embedding */
+    return best;
 }
 
-/* q lies in no triangle: in a hole or outside; near, if a tolerance says so. */
-static mw_location outside(const mw_locator *locator, uint32_t ghost, mw_point q, double tolerance)
+/* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the tolerance says so. */
+static mw_location outside(const mw_locator *locator, uint32_t mark, mw_point q, double tolerance)
 {
     mw_location location = mw__nowhere(MW_OUTSIDE);
-    if ((ghost & MW_GHOST) && (ghost & MW_USER_MASK) != MW_POCKET) {
+    if ((mark & MW_GHOST) && (mark & MW_USER_MASK) != MW_POCKET) {
         location.where = MW_IN_HOLE;
-        location.hole = ghost & MW_USER_MASK;
+        location.hole = mark & MW_USER_MASK;
     }
     if (tolerance > 0) mw__border_near(&locator->border, locator->mesh, q, tolerance, &location);
     return location;
 }
 
+/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it; the three tests made
+ * here are also the weights. */
+static mw_location settle(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    const mw_triangle *tile = &tiling->tri[t];
+    mw_point corner[3] = {tiling->point[tile->v[0]], tiling->point[tile->v[1]], tiling->point[tile->v[2]]};
+    double area[3];
+    mw__areas(corner, q, area);
+    bool inside = area[0] != 0 && area[1] != 0 && area[2] != 0;
+    if (MW_LIKELY(inside && !(tile->user & MW_GHOST) && !tiling->cut)) return mw__place(corner, tile->user, q, area);
+    uint32_t triangle = !inside                 ? lowest(tiling, tile, area)
+                        : tile->user & MW_GHOST ? MW_NONE
+                                                : tile->user & MW_USER_MASK;
+    return triangle == MW_NONE ? outside(locator, tile->user, q, tolerance) : mw__place_in(locator->mesh, triangle, q);
+}
+
+static void count(mw_counters *counters, const mw_walk *walk, bool handover)
+{
+    counters->queries++;
+    counters->triangles_init += walk->visited_init;
+    counters->triangles += walk->visited - walk->visited_init;
+    if (walk->visited > counters->triangles_max) counters->triangles_max = walk->visited;
+    counters->tests_init += walk->tests_init;
+    counters->tests += walk->tests - walk->tests_init;
+    counters->handovers += handover;
+}
+
+/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was right costs no step
+ * more, and does not count as handed over. */
+static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, bool counted, bool *moved)
+{
+    uint32_t fuel = mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling);
+    mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, fuel, 0);
+    mw_verdict verdict = mw__celestial.run[true][counted](&end);
+    *moved = end.t != walk->t;
+    if (*moved) {
+        walk->visited += end.visited - 1;
+        walk->tests += end.tests;
+        walk->t = end.t;
+    }
+    return verdict;
+}
+
 mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
                          mw_counters *counters)
 {
-    const mw_tiling *tiling = &locator->tiling;
-    mw_walk end = *walk;
-    bool handover = verdict == MW_DRY;
-    if (cursor->arithmetic != MW_EXACT || verdict == MW_DRY) {
-        end = mw__walk_begin(tiling, walk->q, walk->t, mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling), 0);
-        verdict = mw__celestial.run[true][cursor->count](&end);
-        if (end.t != walk->t) { /* a walk in doubles that was right costs no step more */
-            handover = true;
-            walk->visited += end.visited - 1;
-            walk->tests += end.tests;
-        }
-        walk->t = end.t;
-    }
-    if (cursor->count) {
-        counters->queries++;
-        counters->triangles_init += walk->visited_init;
-        counters->triangles += walk->visited - walk->visited_init;
-        if (walk->visited > counters->triangles_max) counters->triangles_max = walk->visited;
-        counters->tests_init += walk->tests_init;
-        counters->tests += walk->tests - walk->tests_init;
-        counters->handovers += handover;
-    }
-    uint32_t ghost = 0;
-    uint32_t triangle = verdict == MW_FOUND ? owner(tiling, walk->t, walk->q, &ghost) : MW_NONE;
-    if (triangle == MW_NONE) return outside(locator, ghost, walk->q, cursor->tolerance);
-    return mw__place(locator->mesh, triangle, walk->q);
+    bool dry = verdict == MW_DRY, moved = false;
+    if (MW_UNLIKELY(dry || cursor->arithmetic != MW_EXACT))
+        verdict = hand_over(&locator->tiling, walk, cursor->count, &moved);
+    if (cursor->count) count(counters, walk, dry || moved);
+    if (MW_UNLIKELY(verdict != MW_FOUND)) return outside(locator, 0, walk->q, cursor->tolerance);
+    return settle(locator, walk->t, walk->q, cursor->tolerance);
 }
 
 /* --- the departure ----------------------------------------------------------------------------------------------- */
