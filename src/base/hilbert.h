@@ -4,9 +4,11 @@
 
 #include "base/base.h"
 
-/* Maps coordinates of an extent to the 2^16 x 2^16 cells of a curve. */
+/* Maps coordinates of an extent to the 2^16 x 2^16 cells of a curve. `leap` follows the curve four levels at a time:
+ * leap[state][16 * x + y] = 256 * next state + rank, for four bits of x and of y. */
 typedef struct mw_hilbert {
     double x0, y0, scale;
+    uint16_t leap[4][256];
 } mw_hilbert;
 
 /* Extent low..high; a flat or empty extent is allowed. */

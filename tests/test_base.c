@@ -1,0 +1,117 @@
+/* test_base.c - the Hilbert curve and its sort; random numbers; checked allocation. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "base/base.h"
+#include "base/hilbert.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <meshwalk/version.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Cells that follow one another on the curve are neighbours, and each cell comes once. */
+static void test_curve(void **state)
+{
+    (void)state;
+    enum { SIDE = 256, SHIFT = 16 }; /* 256 x 256 cells: keys that are multiples of 2^16 */
+    static uint32_t at[SIDE * SIDE];
+    const double low[2] = {0, 0}, high[2] = {SIDE, SIDE};
+    mw_hilbert hilbert = mw__hilbert(low, high);
+    memset(at, 0xff, sizeof at);
+    for (uint32_t x = 0; x < SIDE; x++)
+        for (uint32_t y = 0; y < SIDE; y++) {
+            uint32_t rank = mw__hilbert_key(&hilbert, x + 0.5, y + 0.5) >> SHIFT;
+            assert_int_equal(at[rank], UINT32_MAX);
+            at[rank] = x << 8 | y;
+        }
+    for (uint32_t i = 1; i < SIDE * SIDE; i++) {
+        int dx = (int)(at[i] >> 8) - (int)(at[i - 1] >> 8), dy = (int)(at[i] & 255) - (int)(at[i - 1] & 255);
+        assert_int_equal(abs(dx) + abs(dy), 1);
+    }
+}
+
+/* Points on the rim, beyond it, not finite, and extents without width or of the whole range. */
+static void test_odd_extents(void **state)
+{
+    (void)state;
+    const double extents[][4] = {{0, 0, 0, 0},
+                                 {1, 1, 1, 5},
+                                 {-1.7e308, -1.7e308, 1.7e308, 1.7e308},
+                                 {0, 0, 5e-324, 5e-324},
+                                 {INFINITY, INFINITY, -INFINITY, -INFINITY}};
+    const double values[] = {0, 1, -1, 1e308, -1e308, INFINITY, -INFINITY, NAN, 5e-324};
+    for (size_t e = 0; e < sizeof extents / sizeof *extents; e++) {
+        mw_hilbert hilbert = mw__hilbert(extents[e], extents[e] + 2);
+        for (size_t i = 0; i < 9; i++)
+            for (size_t j = 0; j < 9; j++) (void)mw__hilbert_key(&hilbert, values[i], values[j]); /* UBSan looks on */
+    }
+    const double low[2] = {0, 0}, high[2] = {1, 1};
+    mw_hilbert hilbert = mw__hilbert(low, high);
+    assert_int_equal(mw__hilbert_key(&hilbert, 0, 0), 0);
+    assert_int_equal(mw__hilbert_key(&hilbert, 2, -1), UINT32_MAX);
+}
+
+static void test_sort(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    for (uint32_t n = 0; n < 5000; n = n * 3 + 1) {
+        mw_key *key = malloc((2 * (size_t)n + 1) * sizeof *key);
+        for (uint32_t i = 0; i < n; i++) key[i] = (mw_key){(uint32_t)mw__random(&random) >> (n % 2 ? 0 : 24), i};
+        mw__sort_keys(key, key + n, n);
+        for (uint32_t i = 1; i < n; i++)
+            assert_true(key[i - 1].key < key[i].key || (key[i - 1].key == key[i].key && key[i - 1].item < key[i].item));
+        free(key);
+    }
+}
+
+static void test_random_below(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    uint32_t count[7] = {0};
+    for (int i = 0; i < 70000; i++) count[mw__random_below(&random, 7)]++;
+    for (int i = 0; i < 7; i++) assert_in_range(count[i], 9500, 10500);
+}
+
+static void test_allocation(void **state)
+{
+    (void)state;
+    assert_null(mw__alloc(SIZE_MAX / 2, 3));
+    assert_null(mw__calloc(SIZE_MAX / 2, 3));
+    void *nothing = mw__alloc(0, 8);
+    assert_non_null(nothing);
+    free(nothing);
+}
+
+static void test_errors(void **state)
+{
+    (void)state;
+    mw_error error;
+    assert_int_equal(mw__fail_at(&error, 3, 4, "%s", "here"), MW_ERROR_INPUT);
+    assert_string_equal(error.message, "here");
+    assert_int_equal(error.triangle, 3);
+    assert_int_equal(error.vertex, 4);
+    assert_int_equal(error.line, -1);
+    assert_int_equal(mw__fail(NULL, MW_ERROR_LIMIT, "nobody listens"), MW_ERROR_LIMIT);
+    for (int status = 0; status <= MW_STATUS_COUNT; status++) assert_non_null(mw_status_text((mw_status)status));
+    assert_string_equal(mw_version(), MW_VERSION_STRING);
+    char version[32];
+    snprintf(version, sizeof version, "%d.%d.%d", MW_VERSION_MAJOR, MW_VERSION_MINOR, MW_VERSION_PATCH);
+    assert_string_equal(version, MW_VERSION_STRING);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_curve),        cmocka_unit_test(test_odd_extents), cmocka_unit_test(test_sort),
+        cmocka_unit_test(test_random_below), cmocka_unit_test(test_allocation),  cmocka_unit_test(test_errors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
