@@ -15,25 +15,25 @@ typedef struct arrays {
     uint32_t point_count, triangle_count;
 } arrays;
 
-static arrays arrays_make(uint32_t point_room, uint32_t triangle_room)
+static inline arrays arrays_make(uint32_t point_room, uint32_t triangle_room)
 {
     return (arrays){calloc(point_room + 1, 2 * sizeof(double)), calloc(triangle_room + 1, 3 * sizeof(uint32_t)), 0, 0};
 }
 
-static void arrays_free(arrays *a)
+static inline void arrays_free(arrays *a)
 {
     free(a->points);
     free(a->triangles);
 }
 
-static uint32_t arrays_point(arrays *a, double x, double y)
+static inline uint32_t arrays_point(arrays *a, double x, double y)
 {
     a->points[2 * a->point_count] = x;
     a->points[2 * a->point_count + 1] = y;
     return a->point_count++;
 }
 
-static void arrays_triangle(arrays *a, uint32_t u, uint32_t v, uint32_t w)
+static inline void arrays_triangle(arrays *a, uint32_t u, uint32_t v, uint32_t w)
 {
     uint32_t *t = a->triangles + 3 * (size_t)a->triangle_count++;
     t[0] = u;
@@ -41,7 +41,7 @@ static void arrays_triangle(arrays *a, uint32_t u, uint32_t v, uint32_t w)
     t[2] = w;
 }
 
-static mw_arrays arrays_view(const arrays *a)
+static inline mw_arrays arrays_view(const arrays *a)
 {
     return (mw_arrays){.points = a->points,
                        .point_count = a->point_count,
@@ -49,13 +49,13 @@ static mw_arrays arrays_view(const arrays *a)
                        .triangle_count = a->triangle_count};
 }
 
-static double random_unit(uint64_t *random)
+static inline double random_unit(uint64_t *random)
 {
     return (double)(mw__random(random) >> 11) * 0x1p-53;
 }
 
 /* n x n cells cut along random diagonals. jitter 0: points on integers (many collinear and cocircular ones). */
-static arrays grid_mesh(uint32_t n, double jitter, uint64_t *random)
+static inline arrays grid_mesh(uint32_t n, double jitter, uint64_t *random)
 {
     arrays a = arrays_make((n + 1) * (n + 1), 2 * n * n);
     for (uint32_t y = 0; y <= n; y++)
@@ -79,7 +79,7 @@ static arrays grid_mesh(uint32_t n, double jitter, uint64_t *random)
 }
 
 /* A fan of n thin triangles round the origin, in a circle: a vertex of high degree. */
-static arrays fan_mesh(uint32_t n)
+static inline arrays fan_mesh(uint32_t n)
 {
     arrays a = arrays_make(n + 1, n);
     uint32_t hub = arrays_point(&a, 0, 0);
@@ -90,7 +90,7 @@ static arrays fan_mesh(uint32_t n)
 }
 
 /* The mesh on which a celestial walk cycles that does not begin at the first edge of the chain. */
-static arrays trap_mesh(void)
+static inline arrays trap_mesh(void)
 {
     static const double p[8][2] = {{.169678, .0175461}, {1, 0}, {.74616, .12756},  {.322629, .0519267},
                                    {.391841, .269754},  {1, 1}, {.811393, .632747}};
@@ -102,7 +102,7 @@ static arrays trap_mesh(void)
 }
 
 /* Number triangles at random, begin each at a random corner, turn every second one round if mixed. */
-static void scramble(arrays *a, int mixed, uint64_t *random)
+static inline void scramble(arrays *a, int mixed, uint64_t *random)
 {
     for (uint32_t i = 0; i < a->triangle_count; i++) {
         uint32_t j = i + mw__random_below(random, a->triangle_count - i), k = mw__random_below(random, 3), t[3];
@@ -113,7 +113,7 @@ static void scramble(arrays *a, int mixed, uint64_t *random)
     }
 }
 
-static void transform(arrays *a, double scale, double dx, double dy)
+static inline void transform(arrays *a, double scale, double dx, double dy)
 {
     for (uint32_t i = 0; i < a->point_count; i++) {
         a->points[2 * i] = a->points[2 * i] * scale + dx;
@@ -122,7 +122,7 @@ static void transform(arrays *a, double scale, double dx, double dy)
 }
 
 /* Remove a share of the triangles: holes, pinched vertices, pieces. */
-static void punch(arrays *a, double share, uint64_t *random)
+static inline void punch(arrays *a, double share, uint64_t *random)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < a->triangle_count; i++)
@@ -134,7 +134,7 @@ static void punch(arrays *a, double share, uint64_t *random)
 }
 
 /* Queries that find fault: n of each kind - anywhere, at vertices, on edges, a rounding away from both, outside, far. */
-static double *nasty_queries(const arrays *a, size_t n, size_t *count, uint64_t *random)
+static inline double *nasty_queries(const arrays *a, size_t n, size_t *count, uint64_t *random)
 {
     enum { KINDS = 8 };
     double *q = malloc(KINDS * n * 2 * sizeof(double)), low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};

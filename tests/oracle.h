@@ -7,7 +7,7 @@
 #include <meshwalk/meshwalk.h>
 
 /* Sign of the area of abc, in rationals. */
-static int oracle_orient(const double a[2], const double b[2], const double c[2])
+static inline int oracle_orient(const double a[2], const double b[2], const double c[2])
 {
     mpq_t v[6], left, right;
     const double *from[6] = {&a[0], &a[1], &b[0], &b[1], &c[0], &c[1]};
@@ -33,7 +33,7 @@ typedef struct oracle_answer {
 } oracle_answer;
 
 /* Is q in triangle t? Fills in the answer then. A flat triangle contains nothing. */
-static int oracle_contains(const double *points, const uint32_t *t, const double q[2], oracle_answer *answer)
+static inline int oracle_contains(const double *points, const uint32_t *t, const double q[2], oracle_answer *answer)
 {
     const double *p[3] = {points + 2 * (size_t)t[0], points + 2 * (size_t)t[1], points + 2 * (size_t)t[2]};
     int turn = oracle_orient(p[0], p[1], p[2]), zeros = 0, edge = 0, off = 0;
@@ -54,7 +54,8 @@ static int oracle_contains(const double *points, const uint32_t *t, const double
 }
 
 /* The lowest-numbered triangle that contains q; MW_OUTSIDE where there is none (holes are not told apart). */
-static oracle_answer oracle_locate(const double *points, const uint32_t *triangles, uint32_t count, const double q[2])
+static inline oracle_answer oracle_locate(const double *points, const uint32_t *triangles, uint32_t count,
+                                          const double q[2])
 {
     oracle_answer answer = {MW_NONE, MW_OUTSIDE, 255};
     if (!isfinite(q[0]) || !isfinite(q[1])) return (oracle_answer){MW_NONE, MW_BAD, 255};
