@@ -1,4 +1,5 @@
-# Tests of the project as a whole: the examples in the documentation, the layout of the code, what is installed.
+# Tests of the project as a whole: the examples in the documentation, the layout of the code, what is installed, where
+# the data came from.
 
 # Blocks of code in the documentation: C blocks become programs, the shell blocks of a page one test.
 file(GLOB pages CONFIGURE_DEPENDS README.md docs/*.md)
@@ -42,5 +43,14 @@ if(NOT MW_SANITIZE) # a sanitized library is not one that others link
     $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
   if(MW_BUILD_CLI)
     add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+  endif()
+endif()
+
+# Where the terrain came from is rarely at hand: NumPy and Debian's python-matplotlib-data.
+set(grid /usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz)
+if(EXISTS ${grid} AND EXISTS /usr/bin/python3)
+  execute_process(COMMAND /usr/bin/python3 -c "import numpy" RESULT_VARIABLE no_numpy OUTPUT_QUIET ERROR_QUIET)
+  if(NOT no_numpy)
+    add_test(NAME data COMMAND ${PROJECT_SOURCE_DIR}/tools/check_data /usr/bin/python3 ${grid})
   endif()
 endif()

@@ -11,7 +11,7 @@ static void broken_arrays(void)
     mw_mesh *mesh;
     mw_error error;
     mw_status status = mw_mesh_create(&arrays, NULL, &mesh, &error);
-    printf("%s; triangle %d\n", mw_status_text(status), (int)error.triangle);
+    printf("%s: %s (triangle %d)\n", mw_status_text(status), error.message, (int)error.triangle);
 }
 
 /* A mesh that covers a part of the plane twice: it can be built, but no search could give one answer. */

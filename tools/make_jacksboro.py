@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """Thin the Jacksboro fault elevation grid to an irregular set of points: data/jacksboro.csv.
 
     tools/make_jacksboro.py [--points N] [GRID.npz [OUTPUT.csv]]
