@@ -1,7 +1,7 @@
 /* tiling.c - the tiling a mesh needs: its own arrays, or completed ones; and its layout in memory. */
 #include "domain/tiling.h"
 
-#include "domain/convex.h"
+#include "domain/complete.h"
 #include "mesh/order.h"
 
 #include <stdlib.h>
@@ -31,14 +31,34 @@ static void borrow(const mw_mesh *mesh, mw_tiling *tiling)
     tiling->borrowed = true;
 }
 
+/* MW_ERROR_INPUT, naming the first defect. */
+static mw_status refuse(const mw_survey *survey, mw_error *error)
+{
+    const mw_defect *first = survey->defects.list;
+    char text[256];
+    mw_defect_describe(first, text, sizeof text);
+    return mw__fail_at(error, first->triangle, first->vertex == MW_NONE ? -1 : (int64_t)first->vertex, "%s", text);
+}
+
+static mw_status fill_tiling(const mw_survey *survey, bool any, mw_tiling *tiling, mw_error *error)
+{
+    tiling->embedding = survey->embedding;
+    if (!survey->embedding && !any) return refuse(survey, error);
+    if (survey->embedding && !survey->convex) return mw__complete(survey, tiling, error);
+    borrow(survey->mesh, tiling);
+    return MW_OK;
+}
+
 mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
 {
-    *tiling = (mw_tiling){.embedding = mw__convex(mesh)};
-    if (!tiling->embedding && !any) return mw__fail(error, MW_ERROR_INPUT, "the mesh does not fill a convex polygon");
-    borrow(mesh, tiling);
-    if (find_owners(tiling)) return MW_OK;
-    mw__tiling_release(tiling);
-    return mw__fail_memory(error);
+    *tiling = (mw_tiling){0};
+    mw_survey survey;
+    mw_status status = mw__survey_create(&survey, mesh, error);
+    if (!status) status = fill_tiling(&survey, any, tiling, error);
+    mw__survey_release(&survey);
+    if (!status && !find_owners(tiling)) status = mw__fail_memory(error);
+    if (status) mw__tiling_release(tiling);
+    return status;
 }
 
 static void release_arrays(mw_tiling *tiling)

@@ -12,19 +12,22 @@
 
 #include "mesh/mesh.h"
 
+/* The user's number of a tile, tri[t].user, is that of the triangle with MW_FLIPPED, or MW_GHOST and the number of the
+ * hole (MW_POCKET: it lies in none). */
 typedef struct mw_tiling {
     mw_point *point;
-    mw_triangle *tri;  /* tri[t].user: the user's triangle with MW_FLIPPED, or MW_GHOST and the number of the hole (MW_POCKET) */
-    uint32_t *owner;   /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned */
+    mw_triangle *tri;
+    uint32_t *owner; /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned */
     uint32_t point_count, tri_count, ghost_count, hole_count;
-    bool borrowed;     /* point and tri belong to the mesh                                                      */
-    bool cut;          /* some of the user's triangles are several tiles                                        */
-    bool embedding;    /* false: the mesh is no embedding (option any); the tiles are the mesh's own triangles, borrowed,
-                          links are MW_NONE on any border, and nothing above is promised                        */
+    bool borrowed;  /* point and tri belong to the mesh               */
+    bool cut;       /* some of the user's triangles are several tiles */
+    bool embedding; /* false: the mesh is no embedding (option any); the tiles are the mesh's own triangles, borrowed,
+                       links are MW_NONE on any border, and nothing above is promised */
 } mw_tiling;
 
 /* Tile the hull of `mesh`. Where the mesh is no embedding: with `any`, see mw_tiling.embedding; otherwise
- * MW_ERROR_INPUT, the error naming the first defect. The mesh must outlive the tiling. */
+ * MW_ERROR_INPUT, the error naming the first defect. A mesh without any triangle that has an area gives no tiles. Also
+ * MW_ERROR_MEMORY, MW_ERROR_LIMIT. The mesh must outlive the tiling. */
 mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
 void mw__tiling_release(mw_tiling *tiling);
 size_t mw__tiling_bytes(const mw_tiling *tiling); /* what it owns */

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Vertex number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
-static uint32_t index_at(const mw_arrays *arrays, size_t i)
+uint32_t mw__index_at(const mw_arrays *arrays, size_t i)
 {
     if (arrays->index_type == MW_UINT32) return ((const uint32_t *)arrays->triangles)[i];
     int64_t v = arrays->index_type == MW_INT32 ? ((const int32_t *)arrays->triangles)[i]
@@ -46,7 +45,7 @@ static mw_status copy_triangle(mw_mesh *mesh, const mw_arrays *arrays, uint32_t 
 {
     mw_triangle *tri = &mesh->tri[t];
     for (size_t k = 0; k < 3; k++) {
-        uint32_t v = index_at(arrays, 3 * (size_t)t + k);
+        uint32_t v = mw__index_at(arrays, 3 * (size_t)t + k);
         if (v >= mesh->point_count)
             return mw__fail_at(error, t, -1, "triangle %" PRIu32 ": corner %zu is no vertex; there are %" PRIu32, t, k,
                                mesh->point_count);

@@ -72,6 +72,9 @@ struct mw_mesh {
     bool tolerant; /* may hold triangles that are not usable: see mw__usable */
 };
 
+/* Number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
+uint32_t mw__index_at(const mw_arrays *arrays, size_t i);
+
 /* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). An edge of more than two
  * triangles links the first two; *extra (may be NULL) is set to a link to a further one, MW_NONE if there is none.
  * Links two triangles whatever their orientation. Returns false when out of memory. */

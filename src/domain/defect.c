@@ -1,0 +1,124 @@
+/* defect.c - defects of meshes: a list of them, and their texts. */
+#include "domain/defect.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+mw_defect mw__defect(mw_defect_kind kind, uint32_t triangle)
+{
+    return (mw_defect){
+        .kind = kind, .triangle = triangle, .other = MW_NONE, .vertex = MW_NONE, .edge = 255, .other_edge = 255};
+}
+
+bool mw__defects_add(mw_defects *defects, mw_defect defect)
+{
+    if (defects->count == defects->capacity) {
+        size_t capacity = 2 * defects->capacity + 16;
+        mw_defect *list = mw__realloc(defects->list, capacity, sizeof *list);
+        if (!list) return false;
+        defects->list = list;
+        defects->capacity = capacity;
+    }
+    defects->list[defects->count++] = defect;
+    return true;
+}
+
+static int compare_numbers(uint32_t a, uint32_t b)
+{
+    return (a > b) - (a < b);
+}
+
+static int compare(const void *left, const void *right)
+{
+    const mw_defect *a = left, *b = right;
+    int order = compare_numbers(a->kind, b->kind);
+    if (!order) order = compare_numbers(a->triangle, b->triangle);
+    if (!order) order = compare_numbers(a->edge, b->edge);
+    if (!order) order = compare_numbers(a->vertex, b->vertex);
+    if (!order) order = compare_numbers(a->other, b->other);
+    return order ? order : compare_numbers(a->other_edge, b->other_edge);
+}
+
+void mw__defects_sort(mw_defects *defects)
+{
+    if (defects->count > 1) qsort(defects->list, defects->count, sizeof *defects->list, compare);
+}
+
+void mw__defects_release(mw_defects *defects)
+{
+    free(defects->list);
+    *defects = (mw_defects){0};
+}
+
+const char *mw_defect_text(mw_defect_kind kind)
+{
+    switch (kind) {
+    case MW_DEFECT_INDEX: return "vertex that does not exist";
+    case MW_DEFECT_NOT_FINITE: return "vertex that is not finite";
+    case MW_DEFECT_REPEATED_VERTEX: return "vertex twice in one triangle";
+    case MW_DEFECT_EDGE_SHARED: return "edge of three or more triangles";
+    case MW_DEFECT_FOLDED: return "folded along an edge";
+    case MW_DEFECT_TURN: return "more than one turn round a vertex";
+    case MW_DEFECT_CROSSING: return "borders that cross";
+    case MW_DEFECT_VERTEX_IN_EDGE: return "vertex inside an edge";
+    case MW_DEFECT_OVERLAP: return "overlap";
+    case MW_DEFECT_FLAT: return "flat triangle";
+    case MW_DEFECT_COUNT: break;
+    }
+    return "unknown defect";
+}
+
+static void describe_overlap(const mw_defect *d, char *text, size_t size)
+{
+    if (d->other == MW_NONE)
+        snprintf(text, size, "triangle %" PRIu32 ": other triangles cover it too, beside its edge %u", d->triangle,
+                 d->edge);
+    else
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": overlaps triangle %" PRIu32 ", which lies on the same side of edge %u",
+                 d->triangle, d->other, d->edge);
+}
+
+void mw_defect_describe(const mw_defect *d, char *text, size_t size)
+{
+    uint32_t t = d->triangle, v = d->vertex;
+    unsigned e = d->edge;
+    switch (d->kind) {
+    case MW_DEFECT_INDEX:
+        if (v == MW_NONE)
+            snprintf(text, size, "triangle %" PRIu32 ": a vertex number is out of range", t);
+        else
+            snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " does not exist", t, v);
+        return;
+    case MW_DEFECT_NOT_FINITE:
+        snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);
+        return;
+    case MW_DEFECT_REPEATED_VERTEX:
+        snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t, v);
+        return;
+    case MW_DEFECT_EDGE_SHARED:
+        snprintf(text, size, "triangle %" PRIu32 ": two others share its edge %u, one is triangle %" PRIu32, t, e,
+                 d->other);
+        return;
+    case MW_DEFECT_FOLDED:
+        snprintf(text, size, "triangle %" PRIu32 ": triangle %" PRIu32 " is folded back onto it at edge %u", t,
+                 d->other, e);
+        return;
+    case MW_DEFECT_TURN:
+        snprintf(text, size, "triangle %" PRIu32 ": the triangles round its vertex %" PRIu32 " turn more than once", t,
+                 v);
+        return;
+    case MW_DEFECT_CROSSING:
+        snprintf(text, size, "triangle %" PRIu32 ": edge %u crosses edge %u of triangle %" PRIu32, t, e, d->other_edge,
+                 d->other);
+        return;
+    case MW_DEFECT_VERTEX_IN_EDGE:
+        snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " lies inside edge %u", t, v, e);
+        return;
+    case MW_DEFECT_OVERLAP: describe_overlap(d, text, size); return;
+    case MW_DEFECT_FLAT: snprintf(text, size, "triangle %" PRIu32 ": has no area", t); return;
+    case MW_DEFECT_COUNT: break;
+    }
+    snprintf(text, size, "triangle %" PRIu32 ": unknown defect", t);
+}

@@ -1,0 +1,386 @@
+/* constrain.c - segments forced into a triangulation.
+ *
+ *           q---s      The triangles that the segment a->b crosses form a channel. It is emptied and filled again on both
+ *         / |  / \     sides of the new edge, in linear time as a scan of the rim [after Graham 1972], then flips
+ *       a...|./...w--b restore the Delaunay property [Lawson 1977]. The piece ends at the first vertex w on the segment.
+ *         \ | /  /
+ *           p---'      The right rim runs a, p, ..., w, the left rim w, s, q, ..., a: the channel lies to their left.
+ *
+ * Why the scan may cut off an ear p, q, r wherever the rim turns left: every vertex of the rim sees a point of the
+ * segment across the channel, and these points follow each other as the vertices do. The lines of sight from p and r,
+ * the rim between them and the segment bound a polygon with no other vertex of the rim in it; q is a convex corner of
+ * it, and its other two corners lie on the line a->b, which the triangle p, q, r does not reach (but in a or w). So the
+ * ear is empty, and cutting it off keeps the lines of sight. A rim that nowhere turns left is the segment itself.
+ * Rims may run to a vertex and back along one edge; the turn there is 0. */
+#include "triangulate/constrain.h"
+
+#include <stdlib.h>
+
+struct mw_rim {
+    uint32_t from, to;
+    uint32_t half;  /* the half-edge inside the channel: the old one, later the new one             */
+    uint32_t outer; /* the half-edge beyond the rim; MW_NONE on the hull                            */
+    uint32_t piece; /*                                                                              */
+    mw_rim *mate;   /* the rim runs along both sides of this edge: the other side                   */
+    mw_rim *origin; /* on the stack: the step of the rim this is a copy of, NULL for the base of an ear */
+};
+
+bool mw__constrained_create(mw_constrained *c, const mw_point *point, uint32_t point_count, mw_triangle *tri,
+                            uint32_t tri_count)
+{
+    *c = (mw_constrained){.point = point, .tri = tri, .point_count = point_count, .tri_count = tri_count};
+    c->piece = mw__alloc(3 * (size_t)tri_count, sizeof *c->piece);
+    c->at = mw__alloc(point_count, sizeof *c->at);
+    if (!c->piece || !c->at) return false;
+    for (uint32_t t = 0; t < tri_count; t++) {
+        tri[t].user = 0;
+        for (uint32_t k = 0; k < 3; k++) {
+            c->piece[3 * (size_t)t + k] = MW_NONE;
+            c->at[tri[t].v[k]] = t;
+        }
+    }
+    return true;
+}
+
+void mw__constrained_release(mw_constrained *c)
+{
+    free(c->piece);
+    free(c->at);
+    free(c->right);
+    free(c->left);
+    free(c->stack);
+    free(c->channel);
+    free(c->flip);
+    *c = (mw_constrained){0};
+}
+
+static uint32_t *piece_of(const mw_constrained *c, uint32_t half)
+{
+    return &c->piece[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
+}
+
+static uint32_t *link_of(const mw_constrained *c, uint32_t half)
+{
+    return &c->tri[mw__link_triangle(half)].link[mw__link_edge(half)];
+}
+
+static uint32_t start_of(const mw_constrained *c, uint32_t half)
+{
+    return c->tri[mw__link_triangle(half)].v[mw__link_edge(half)];
+}
+
+static uint32_t end_of(const mw_constrained *c, uint32_t half)
+{
+    return c->tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1];
+}
+
+static uint32_t next_of(uint32_t half)
+{
+    return mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
+}
+
+static uint32_t prev_of(uint32_t half)
+{
+    return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
+}
+
+static double side(const mw_constrained *c, uint32_t a, uint32_t b, uint32_t p)
+{
+    return mw__orient2d(c->point[a], c->point[b], c->point[p]);
+}
+
+/* --- where a segment leaves a vertex --- */
+
+/* Turns round a vertex: counter-clockwise to the hull or once round, then clockwise from the beginning. */
+typedef struct rotor {
+    uint32_t half, first; /* half-edges that leave the vertex */
+    bool clockwise;
+} rotor;
+
+static rotor rotor_at(const mw_constrained *c, uint32_t vertex)
+{
+    uint32_t t = c->at[vertex], k = 0;
+    while (c->tri[t].v[k] != vertex) k++;
+    return (rotor){mw__link(t, k), mw__link(t, k), false};
+}
+
+static void turn(const mw_constrained *c, rotor *r)
+{
+    if (!r->clockwise) {
+        uint32_t half = *link_of(c, prev_of(r->half));
+        if (half != MW_NONE) {
+            r->half = half;
+            return;
+        }
+        r->clockwise = true;
+        r->half = r->first;
+    }
+    r->half = next_of(*link_of(c, r->half));
+}
+
+/* Does the segment to `target` leave through the triangle of the rotor? Then *half is the edge that it runs along, as
+ * it leaves the vertex (or as it comes back: the last edge at the hull), or the one across that it crosses. */
+static bool leaves_here(const mw_constrained *c, const rotor *r, uint32_t target, uint32_t *half, bool *along)
+{
+    uint32_t v = start_of(c, r->half), p = end_of(c, r->half), q = start_of(c, prev_of(r->half));
+    double right = side(c, v, p, target), left = side(c, v, q, target);
+    *along = right == 0 || left == 0;
+    *half = right == 0 ? r->half : left == 0 ? prev_of(r->half) : next_of(r->half);
+    return (right >= 0 && left < 0) || (right > 0 && left == 0);
+}
+
+/* --- the channel --- */
+
+static bool reserve(mw_constrained *c, size_t count)
+{
+    if (count <= c->rim_capacity) return true;
+    size_t capacity = count + count / 2 + 64;
+    mw_rim *right = mw__realloc(c->right, capacity, sizeof *right);
+    if (right) c->right = right;
+    mw_rim *left = mw__realloc(c->left, capacity, sizeof *left);
+    if (left) c->left = left;
+    mw_rim *stack = mw__realloc(c->stack, capacity, sizeof *stack);
+    if (stack) c->stack = stack;
+    uint32_t *channel = mw__realloc(c->channel, capacity, sizeof *channel);
+    if (channel) c->channel = channel;
+    if (!right || !left || !stack || !channel) return false;
+    c->rim_capacity = capacity;
+    return true;
+}
+
+/* The right rim in order from a to w; the left rim in the opposite order, from a to w, too. */
+typedef struct channel {
+    uint32_t a, w;
+    size_t right_count, left_count, triangle_count;
+} channel;
+
+static void add_rim(const mw_constrained *c, mw_rim *rim, size_t *count, uint32_t half)
+{
+    rim[(*count)++] = (mw_rim){.from = start_of(c, half),
+                               .to = end_of(c, half),
+                               .half = half,
+                               .outer = *link_of(c, half),
+                               .piece = *piece_of(c, half)};
+}
+
+/* Follow the segment from a through edge `half` to the first vertex on it. Changes no triangle. */
+static mw_constrain_result open_channel(mw_constrained *c, uint32_t a, uint32_t b, uint32_t half, channel *ch,
+                                        uint32_t *crossed)
+{
+    *ch = (channel){.a = a};
+    if (!reserve(c, 2)) return MW_CONSTRAIN_MEMORY;
+    add_rim(c, c->right, &ch->right_count, prev_of(half));
+    add_rim(c, c->left, &ch->left_count, next_of(half));
+    c->channel[ch->triangle_count++] = mw__link_triangle(half);
+    for (;;) {
+        *crossed = *piece_of(c, half);
+        if (*crossed != MW_NONE) return MW_CONSTRAIN_CROSSES;
+        if (!reserve(c, ch->triangle_count + 2)) return MW_CONSTRAIN_MEMORY;
+        half = *link_of(c, half); /* its end is on the right now, its start on the left */
+        c->channel[ch->triangle_count++] = mw__link_triangle(half);
+        uint32_t w = start_of(c, prev_of(half));
+        double s = side(c, a, b, w);
+        if (s <= 0) add_rim(c, c->right, &ch->right_count, next_of(half));
+        if (s >= 0) add_rim(c, c->left, &ch->left_count, prev_of(half));
+        if (s == 0) {
+            ch->w = w;
+            return MW_CONSTRAIN_DONE;
+        }
+        half = s > 0 ? next_of(half) : prev_of(half);
+    }
+}
+
+/* Steps of the rim whose outer half-edge lies in the channel too: find it. Overwrites the vertices of the triangles. */
+static void find_mates(mw_constrained *c, const channel *ch)
+{
+    enum { IN_CHANNEL = 1 };
+    mw_rim *rims[2] = {c->right, c->left};
+    size_t counts[2] = {ch->right_count, ch->left_count};
+    for (size_t i = 0; i < ch->triangle_count; i++) c->tri[c->channel[i]].user = IN_CHANNEL;
+    for (int r = 0; r < 2; r++)
+        for (uint32_t i = 0; i < counts[r]; i++)
+            c->tri[mw__link_triangle(rims[r][i].half)].v[mw__link_edge(rims[r][i].half)] = i;
+    for (int r = 0; r < 2; r++)
+        for (size_t i = 0; i < counts[r]; i++) {
+            uint32_t outer = rims[r][i].outer;
+            if (outer == MW_NONE || c->tri[mw__link_triangle(outer)].user != IN_CHANNEL) continue;
+            rims[r][i].mate = &rims[r][start_of(c, outer)]; /* no edge lies on both sides of the segment */
+            rims[r][i].half = MW_NONE;
+        }
+    for (size_t i = 0; i < ch->triangle_count; i++) c->tri[c->channel[i]].user = 0;
+}
+
+/* --- filling the channel --- */
+
+/* Link half-edge `half` of a new triangle to what lies beyond step s of the rim. */
+static void join(mw_constrained *c, uint32_t half, const mw_rim *s)
+{
+    *piece_of(c, half) = s->piece;
+    uint32_t outer = s->outer;
+    if (s->mate) {
+        s->origin->half = half;
+        outer = s->mate->half; /* MW_NONE where the mate is not placed yet: it will link both */
+    }
+    *link_of(c, half) = outer;
+    if (outer != MW_NONE) *link_of(c, outer) = half;
+}
+
+/* Make triangle t the ear of steps s0 and s1 of the rim; its base becomes a step instead of them. */
+static mw_rim cut_ear(mw_constrained *c, uint32_t t, const mw_rim *s0, const mw_rim *s1)
+{
+    mw_triangle *tri = &c->tri[t];
+    tri->v[0] = tri->v[3] = s0->from;
+    tri->v[1] = s0->to;
+    tri->v[2] = s1->to;
+    for (int k = 0; k < 3; k++) c->at[tri->v[k]] = t;
+    join(c, mw__link(t, 0), s0);
+    join(c, mw__link(t, 1), s1);
+    *piece_of(c, mw__link(t, 2)) = MW_NONE;
+    return (mw_rim){.from = s0->from, .to = s1->to, .outer = mw__link(t, 2), .piece = MW_NONE};
+}
+
+/* Fill the side of the channel along a rim of n steps, taken in order or backwards, with the triangles from
+ * c->channel[*next] on. Returns the half-edge along the segment. */
+static uint32_t fill(mw_constrained *c, mw_rim *rim, size_t n, bool backwards, size_t *next)
+{
+    size_t top = 0;
+    for (size_t i = 0; i < n; i++) {
+        mw_rim *step = &rim[backwards ? n - 1 - i : i];
+        c->stack[top] = *step;
+        c->stack[top++].origin = step;
+        while (top >= 2 && side(c, c->stack[top - 2].from, c->stack[top - 2].to, c->stack[top - 1].to) > 0) {
+            c->stack[top - 2] = cut_ear(c, c->channel[(*next)++], &c->stack[top - 2], &c->stack[top - 1]);
+            top--;
+        }
+    }
+    return c->stack[0].outer;
+}
+
+/* --- the Delaunay property --- */
+
+static bool push_triangle(mw_constrained *c, size_t *count, uint32_t t)
+{
+    if (*count + 3 > c->flip_capacity) {
+        size_t capacity = 2 * c->flip_capacity + 64;
+        uint32_t *flip = mw__realloc(c->flip, capacity, sizeof *flip);
+        if (!flip) return false;
+        c->flip = flip;
+        c->flip_capacity = capacity;
+    }
+    for (uint32_t k = 0; k < 3; k++) c->flip[(*count)++] = mw__link(t, k);
+    return true;
+}
+
+static bool is_illegal(const mw_constrained *c, uint32_t half)
+{
+    uint32_t twin = *link_of(c, half);
+    if (twin == MW_NONE || *piece_of(c, half) != MW_NONE) return false;
+    const mw_triangle *t = &c->tri[mw__link_triangle(half)];
+    uint32_t apex = start_of(c, prev_of(twin));
+    return mw__incircle(c->point[t->v[0]], c->point[t->v[1]], c->point[t->v[2]], c->point[apex]) > 0;
+}
+
+static void set_triangle(mw_constrained *c, uint32_t t, uint32_t v0, uint32_t v1, uint32_t v2)
+{
+    mw_triangle *tri = &c->tri[t];
+    tri->v[0] = tri->v[3] = v0;
+    tri->v[1] = v1;
+    tri->v[2] = v2;
+    for (int k = 0; k < 3; k++) c->at[tri->v[k]] = t;
+}
+
+/*        r                r
+ *      / t \            / | \
+ *     p --- q    -->   p t|n q    Replace edge p->q, which is `half`, by s->r.
+ *      \ n /            \ | /
+ *        s                s       */
+static void flip(mw_constrained *c, uint32_t half)
+{
+    uint32_t twin = *link_of(c, half), t = mw__link_triangle(half), n = mw__link_triangle(twin);
+    uint32_t p = start_of(c, half), q = end_of(c, half);
+    uint32_t r = start_of(c, prev_of(half)), s = start_of(c, prev_of(twin));
+    uint32_t sides[4] = {next_of(twin), prev_of(half), prev_of(twin), next_of(half)}; /* ps, rp, sq, qr */
+    mw_rim step[4];
+    for (int i = 0; i < 4; i++) step[i] = (mw_rim){.outer = *link_of(c, sides[i]), .piece = *piece_of(c, sides[i])};
+    set_triangle(c, t, p, s, r);
+    set_triangle(c, n, s, q, r);
+    join(c, mw__link(t, 0), &step[0]);
+    join(c, mw__link(t, 2), &step[1]);
+    join(c, mw__link(n, 0), &step[2]);
+    join(c, mw__link(n, 1), &step[3]);
+    *link_of(c, mw__link(t, 1)) = mw__link(n, 2);
+    *link_of(c, mw__link(n, 2)) = mw__link(t, 1);
+    *piece_of(c, mw__link(t, 1)) = *piece_of(c, mw__link(n, 2)) = MW_NONE;
+}
+
+/* Flip until no edge near the new triangles is illegal. Ends: each flip lowers the triangulation, lifted to the
+ * paraboloid, and the signs are exact. */
+static bool legalize(mw_constrained *c, size_t triangle_count)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < triangle_count; i++)
+        if (!push_triangle(c, &count, c->channel[i])) return false;
+    while (count > 0) {
+        uint32_t half = c->flip[--count];
+        if (!is_illegal(c, half)) continue;
+        uint32_t t = mw__link_triangle(half), n = mw__link_triangle(*link_of(c, half));
+        flip(c, half);
+        if (!push_triangle(c, &count, t) || !push_triangle(c, &count, n)) return false;
+    }
+    return true;
+}
+
+/* --- pieces --- */
+
+static void mark(mw_constrained *c, uint32_t half, uint32_t *number)
+{
+    if (*piece_of(c, half) == MW_NONE) {
+        *piece_of(c, half) = c->piece_count++;
+        if (*link_of(c, half) != MW_NONE) *piece_of(c, *link_of(c, half)) = *piece_of(c, half);
+    }
+    *number = *piece_of(c, half);
+}
+
+/* Make an edge from a towards b, through edge `half`. */
+static mw_constrain_result cut_through(mw_constrained *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
+                                       uint32_t *number)
+{
+    channel ch;
+    mw_constrain_result result = open_channel(c, a, b, half, &ch, number);
+    if (result != MW_CONSTRAIN_DONE) return result;
+    find_mates(c, &ch);
+    size_t next = 0;
+    uint32_t right = fill(c, c->right, ch.right_count, false, &next);
+    uint32_t left = fill(c, c->left, ch.left_count, true, &next);
+    *link_of(c, right) = left;
+    *link_of(c, left) = right;
+    mark(c, left, number);
+    *w = ch.w;
+    return legalize(c, ch.triangle_count) ? MW_CONSTRAIN_DONE : MW_CONSTRAIN_MEMORY;
+}
+
+mw_constrain_result mw__constrain(mw_constrained *c, uint32_t *from, uint32_t *to, mw_piece *piece)
+{
+    /* Turn round both ends at once: at a vertex of high degree this takes as long as its segments' other ends allow. */
+    rotor rotors[2] = {rotor_at(c, *from), rotor_at(c, *to)};
+    uint32_t *ends[2] = {from, to}, half;
+    unsigned i = 0;
+    bool along;
+    while (!leaves_here(c, &rotors[i], *ends[1 - i], &half, &along)) {
+        turn(c, &rotors[i]);
+        i = 1 - i;
+    }
+    uint32_t w;
+    mw_constrain_result result = MW_CONSTRAIN_DONE;
+    if (along) {
+        w = start_of(c, half) == *ends[i] ? end_of(c, half) : start_of(c, half);
+        mark(c, half, &piece->number);
+    } else {
+        result = cut_through(c, *ends[i], *ends[1 - i], half, &w, &piece->number);
+        if (result != MW_CONSTRAIN_DONE) return result;
+    }
+    piece->from = i == 0 ? *from : w;
+    piece->to = i == 0 ? w : *to;
+    *ends[i] = w;
+    return result;
+}
