@@ -1,0 +1,108 @@
+#include "io/formats.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+/* [ST][C][N][4][n]OFF */
+static bool is_off(const char *word)
+{
+    if (strncmp(word, "ST", 2) == 0) word += 2;
+    word += *word == 'C';
+    word += *word == 'N';
+    word += *word == '4';
+    word += *word == 'n';
+    return strcmp(word, "OFF") == 0;
+}
+
+static bool is_ply(const char *word)
+{
+    return strcmp(word, "ply") == 0;
+}
+
+static bool is_solid(const char *word)
+{
+    return strcasecmp(word, "solid") == 0;
+}
+
+static bool is_obj(const char *word)
+{
+    static const char *const words[] = {"v", "vt", "vn", "vp", "f", "o", "g", "s", "mtllib", "usemtl"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(word, words[i]) == 0) return true;
+    return false;
+}
+
+static const mw_mesh_format formats[] = {
+    {"off", ".off\0.coff\0.noff\0", is_off, mw__read_off, NULL, mw__write_off},
+    {"ply", ".ply\0", is_ply, mw__read_ply, NULL, mw__write_ply},
+    {"ply-ascii", "", NULL, NULL, NULL, mw__write_ply_ascii},
+    {"node", ".node\0.ele\0", NULL, NULL, mw__read_node_ele, mw__write_node_ele},
+    {"obj", ".obj\0", is_obj, mw__read_obj, NULL, mw__write_obj},
+    {"stl", ".stl\0", is_solid, mw__read_stl, NULL, mw__write_stl},
+    {"csv", ".csv\0", NULL, NULL, NULL, mw__write_csv},
+    {"vtk", ".vtk\0", NULL, NULL, NULL, mw__write_vtk},
+};
+enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
+
+const mw_mesh_format *mw__format_by_name(const char *name)
+{
+    for (size_t i = 0; i < FORMAT_COUNT; i++)
+        if (strcasecmp(name, formats[i].name) == 0) return &formats[i];
+    return NULL;
+}
+
+bool mw__path_ends(const char *path, const char *ending)
+{
+    size_t length = strlen(path), wanted = strlen(ending);
+    if (length > 3 && strcasecmp(path + length - 3, ".gz") == 0) length -= 3;
+    return length > wanted && strncasecmp(path + length - wanted, ending, wanted) == 0;
+}
+
+const mw_mesh_format *mw__format_by_path(const char *path)
+{
+    for (size_t i = 0; i < FORMAT_COUNT; i++)
+        for (const char *ending = formats[i].endings; *ending; ending += strlen(ending) + 1)
+            if (mw__path_ends(path, ending)) return &formats[i];
+    return NULL;
+}
+
+static bool is_space(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/* The first word of a text, blank lines, comments and a byte order mark passed over; empty if it is too long. */
+static void first_word(const char *p, const char *end, char *word, size_t room)
+{
+    if (end - p >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0) p += 3;
+    while (p < end && (is_space(*p) || *p == '#')) {
+        bool comment = *p == '#';
+        do p++;
+        while (comment && p < end && *p != '\n' && *p != '\r');
+    }
+    size_t length = 0;
+    for (; p < end && !is_space(*p) && *p != '#'; p++)
+        if (length < room) word[length++] = *p;
+    word[length < room ? length : 0] = 0;
+}
+
+const mw_mesh_format *mw__format_by_content(const char *head, size_t size)
+{
+    char word[16];
+    first_word(head, head + size, word, sizeof word);
+    for (size_t i = 0; i < FORMAT_COUNT; i++)
+        if (formats[i].first_word && formats[i].first_word(word)) return &formats[i];
+    return NULL;
+}
+
+void mw__format_list(bool writers, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = 0;
+    for (size_t i = 0; i < FORMAT_COUNT; i++) {
+        bool listed = writers ? formats[i].write != NULL : formats[i].read || formats[i].read_path;
+        if (listed && used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", formats[i].name);
+    }
+}

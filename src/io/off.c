@@ -1,0 +1,113 @@
+/* OFF, the format of Geomview: [ST][C][N]OFF, then the counts of vertices, faces and (perhaps) edges, then the vertices
+ * and the faces, one a line. Normals, colours and texture coordinates are passed over. */
+#include "io/formats.h"
+#include "io/number.h"
+#include "io/output.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* The line with the keyword; *rest is what follows it, where the counts may stand. */
+static mw_status read_keyword(mw_source *source, char **rest, mw_error *error)
+{
+    char *line;
+    mw_status status = mw__source_content(source, &line, error);
+    if (status) return status;
+    size_t length = line ? strcspn(line, " \t") : 0;
+    if (length < 3 || strncmp(line + length - 3, "OFF", 3) != 0)
+        return mw__source_fail(source, error, "an OFF file begins with OFF");
+    if (length > 3 && (line[length - 4] == 'n' || line[length - 4] == '4'))
+        return mw__source_fail(source, error, "'%s' has vertices that are not x, y, z", mw__excerpt(line).text);
+    *rest = mw__skip_blanks(line + length);
+    if (strncmp(*rest, "BINARY", 6) == 0) return mw__source_fail(source, error, "binary OFF is not read");
+    return MW_OK;
+}
+
+static mw_status read_counts(mw_source *source, char *line, int64_t *vertices, int64_t *faces, mw_error *error)
+{
+    if (!*line) {
+        mw_status status = mw__source_content(source, &line, error);
+        if (status) return status;
+    }
+    const char *p = line;
+    if (!p || !(p = mw__read_integer(p, vertices)) || !(p = mw__read_integer(mw__skip_blanks(p), faces)) ||
+        !mw__at_gap(p))
+        return mw__source_fail(source, error, "expected the numbers of vertices and faces");
+    if (*vertices < 0 || *faces < 0) return mw__source_fail(source, error, "a negative count");
+    return MW_OK;
+}
+
+static mw_status ended_early(const mw_source *source, const char *what, int64_t have, int64_t announced,
+                             mw_error *error)
+{
+    return mw__source_fail(source, error, "the file ends after %" PRId64 " of %" PRId64 " %s", have, announced, what);
+}
+
+static mw_status read_face(mw_source *source, const char *line, mw_builder *builder, mw_error *error)
+{
+    int64_t corners, number;
+    const char *p = mw__read_integer(line, &corners);
+    if (!p || !mw__at_gap(p) || corners < 0)
+        return mw__source_fail(source, error, "'%s' is no number of corners", mw__excerpt(line).text);
+    mw__build_face(builder);
+    for (int64_t k = 0; k < corners; k++) {
+        p = mw__skip_blanks(p);
+        const char *end = mw__read_integer(p, &number);
+        if (!end || !mw__at_gap(end)) {
+            if (!*p)
+                return mw__source_fail(source, error, "a face of %" PRId64 " corners with %" PRId64 " of them", corners,
+                                       k);
+            return mw__source_fail(source, error, "'%s' is no number of a vertex", mw__excerpt(p).text);
+        }
+        mw_status status = mw__build_corner(builder, number, error);
+        if (status) return status;
+        p = end;
+    }
+    return mw__build_face_end(builder, error);
+}
+
+mw_status mw__read_off(mw_source *source, mw_builder *builder, mw_error *error)
+{
+    char *line;
+    int64_t vertices, faces;
+    builder->file->has_z = 1;
+    mw_status status = read_keyword(source, &line, error);
+    if (!status) status = read_counts(source, line, &vertices, &faces, error);
+    for (int64_t v = 0; !status && v < vertices; v++) {
+        status = mw__source_content(source, &line, error);
+        if (!status && !line) status = ended_early(source, "vertices", v, vertices, error);
+        if (!status) status = mw__build_point_text(builder, line, error);
+    }
+    builder->points_complete = true;
+    for (int64_t f = 0; !status && f < faces; f++) {
+        status = mw__source_content(source, &line, error);
+        if (!status && !line) status = ended_early(source, "faces", f, faces, error);
+        if (!status) status = read_face(source, line, builder, error);
+    }
+    if (!status) status = mw__source_content(source, &line, error);
+    if (!status && line) status = mw__source_fail(source, error, "more than the %" PRId64 " faces announced", faces);
+    return status;
+}
+
+static void write_off(mw_output *output, const mw_mesh_file *file)
+{
+    mw_output_printf(output, "OFF\n%zu %zu 0\n", file->point_count, file->triangle_count);
+    for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++)
+        for (size_t k = 0; k < 3; k++) {
+            mw_output_double(output, file->points[3 * v + k]);
+            mw__output_char(output, k < 2 ? ' ' : '\n');
+        }
+    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) {
+        mw__output_char(output, '3');
+        for (size_t k = 0; k < 3; k++) {
+            mw__output_char(output, ' ');
+            mw__output_integer(output, file->triangles[3 * t + k]);
+        }
+        mw__output_char(output, '\n');
+    }
+}
+
+mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_error *error)
+{
+    return mw__write_file(path, file, write_off, error);
+}

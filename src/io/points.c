@@ -1,0 +1,105 @@
+#include "io/points.h"
+#include "io/formats.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+mw_status mw__points_add(mw_point_reader *reader, const char *name, mw_error *error)
+{
+    char **names = mw__realloc(reader->names, reader->width + 1, sizeof *names);
+    if (!names) return mw__fail_memory(error);
+    reader->names = names;
+    names[reader->width] = strdup(name);
+    if (!names[reader->width]) return mw__fail_memory(error);
+    reader->width++;
+    return MW_OK;
+}
+
+const char *mw__points_item(const char **rest, size_t *length)
+{
+    if (!*rest) return NULL;
+    const char *item = mw__skip_blanks(*rest);
+    size_t size = strcspn(item, ",");
+    *rest = item[size] ? item + size + 1 : NULL;
+    while (size > 0 && mw__is_blank(item[size - 1])) size--;
+    *length = size;
+    return item;
+}
+
+/* A selection names at least two columns, and none of its items is empty. */
+static mw_status check_selection(const char *columns, mw_error *error)
+{
+    size_t count = 0, length;
+    for (const char *rest = columns; mw__points_item(&rest, &length); count++)
+        if (length == 0) return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': an empty name", columns);
+    if (count < 2 || count > MW_COLUMN_LIMIT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': two are needed at least, x and y", columns);
+    return MW_OK;
+}
+
+static mw_status start(mw_point_reader *reader, const mw_points_options *options, mw_error *error)
+{
+    const char *head;
+    size_t size;
+    mw_status status = options->columns ? check_selection(options->columns, error) : MW_OK;
+    if (!status) status = mw__source_peek(&reader->source, 1024, &head, &size, error);
+    if (status) return status;
+    if (size >= 4 && memcmp(head, "LASF", 4) == 0) return mw__points_las(reader, options, error);
+    const mw_mesh_format *format = mw__format_by_content(head, size);
+    if (format && format->read != mw__read_obj) /* whose words are short enough to be names of columns */
+        return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is a mesh ('%s'), not a table of points",
+                        mw__source_name(&reader->source), format->name);
+    return mw__points_text(reader, options, error);
+}
+
+mw_status mw__points_start(mw_source source, const mw_points_options *options, mw_point_reader **out, mw_error *error)
+{
+    static const mw_points_options none;
+    mw_point_reader *reader = mw__calloc(1, sizeof *reader);
+    if (!reader) {
+        mw__source_close(&source);
+        return mw__fail_memory(error);
+    }
+    reader->source = source;
+    mw_status status = start(reader, options ? options : &none, error);
+    if (status)
+        mw_points_close(reader);
+    else
+        *out = reader;
+    return status;
+}
+
+mw_status mw_points_open(const char *path, const mw_points_options *options, mw_point_reader **out, mw_error *error)
+{
+    if (out) *out = NULL;
+    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_points_open: NULL");
+    mw_source source;
+    mw_status status = mw__source_open(&source, path, error);
+    return status ? status : mw__points_start(source, options, out, error);
+}
+
+size_t mw_points_width(const mw_point_reader *reader)
+{
+    return reader->width;
+}
+
+const char *mw_points_column(const mw_point_reader *reader, size_t column)
+{
+    return column < reader->width ? reader->names[column] : NULL;
+}
+
+mw_status mw_points_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error)
+{
+    *count = 0;
+    return reader->read(reader, values, capacity, count, error);
+}
+
+void mw_points_close(mw_point_reader *reader)
+{
+    if (!reader) return;
+    mw__source_close(&reader->source);
+    for (size_t i = 0; i < reader->width; i++) free(reader->names[i]);
+    free(reader->names);
+    free(reader->state);
+    free(reader);
+}

@@ -1,0 +1,86 @@
+#include "io/weld.h"
+#include "base/random.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* The bits of x, with those of 0.0 for -0.0. */
+static uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    x += 0.0;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static uint64_t hash(const mw_weld *weld, const double xyz[3])
+{
+    uint64_t h = weld->seed;
+    for (int k = 0; k < 3; k++) h = mw__mix(h ^ bits_of(xyz[k]));
+    return h;
+}
+
+static bool equal(const double a[3], const double b[3])
+{
+    return bits_of(a[0]) == bits_of(b[0]) && bits_of(a[1]) == bits_of(b[1]) && bits_of(a[2]) == bits_of(b[2]);
+}
+
+mw_status mw__weld_start(mw_weld *weld, mw_error *error)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_REALTIME, &time);
+    *weld = (mw_weld){.slot_count = 64};
+    weld->slots = mw__alloc(weld->slot_count, sizeof *weld->slots);
+    if (!weld->slots) return mw__fail_memory(error);
+    memset(weld->slots, 0xff, weld->slot_count * sizeof *weld->slots);
+    weld->seed = mw__mix((uint64_t)time.tv_nsec ^ (uintptr_t)weld->slots);
+    return MW_OK;
+}
+
+void mw__weld_release(mw_weld *weld)
+{
+    free(weld->slots);
+    *weld = (mw_weld){0};
+}
+
+/* The slot that holds the vertex at xyz, or the free one where it belongs. */
+static size_t find(const mw_weld *weld, const double *points, const double xyz[3])
+{
+    size_t mask = weld->slot_count - 1, slot = hash(weld, xyz) & mask;
+    while (weld->slots[slot] != MW_NONE && !equal(points + 3 * (size_t)weld->slots[slot], xyz))
+        slot = (slot + 1) & mask;
+    return slot;
+}
+
+static mw_status grow(mw_weld *weld, const double *points, mw_error *error)
+{
+    mw_weld larger = {.slot_count = 2 * weld->slot_count, .seed = weld->seed};
+    larger.slots = mw__alloc(larger.slot_count, sizeof *larger.slots);
+    if (!larger.slots) return mw__fail_memory(error);
+    memset(larger.slots, 0xff, larger.slot_count * sizeof *larger.slots);
+    for (size_t s = 0; s < weld->slot_count; s++)
+        if (weld->slots[s] != MW_NONE)
+            larger.slots[find(&larger, points, points + 3 * (size_t)weld->slots[s])] = weld->slots[s];
+    free(weld->slots);
+    *weld = larger;
+    return MW_OK;
+}
+
+mw_status mw__weld_vertex(mw_weld *weld, mw_builder *builder, const double xyz[3], uint32_t *vertex, mw_error *error)
+{
+    size_t count = builder->file->point_count;
+    mw_status status = MW_OK;
+    if (count >= weld->slot_count / 4 * 3) status = grow(weld, builder->file->points, error);
+    if (status) return status;
+    size_t slot = find(weld, builder->file->points, xyz);
+    if (weld->slots[slot] == MW_NONE) {
+        status = mw__build_point(builder, xyz[0], xyz[1], xyz[2], error);
+        if (status) return status;
+        weld->slots[slot] = (uint32_t)count;
+    } else {
+        builder->file->welded++;
+    }
+    *vertex = weld->slots[slot];
+    return MW_OK;
+}
