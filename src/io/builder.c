@@ -143,7 +143,7 @@ mw_status mw__build_vertex(mw_builder *builder, int64_t number, uint32_t *vertex
 
 mw_status mw__build_corner(mw_builder *builder, int64_t number, mw_error *error)
 {
-    uint32_t vertex;
+    uint32_t vertex = 0;
     mw_status status = mw__build_vertex(builder, number, &vertex, error);
     if (status) return status;
     if (builder->corners >= 2) status = mw__build_triangle(builder, builder->first, builder->last, vertex, error);

@@ -90,7 +90,7 @@ static mw_status read_strip_item(reader *r, strip *s, int64_t number, mw_error *
         s->count = 0;
         return MW_OK;
     }
-    uint32_t c;
+    uint32_t c = 0;
     mw_status status = mw__build_vertex(r->builder, number, &c, error);
     if (status) return status;
     uint32_t a = s->before[0], b = s->before[1];

@@ -46,7 +46,8 @@ static mw_status start(mw_point_reader *reader, const mw_points_options *options
     if (status) return status;
     if (size >= 4 && memcmp(head, "LASF", 4) == 0) return mw__points_las(reader, options, error);
     const mw_mesh_format *format = mw__format_by_content(head, size);
-    if (format && format->read != mw__read_obj) /* whose words are short enough to be names of columns */
+    /* the words of OBJ are short enough to be names of columns */
+    if (format && (format->read != mw__read_obj || mw__path_ends(reader->source.path, ".obj")))
         return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is a mesh ('%s'), not a table of points",
                         mw__source_name(&reader->source), format->name);
     return mw__points_text(reader, options, error);

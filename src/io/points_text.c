@@ -1,4 +1,6 @@
-/* Points from text: a table with or without a header, its separator told from the first row. */
+/* Points from text: a table with or without a header, its separator told from the first row. Also the vertices of
+ * Triangle's .node, a table whose first row announces the rows and the meaning of their columns. */
+#include "io/formats.h"
 #include "io/number.h"
 #include "io/points.h"
 #include "io/table.h"
@@ -14,16 +16,18 @@ enum { UNUSED = 0xffff }; /* a column that is not read */
 
 typedef struct table {
     char separator;
-    bool header;     /* the file names its columns */
-    size_t columns;  /* of every row */
-    uint16_t slot[]; /* for each column: its place among the values, or UNUSED */
+    bool header;             /* the file names its columns */
+    size_t columns;          /* of every row */
+    uint64_t expected, done; /* rows announced (UINT64_MAX: none are) and read */
+    uint16_t slot[];         /* for each column: its place among the values, or UNUSED */
 } table;
 
 /* What is known of the columns while the reader is made. */
 typedef struct columns {
     size_t count;
-    char **names;  /* of the header; NULL without one */
-    bool *numbers; /* the first row has a number there (or nothing, in a named column) */
+    char **names;      /* of the header; NULL without one */
+    bool *numbers;     /* the first row has a number there (or nothing, in a named column) */
+    uint64_t expected; /* rows, if announced */
 } columns;
 
 static void release_columns(columns *c)
@@ -92,6 +96,47 @@ static mw_status detect(mw_source *source, columns *c, char *separator, mw_error
     if (!row) return MW_OK;
     note_numbers(c, row, *separator);
     mw__source_unread_line(source);
+    return MW_OK;
+}
+
+static mw_status name_column(columns *c, const char *name, size_t number, mw_error *error)
+{
+    char **names = mw__realloc(c->names, c->count + 1, sizeof *names);
+    if (!names) return mw__fail_memory(error);
+    c->names = names;
+    char text[32];
+    snprintf(text, sizeof text, number ? "%s%zu" : "%s", name, number);
+    names[c->count] = strdup(text);
+    if (!names[c->count]) return mw__fail_memory(error);
+    c->count++;
+    return MW_OK;
+}
+
+/* The first row of a .node file: "rows dimension attributes markers". */
+static mw_status detect_node(mw_source *source, columns *c, mw_error *error)
+{
+    char *row;
+    int64_t values[4] = {0, 2, 0, 0};
+    mw_status status = mw__source_content(source, &row, error);
+    if (status) return status;
+    const char *p = row;
+    for (int i = 0; i < 4 && p && *p; i++) {
+        p = mw__read_integer(p, &values[i]);
+        if (p) p = mw__at_gap(p) ? mw__skip_blanks(p) : NULL;
+    }
+    if (!p || *p || values[0] < 0 || values[1] < 2 || values[1] > 3 || values[2] < 0 ||
+        values[2] > MW_COLUMN_LIMIT - 8 || values[3] < 0 || values[3] > 1)
+        return mw__source_fail(source, error, "a .node file begins with 'count dimension attributes markers'");
+    c->expected = (uint64_t)values[0];
+    static const char *const letters[] = {"x", "y", "z"};
+    status = name_column(c, "number", 0, error);
+    for (int64_t k = 0; !status && k < values[1]; k++) status = name_column(c, letters[k], 0, error);
+    for (int64_t k = 0; !status && k < values[2]; k++) status = name_column(c, "attribute", (size_t)k + 1, error);
+    if (!status && values[3]) status = name_column(c, "marker", 0, error);
+    if (status) return status;
+    c->numbers = mw__calloc(c->count, sizeof *c->numbers);
+    if (!c->numbers) return mw__fail_memory(error);
+    for (size_t i = 1; i < c->count; i++) c->numbers[i] = i <= (size_t)(values[1] + values[2]);
     return MW_OK;
 }
 
@@ -254,13 +299,22 @@ static bool parse_row(const table *t, char *p, double *values)
     return *p == 0;
 }
 
+static mw_status check_count(const mw_point_reader *reader, const table *t, mw_error *error)
+{
+    if (t->expected == UINT64_MAX || t->done == t->expected) return MW_OK;
+    return mw__source_fail(&reader->source, error, "%" PRIu64 " rows where %" PRIu64 " are announced", t->done,
+                           t->expected);
+}
+
 static mw_status read_rows(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error)
 {
-    const table *t = reader->state;
+    table *t = reader->state;
     while (*count < capacity) {
         char *row;
         mw_status status = next_row(&reader->source, &row, error);
-        if (status || !row) return status;
+        if (status) return status;
+        if (!row) return check_count(reader, t, error);
+        t->done++;
         if (mw__table_takes_comma(t->separator))
             for (char *comma = row; (comma = strchr(comma, ','));) *comma = '.';
         if (!parse_row(t, row, values + *count * reader->width)) return explain(reader, row, error);
@@ -285,15 +339,18 @@ static mw_status empty_table(mw_point_reader *reader, const char *selection, mw_
 
 mw_status mw__points_text(mw_point_reader *reader, const mw_points_options *options, mw_error *error)
 {
-    columns c = {0};
+    columns c = {.expected = UINT64_MAX};
     char separator = ' ';
-    mw_status status = detect(&reader->source, &c, &separator, error);
+    bool node = mw__path_ends(reader->source.path, ".node");
+    mw_status status = node ? detect_node(&reader->source, &c, error) : detect(&reader->source, &c, &separator, error);
     table *t = status ? NULL : mw__alloc(1, sizeof *t + c.count * sizeof *t->slot);
     if (!status && !t) status = mw__fail_memory(error);
     if (!status) {
         t->separator = separator;
         t->header = c.names != NULL;
         t->columns = c.count;
+        t->expected = c.expected;
+        t->done = 0;
         for (size_t i = 0; i < c.count; i++) t->slot[i] = UNUSED;
         reader->state = t;
         reader->read = read_rows;
