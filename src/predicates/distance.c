@@ -61,8 +61,7 @@ static interval estimate(mw_point q, const feature *f)
     }
     double length = square_length(f->a, f->b);
     if (!(length >= SHORT && length <= DBL_MAX)) return (interval){0, INFINITY};
-    double left = (f->a.x - q.x) * (f->b.y - q.y), right = (f->a.y - q.y) * (f->b.x - q.x);
-    double area = fabs(left - right), bound = mw__orient2d_bound(left, right);
+    double bound, area = fabs(mw__orient2d_rounded(f->a, f->b, q, &bound));
     double low = fmax(area - bound, 0), high = area + bound;
     return widened(low * low / length, high * high / length);
 }

@@ -1,14 +1,6 @@
-/* orient3d.c - orient3d with its filter: the determinant of the rows d - a, d - b, d - c. */
+/* orient3d.c - the exact stage of orient3d: the determinant of the rows d - a, d - b, d - c. */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
-
-/* Bound in terms of permanent, the determinant with absolute values. A minor is off by (4u + 4u^2 + ...) times its
- * permanent P (predicates.h); its product with a difference, rounded, by (6u + 11u^2 + ...) |difference| P, which is
- * (6u + 23u^2 + ...) of its computed permanent; the sums make it 7u + 43u^2 + .... (7u + 64u^2)(1 - u)^2 is more.
- * Underflow: an error of 2^-1075 in each of the six products is multiplied by a z; with their sum below 2^100 that is
- * less than 2^-970. */
-#define ERROR ((7.0 + 64.0 * 0x1p-53) * 0x1p-53)
-#define HEIGHTS 0x1p100
 
 /* Expansions are exact for nonzero coordinates of magnitude 2^-306 to 2^339: products of three differences are multiples
  * of 2^(3 * (-306 - 52)) = 2^-1074, and six of them are at most 6 * 2^(3 * 340) < 2^1023. */
@@ -53,7 +45,7 @@ static double with_integers(const double v[12])
     return mw__big_double(&sum, 3 * base);
 }
 
-static double exact(const double *a, const double *b, const double *c, const double *d)
+double mw__orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3])
 {
     const double v[12] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]};
     if (MW_LIKELY(mw__within(v, 12, LOW, HIGH))) return with_expansions(v);
@@ -62,14 +54,5 @@ static double exact(const double *a, const double *b, const double *c, const dou
 
 double mw_orient3d(const double a[3], const double b[3], const double c[3], const double d[3])
 {
-    double ax = d[0] - a[0], ay = d[1] - a[1], az = d[2] - a[2];
-    double bx = d[0] - b[0], by = d[1] - b[1], bz = d[2] - b[2];
-    double cx = d[0] - c[0], cy = d[1] - c[1], cz = d[2] - c[2];
-    double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
-    double det = az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba);
-    double permanent =
-        fabs(az) * (fabs(bc) + fabs(cb)) + fabs(bz) * (fabs(ca) + fabs(ac)) + fabs(cz) * (fabs(ab) + fabs(ba));
-    double bound = ERROR * permanent + MW_UNDERFLOW_ERROR;
-    if (MW_LIKELY(fabs(det) > bound && fabs(az) + fabs(bz) + fabs(cz) < HEIGHTS)) return det;
-    return exact(a, b, c, d);
+    return mw__orient3d(a, b, c, d);
 }

@@ -31,6 +31,7 @@ typedef struct mw_point {
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c);
 double mw__dot2d_exact(mw_point a, mw_point b, mw_point c);
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d);
+double mw__orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3]);
 
 /* What products that underflow can add to the error: at most 2^-970, see each filter. */
 #define MW_UNDERFLOW_ERROR 0x1p-960
@@ -51,12 +52,19 @@ static MW_INLINE double mw__orient2d_double(mw_point a, mw_point b, mw_point c)
     return (a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x);
 }
 
+/* The same. Its sign is sure where its magnitude is above *bound. */
+static MW_INLINE double mw__orient2d_rounded(mw_point a, mw_point b, mw_point c, double *bound)
+{
+    double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
+    *bound = mw__orient2d_bound(left, right);
+    return left - right;
+}
+
 /* > 0: c lies to the left of a->b; < 0: to the right; 0: on the line. Sign-exact. */
 static MW_INLINE double mw__orient2d(mw_point a, mw_point b, mw_point c)
 {
-    double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x), det = left - right;
-    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
-    return mw__orient2d_exact(a, b, c);
+    double bound, det = mw__orient2d_rounded(a, b, c, &bound);
+    return MW_LIKELY(fabs(det) > bound) ? det : mw__orient2d_exact(a, b, c);
 }
 
 /* (b - a) . (c - a): > 0 where b and c lie less than 90 degrees apart, seen from a. Sign-exact; the same form as
@@ -64,8 +72,7 @@ static MW_INLINE double mw__orient2d(mw_point a, mw_point b, mw_point c)
 static MW_INLINE double mw__dot2d(mw_point a, mw_point b, mw_point c)
 {
     double left = (b.x - a.x) * (c.x - a.x), right = (a.y - b.y) * (c.y - a.y), det = left - right;
-    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
-    return mw__dot2d_exact(a, b, c);
+    return MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right)) ? det : mw__dot2d_exact(a, b, c);
 }
 
 /* Bound for incircle in terms of permanent, the determinant with absolute values.
@@ -78,17 +85,53 @@ static MW_INLINE double mw__dot2d(mw_point a, mw_point b, mw_point c)
 #define MW_INCIRCLE_ERROR ((10.0 + 128.0 * 0x1p-53) * 0x1p-53)
 #define MW_INCIRCLE_LIFTS 0x1p100
 
-/* For a, b, c counter-clockwise: > 0: d lies inside their circle; < 0: outside; 0: on it. Sign-exact. */
-static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_point d)
+/* The determinant as rounded. Its sign is sure where its magnitude is above *bound. */
+static MW_INLINE double mw__incircle_rounded(mw_point a, mw_point b, mw_point c, mw_point d, double *bound)
 {
     double adx = a.x - d.x, ady = a.y - d.y, bdx = b.x - d.x, bdy = b.y - d.y, cdx = c.x - d.x, cdy = c.y - d.y;
     double bc = bdx * cdy, cb = cdx * bdy, ca = cdx * ady, ac = adx * cdy, ab = adx * bdy, ba = bdx * ady;
     double alift = adx * adx + ady * ady, blift = bdx * bdx + bdy * bdy, clift = cdx * cdx + cdy * cdy;
-    double det = alift * (bc - cb) + blift * (ca - ac) + clift * (ab - ba);
     double permanent = alift * (fabs(bc) + fabs(cb)) + blift * (fabs(ca) + fabs(ac)) + clift * (fabs(ab) + fabs(ba));
-    double bound = MW_INCIRCLE_ERROR * permanent + MW_UNDERFLOW_ERROR;
-    if (MW_LIKELY(fabs(det) > bound && alift + blift + clift < MW_INCIRCLE_LIFTS)) return det;
-    return mw__incircle_exact(a, b, c, d);
+    bool small = alift + blift + clift < MW_INCIRCLE_LIFTS;
+    *bound = small ? MW_INCIRCLE_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
+    return alift * (bc - cb) + blift * (ca - ac) + clift * (ab - ba);
+}
+
+/* For a, b, c counter-clockwise: > 0: d lies inside their circle; < 0: outside; 0: on it. Sign-exact. */
+static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_point d)
+{
+    double bound, det = mw__incircle_rounded(a, b, c, d, &bound);
+    return MW_LIKELY(fabs(det) > bound) ? det : mw__incircle_exact(a, b, c, d);
+}
+
+/* Bound for orient3d in terms of permanent. A minor is off by (4u + 4u^2 + ...) P, as for incircle; its product with a
+ * difference, rounded, by (6u + 11u^2 + ...) |difference| P, which is (6u + 23u^2 + ...) of its computed permanent; the
+ * sums make it 7u + 43u^2 + .... (7u + 64u^2)(1 - u)^2 is more.
+ * Underflow: an error of 2^-1075 in each of six products is multiplied by a z; with the sum of the z below 2^100 that is
+ * less than 2^-970. */
+#define MW_ORIENT3D_ERROR ((7.0 + 64.0 * 0x1p-53) * 0x1p-53)
+#define MW_ORIENT3D_HEIGHTS 0x1p100
+
+/* The determinant as rounded. Its sign is sure where its magnitude is above *bound. */
+static MW_INLINE double mw__orient3d_rounded(const double a[3], const double b[3], const double c[3], const double d[3],
+                                             double *bound)
+{
+    double ax = d[0] - a[0], ay = d[1] - a[1], az = d[2] - a[2];
+    double bx = d[0] - b[0], by = d[1] - b[1], bz = d[2] - b[2];
+    double cx = d[0] - c[0], cy = d[1] - c[1], cz = d[2] - c[2];
+    double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
+    double permanent =
+        fabs(az) * (fabs(bc) + fabs(cb)) + fabs(bz) * (fabs(ca) + fabs(ac)) + fabs(cz) * (fabs(ab) + fabs(ba));
+    bool small = fabs(az) + fabs(bz) + fabs(cz) < MW_ORIENT3D_HEIGHTS;
+    *bound = small ? MW_ORIENT3D_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
+    return az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba);
+}
+
+/* > 0: d lies on the side of the plane through a, b, c from which they turn counter-clockwise. Sign-exact. */
+static MW_INLINE double mw__orient3d(const double a[3], const double b[3], const double c[3], const double d[3])
+{
+    double bound, det = mw__orient3d_rounded(a, b, c, d, &bound);
+    return MW_LIKELY(fabs(det) > bound) ? det : mw__orient3d_exact(a, b, c, d);
 }
 
 /* Compare the distance of q to the closed segment ab with its distance to the closed segment cd, exactly: -1 where ab is
