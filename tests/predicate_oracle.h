@@ -24,7 +24,7 @@ static void oracle_init(oracle *o)
     mpz_inits(o->s, o->t, o->result, NULL);
 }
 
-static void oracle_clear(oracle *o)
+__attribute__((unused)) static void oracle_clear(oracle *o)
 {
     for (int i = 0; i < 12; i++) mpz_clears(o->v[i], o->d[i], NULL);
     for (int i = 0; i < 2; i++) mpz_clears(o->numerator[i], o->denominator[i], NULL);
