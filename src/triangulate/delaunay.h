@@ -1,0 +1,16 @@
+/* delaunay.h - the Delaunay triangulation as records, for the rooms above. Private. */
+#ifndef MW_SRC_DELAUNAY_H
+#define MW_SRC_DELAUNAY_H
+
+#include "mesh/mesh.h"
+
+#include <meshwalk/triangulate.h>
+
+/* Triangulate n points: *tri is set to an array of *tri_count counter-clockwise, linked records with vertex numbers of
+ * `points`, in spatial order, `user` being the index; released with free(), NULL on failure. duplicate_of and report as
+ * for mw_delaunay; errors too, and MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
+mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of,
+                                 mw_triangulation_report *report, mw_triangle **tri, uint32_t *tri_count,
+                                 mw_error *error);
+
+#endif

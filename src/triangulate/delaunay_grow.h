@@ -1,0 +1,37 @@
+/* delaunay_grow.h - a Delaunay triangulation that grows by one point at a time. Private. */
+#ifndef MW_SRC_DELAUNAY_GROW_H
+#define MW_SRC_DELAUNAY_GROW_H
+
+#include "predicates/predicates.h"
+
+/* Three vertices, counter-clockwise, and three links as in mesh.h: 24 bytes, for more of them in the cache. */
+typedef struct mw_facet {
+    uint32_t v[3], link[3];
+} mw_facet;
+
+/* The plane outside the hull belongs to ghost facets, each of a hull edge and the vertex at infinity. So every edge has
+ * two facets, and a point outside the hull is inserted as any other. */
+typedef struct mw_growth {
+    const mw_point *point; /* finite */
+    mw_facet *facet;       /* room for 2 * point_count - 2 */
+    uint32_t facet_count;
+    uint32_t infinity; /* number of the vertex at infinity: the number of points                                  */
+    uint32_t last;     /* where the next walk begins                                                              */
+    double far;        /* lift of the vertex at infinity, see delaunay_grow.c                                     */
+    double underflow;  /* what underflow can add to the error of the circle test, at most                         */
+    uint64_t visited;  /* facets visited by walks                                                                 */
+} mw_growth;
+
+static MW_INLINE bool mw__is_ghost(const mw_growth *g, const mw_facet *f)
+{
+    return f->v[0] == g->infinity || f->v[1] == g->infinity || f->v[2] == g->infinity;
+}
+
+/* Begin with the triangle of three vertices that do not lie on one line. Fills everything but point and facet, which
+ * the caller provides. No two coordinates differ by more than width and height. */
+void mw__grow_begin(mw_growth *g, uint32_t point_count, const uint32_t first[3], double width, double height);
+
+/* Insert a point. Returns its number, or that of the vertex at the same place. */
+uint32_t mw__grow(mw_growth *g, uint32_t point);
+
+#endif
