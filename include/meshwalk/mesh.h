@@ -34,11 +34,12 @@ typedef enum mw_defect_kind {
     MW_DEFECT_NOT_FINITE,      /* `vertex` of `triangle` has a coordinate that is NaN or infinite                    */
     MW_DEFECT_REPEATED_VERTEX, /* `triangle` has `vertex` twice                                                      */
     MW_DEFECT_EDGE_SHARED,     /* `edge` of `triangle` belongs to three or more triangles; `other` is one of them    */
-    MW_DEFECT_FOLDED,          /* `triangle` and `other` lie on the same side of the edge they share                 */
+    MW_DEFECT_FOLDED,          /* `triangle` and `other` lie on the same side of the `edge` they share               */
     MW_DEFECT_TURN,            /* the triangles round inner `vertex` turn by more than 2 pi; `triangle` is one       */
     MW_DEFECT_CROSSING,        /* border `edge` of `triangle` crosses border `other_edge` of `other`                 */
-    MW_DEFECT_VERTEX_IN_EDGE,  /* `vertex` lies inside border `edge` of `triangle`                                   */
-    MW_DEFECT_OVERLAP,         /* the mesh covers the inside of `triangle`, beside its border `edge`, more than once */
+    MW_DEFECT_VERTEX_IN_EDGE,  /* `vertex` lies inside border `edge` of `triangle`, without a flat triangle there    */
+    MW_DEFECT_OVERLAP,         /* the mesh covers the inside of `triangle`, beside its border `edge`, more than once;
+                                  `other`, if any, is a triangle on the same side of border `other_edge` along it    */
     MW_DEFECT_FLAT,            /* `triangle` has no area                                                             */
     MW_DEFECT_COUNT
 } mw_defect_kind;
@@ -64,8 +65,10 @@ MW_API const char *mw_defect_text(mw_defect_kind kind);
 /* Write "triangle 17: ..." for one defect into text[size], always terminated. */
 MW_API void mw_defect_describe(const mw_defect *defect, char *text, size_t size);
 
-/* Find every defect of the mesh in `arrays`, and decide whether it is an embedding. O(n) for the local defects plus
- * O(b log b) for b border edges. MW_OK also when defects were found. Thread-safe. */
+/* Find every defect of the mesh in `arrays`, and decide whether it is an embedding. A border edge that crosses others is
+ * listed with one of them only, so the list stays linear in the mesh; and where borders cross, what else is wrong in the
+ * parts of the mesh that they bound may show only when that is mended. O(n) for the local defects plus O(b log b) for b
+ * border edges. MW_OK also when defects were found. Thread-safe. */
 MW_API mw_status mw_check_arrays(const mw_arrays *arrays, mw_check *check, mw_error *error);
 MW_API void mw_check_release(mw_check *check);
 

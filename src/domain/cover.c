@@ -48,6 +48,37 @@ static bool pass_place(mw_cover *c, uint32_t edge, uint32_t place, mw_defects *d
     return mw__defects_add(defects, defect);
 }
 
+/* An edge cannot be forced in: leave its triangle out. Returns false when out of memory. */
+static bool leave_out(mw_cover *c, uint32_t edge)
+{
+    if (!c->left_out) c->left_out = mw__calloc(c->outline->mesh->tri_count, sizeof *c->left_out);
+    if (c->left_out) c->left_out[mw__link_triangle(c->outline->half[edge])] = 1;
+    return c->left_out;
+}
+
+/* Leave out all triangles with an area that those left out so far are linked to. What remains are whole parts of the mesh,
+ * all of whose outline edges are in the cells, so that its degrees make sense. */
+static bool spread_left_out(mw_cover *c)
+{
+    const mw_mesh *mesh = c->outline->mesh;
+    if (!c->left_out) return true;
+    uint32_t *stack = mw__alloc(mesh->tri_count, sizeof *stack), top = 0;
+    if (!stack) return false;
+    for (uint32_t t = 0; t < mesh->tri_count; t++)
+        if (c->left_out[t]) stack[top++] = t;
+    while (top > 0) {
+        const mw_triangle *t = &mesh->tri[stack[--top]];
+        for (int k = 0; k < 3; k++) {
+            uint32_t other = mw__link_triangle(t->link[k]);
+            if (t->link[k] == MW_NONE || c->left_out[other] || mw__is_flat(c->outline, other)) continue;
+            c->left_out[other] = 1;
+            stack[top++] = other;
+        }
+    }
+    free(stack);
+    return true;
+}
+
 /* Force one outline edge in. No two edges may run along a piece in the same direction, as their triangles would overlap;
  * this also bounds the pieces of all edges together. Returns false when out of memory. */
 static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
@@ -60,15 +91,12 @@ static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
         mw_constrain_result result = mw__constrain(&c->net, &from, &to, &piece);
         if (result == MW_CONSTRAIN_MEMORY) return false;
         uint32_t *runs = &c->runs[2 * (size_t)piece.number];
-        if (result == MW_CONSTRAIN_CROSSES) {
-            c->broken = true;
-            return mw__defects_add(defects, at_edges(c, MW_DEFECT_CROSSING, edge, runs[runs[0] == MW_NONE]));
-        }
+        if (result == MW_CONSTRAIN_CROSSES)
+            return leave_out(c, edge) &&
+                   mw__defects_add(defects, at_edges(c, MW_DEFECT_CROSSING, edge, runs[runs[0] == MW_NONE]));
         uint32_t *run = &runs[piece.from > piece.to];
-        if (*run != MW_NONE) {
-            c->broken = true;
-            return mw__defects_add(defects, at_edges(c, MW_DEFECT_OVERLAP, edge, *run));
-        }
+        if (*run != MW_NONE)
+            return leave_out(c, edge) && mw__defects_add(defects, at_edges(c, MW_DEFECT_OVERLAP, edge, *run));
         *run = edge;
         if (from != to && !pass_place(c, edge, from != before ? from : to, defects)) return false;
     }
@@ -129,7 +157,9 @@ static uint32_t run_along(const mw_cover *c, uint32_t half, bool backwards)
     const mw_triangle *t = &c->cell[mw__link_triangle(half)];
     uint32_t k = mw__link_edge(half), piece = c->net.piece[3 * (size_t)mw__link_triangle(half) + k];
     if (piece == MW_NONE) return MW_NONE;
-    return c->runs[2 * (size_t)piece + ((t->v[k] > t->v[k + 1]) != backwards)];
+    uint32_t edge = c->runs[2 * (size_t)piece + ((t->v[k] > t->v[k + 1]) != backwards)];
+    if (edge == MW_NONE || !c->left_out) return edge;
+    return c->left_out[mw__link_triangle(c->outline->half[edge])] ? MW_NONE : edge;
 }
 
 uint32_t mw__cover_inner(const mw_cover *c, uint32_t half)
@@ -193,7 +223,7 @@ mw_status mw__cover_create(mw_cover *cover, const mw_outline *outline, mw_defect
     if (status) return status;
     bool done =
         mw__constrained_create(&cover->net, outline->point, outline->place_count, cover->cell, cover->cell_count) &&
-        force_all(cover, defects) && sort_splits(cover) && (cover->broken || find_degrees(cover));
+        force_all(cover, defects) && spread_left_out(cover) && sort_splits(cover) && find_degrees(cover);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
@@ -203,6 +233,7 @@ void mw__cover_release(mw_cover *cover)
     free(cover->cell);
     free(cover->runs);
     free(cover->split);
+    free(cover->left_out);
     free(cover->degree);
     *cover = (mw_cover){0};
 }

@@ -20,13 +20,15 @@ typedef struct mw_cover {
     const mw_outline *outline;
     mw_triangle *cell; /* vertices are places */
     uint32_t cell_count;
-    mw_constrained net; /* the outline in the cells                                                                 */
-    uint32_t *runs;     /* outline edges along piece p: at 2p the one from the lower place to the higher, at 2p + 1
-                            the one that comes back, as indices; MW_NONE if there is none                            */
-    mw_split *split;    /* by outline edge, then along it                                                           */
+    mw_constrained net; /* the outline in the cells */
+    uint32_t *runs;     /* outline edges along piece p: at 2p the one from the lower place to the higher, at 2p + 1 the
+                           one that comes back, as indices; MW_NONE if there is none */
+    mw_split *split;    /* by outline edge, then along it */
     size_t split_count, split_capacity;
-    bool broken;     /* outline edges cross or overlap: degrees are not known                                    */
-    int32_t *degree; /* triangles over each cell                                                                 */
+    uint8_t
+        *left_out; /* per triangle: not counted, as an outline edge of its part of the mesh crosses or overlaps another
+                          one; NULL if all are counted */
+    int32_t *degree; /* triangles over each cell, those left out not counted */
 } mw_cover;
 
 /* Cover the plane with the triangles of an outline that has edges; adds what is wrong to `defects`: crossings,
@@ -34,7 +36,8 @@ typedef struct mw_cover {
 mw_status mw__cover_create(mw_cover *cover, const mw_outline *outline, mw_defects *defects, mw_error *error);
 void mw__cover_release(mw_cover *cover);
 
-/* The outline edge with its inner side in cell half-edge `half` (in opposite: the one whose outer side it is). */
+/* The outline edge, of those counted, that has its inner side in the cell of this half-edge; the one that has its outer
+ * side there; MW_NONE if there is none. */
 uint32_t mw__cover_inner(const mw_cover *cover, uint32_t half);
 uint32_t mw__cover_outer(const mw_cover *cover, uint32_t half);
 

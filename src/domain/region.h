@@ -18,7 +18,7 @@ typedef struct mw_regions {
     uint32_t count, hole_count;
 } mw_regions;
 
-/* The regions of a cover that is not broken. Holes are numbered in order of the lowest triangle beside them. Returns
+/* The regions of a cover. Holes are numbered in order of the lowest triangle beside them. Returns
  * false when out of memory; release in either case. */
 bool mw__regions_create(mw_regions *regions, const mw_cover *cover);
 void mw__regions_release(mw_regions *regions);

@@ -36,9 +36,8 @@ static bool has_no_defect(const mw_survey *s)
 
 static mw_status cover(mw_survey *s, mw_error *error)
 {
-    s->covered = true;
     mw_status status = mw__cover_create(&s->cover, &s->outline, &s->defects, error);
-    if (status || s->cover.broken) return status;
+    if (status) return status;
     if (!mw__regions_create(&s->regions, &s->cover) || !find_overlaps(s)) return mw__fail_memory(error);
     return MW_OK;
 }

@@ -9,10 +9,9 @@ typedef struct mw_survey {
     mw_defects defects; /* sorted                                                       */
     bool embedding;     /* no defect but flat triangles                                 */
     bool convex;        /* an embedding that is its own tiling: nothing below is filled */
-    bool covered;       /* cover is filled: the mesh has triangles with an area         */
     mw_outline outline;
     mw_cover cover;
-    mw_regions regions; /* filled if covered and the cover is not broken                */
+    mw_regions regions;
 } mw_survey;
 
 /* Find all defects of a mesh, which must outlive the survey. O(n + b log b) for b outline edges. MW_ERROR_MEMORY,
