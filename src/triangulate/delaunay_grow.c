@@ -201,11 +201,10 @@ uint32_t mw__grow(mw_growth *g, uint32_t point)
 {
     mw_point q = g->point[point];
     place at = walk(g, q);
+    g->last = mw__link_triangle(at.link);
     for (int k = 0; k < 3; k++)
         if (at.v[k].x == 0 && at.v[k].y == 0 && at.v[k].vertex != g->infinity) return at.v[k].vertex;
-    uint32_t first = mw__link_triangle(at.link);
     split(g, &at, point);
-    flip_round(g, first, at.v[0], at.v[1], q);
-    g->last = first;
+    flip_round(g, g->last, at.v[0], at.v[1], q);
     return point;
 }
