@@ -2,6 +2,9 @@
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
+__extension__ typedef __int128 wide;
+#define LOW_BITS (((wide)1 << 42) - 1)
+
 /* Expansions are exact for nonzero coordinates of magnitude 2^-216 to 2^253: products of four differences are multiples
  * of 2^(4 * (-216 - 52)) = 2^-1072, and the twelve of them are at most 12 * 2^(4 * 254) < 2^1020. */
 #define LOW 0x1p-216
@@ -12,12 +15,51 @@
 #define TERM_ROOM (2 * MW_CROSS_ROOM + 2 * TERM_PARTS)
 
 typedef struct row {
-    mw_expansion x, y, minus_y;
+    mw_expansion x, y;
 } row;
+
+/* Is x * scale, of magnitude below 2^41, an integer? */
+static bool to_integer(mw_expansion x, double scale, int64_t *n)
+{
+    if (x.n > 1) return false;
+    double scaled = x.n == 0 ? 0 : x.part[0] * scale;
+    *n = (int64_t)scaled;
+    return (double)*n == scaled;
+}
+
+/* A short cut for points of a grid, of which many lie on one circle, and for points that lie close together far from the
+ * origin: all differences are integers below 2^41 times one power of two. Then lifts and minors are below 2^83; each lift
+ * is cut into high * 2^42 + low, and the sums of high * minor and of low * minor stay below 3 * 2^125. Two (grid) to eight
+ * times as fast as expansions. False for other points. */
+static bool on_grid(const row p[3], double *det)
+{
+    double largest = 0;
+    int64_t x[3], y[3];
+    wide high = 0, low = 0;
+    for (int i = 0; i < 3; i++) {
+        if (p[i].x.n == 1) largest = fmax(largest, fabs(p[i].x.part[0]));
+        if (p[i].y.n == 1) largest = fmax(largest, fabs(p[i].y.part[0]));
+    }
+    double scale = largest > 0 ? ldexp(1, 40 - ilogb(largest)) : 1, unit = 1 / scale;
+    for (int i = 0; i < 3; i++) {
+        if (!to_integer(p[i].x, scale, &x[i]) || !to_integer(p[i].y, scale, &y[i])) return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        wide lift = (wide)x[i] * x[i] + (wide)y[i] * y[i], minor = (wide)x[j] * y[k] - (wide)x[k] * y[j];
+        high += (lift >> 42) * minor;
+        low += (lift & LOW_BITS) * minor;
+    }
+    high += low >> 42; /* rounded down, so that what is left of low is not negative */
+    low &= LOW_BITS;
+    *det = ((double)high * 0x1p42 + (double)low) * unit * unit * unit * unit;
+    return true;
+}
 
 static mw_expansion expansion_term(mw_arena *arena, const row *p, const row *q, const row *r)
 {
-    mw_expansion lift = mw__expansion_cross(arena, p->x, p->minus_y, p->y, p->x);
+    mw_expansion x = mw__expansion_multiply(arena, p->x, p->x), y = mw__expansion_multiply(arena, p->y, p->y);
+    mw_expansion lift = mw__expansion_add(arena, x, y);
     mw_expansion minor = mw__expansion_cross(arena, q->x, q->y, r->x, r->y);
     return mw__expansion_multiply(arena, lift, minor);
 }
@@ -25,15 +67,15 @@ static mw_expansion expansion_term(mw_arena *arena, const row *p, const row *q, 
 /* v: a, b, c, d, two coordinates each. */
 static double with_expansions(const double v[8])
 {
-    double room[18 + 3 * TERM_ROOM + 5 * TERM_PARTS];
+    double room[12 + 3 * TERM_ROOM + 5 * TERM_PARTS], det;
     mw_arena arena = {room};
     row p[3];
     mw_expansion term[3];
     for (int i = 0; i < 3; i++) {
         p[i].x = mw__expansion_difference(&arena, v[2 * i], v[6]);
         p[i].y = mw__expansion_difference(&arena, v[2 * i + 1], v[7]);
-        p[i].minus_y = mw__expansion_difference(&arena, v[7], v[2 * i + 1]);
     }
+    if (on_grid(p, &det)) return det;
     for (int i = 0; i < 3; i++) term[i] = expansion_term(&arena, &p[i], &p[(i + 1) % 3], &p[(i + 2) % 3]);
     mw_expansion sum = mw__expansion_add(&arena, term[0], term[1]);
     return mw__expansion_estimate(mw__expansion_add(&arena, sum, term[2]));
