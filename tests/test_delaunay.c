@@ -335,6 +335,13 @@ static mw_point tiny(uint64_t *random, uint32_t i, uint32_t n)
     return (mw_point){1e-300 * unit(random), 1e-300 * unit(random)};
 }
 
+/* Products of four differences are subnormal, and off by more than a filter for normal numbers expects. */
+static mw_point underflowing(uint64_t *random, uint32_t i, uint32_t n)
+{
+    mw_point p = rotated_grid(random, i, n);
+    return (mw_point){p.x * 1e-79, p.y * 1e-79};
+}
+
 static mw_point subnormal(uint64_t *random, uint32_t i, uint32_t n)
 {
     (void)i, (void)n;
@@ -404,6 +411,7 @@ static const set sets[] = {
     {"far away", far_away, 10000, 10},
     {"surveyed", surveyed, 10000, 10},
     {"tiny", tiny, 1000, 40},
+    {"underflowing", underflowing, 3000, 10},
     {"subnormal", subnormal, 1000, 40},
     {"huge", huge, 1000, 10},
     {"widest", widest, 1000, 10},
