@@ -69,10 +69,11 @@ static void add_user(maker *m, uint32_t t)
     for (int k = 0; k < 3; k++) v[k] = merged(m->outline, tri->v[k]);
     for (; m->edge < m->outline->half_count && mw__link_triangle(m->outline->half[m->edge]) == t; m->edge++) {
         splits *here = &inside[mw__link_edge(m->outline->half[m->edge])];
-        here->first = m->cover->split + m->split;
+        size_t begin = m->split;
         while (m->split < m->cover->split_count && m->cover->split[m->split].edge == m->edge) m->split++;
-        here->count = (size_t)(m->cover->split + m->split - here->first);
-        cut |= here->count > 0;
+        if (m->split == begin) continue;
+        *here = (splits){m->cover->split + begin, m->split - begin};
+        cut = true;
     }
     if (cut)
         add_cut(m, tri->user, v, inside);
