@@ -15,10 +15,10 @@ static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
 static mw_status create(const double *points, size_t n, const void *triangles, size_t count, mw_index_type type,
                         int tolerant, mw_mesh **mesh, mw_error *error)
 {
-    mw_arrays arrays = {
+    mw_arrays view = {
         .points = points, .point_count = n, .triangles = triangles, .triangle_count = count, .index_type = type};
     mw_mesh_options options = {.tolerant = tolerant};
-    return mw_mesh_create(&arrays, &options, mesh, error);
+    return mw_mesh_create(&view, &options, mesh, error);
 }
 
 static void expect_square(const mw_mesh *mesh)
@@ -62,13 +62,13 @@ static void test_stride(void **state)
     (void)state;
     const double xyz[] = {0, 0, 7, 1, 0, 7, 1, 1, 7, 0, 1, 7};
     const uint32_t t[] = {0, 1, 2, 0, 3, 2};
-    mw_arrays arrays = {.points = xyz, .point_count = 4, .point_stride = 3, .triangles = t, .triangle_count = 2};
+    mw_arrays view = {.points = xyz, .point_count = 4, .point_stride = 3, .triangles = t, .triangle_count = 2};
     mw_mesh *mesh;
-    assert_int_equal(mw_mesh_create(&arrays, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     expect_square(mesh);
     mw_mesh_destroy(mesh);
-    arrays.point_stride = 1;
-    assert_int_equal(mw_mesh_create(&arrays, NULL, &mesh, NULL), MW_ERROR_ARGUMENT);
+    view.point_stride = 1;
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_ARGUMENT);
     assert_null(mesh);
 }
 
@@ -122,17 +122,17 @@ static void test_arguments(void **state)
 {
     (void)state;
     mw_mesh *mesh;
-    mw_arrays arrays = {.point_count = 3};
+    mw_arrays view = {.point_count = 3};
     assert_int_equal(mw_mesh_create(NULL, NULL, &mesh, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_mesh_create(&arrays, NULL, &mesh, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_mesh_create(&arrays, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
-    arrays = (mw_arrays){.points = square, .point_count = (size_t)1 << 33};
-    assert_int_equal(mw_mesh_create(&arrays, NULL, &mesh, NULL), MW_ERROR_LIMIT);
-    arrays =
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_mesh_create(&view, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
+    view = (mw_arrays){.points = square, .point_count = (size_t)1 << 33};
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_LIMIT);
+    view =
         (mw_arrays){.points = square, .point_count = 4, .triangles = square, .triangle_count = ((size_t)1 << 30) + 1};
-    assert_int_equal(mw_mesh_create(&arrays, NULL, &mesh, NULL), MW_ERROR_LIMIT);
-    arrays = (mw_arrays){0};
-    assert_int_equal(mw_mesh_create(&arrays, NULL, &mesh, NULL), MW_OK); /* an empty mesh is a mesh */
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_LIMIT);
+    view = (mw_arrays){0};
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK); /* an empty mesh is a mesh */
     assert_int_equal(mw_mesh_triangle_count(mesh), 0);
     mw_mesh_destroy(mesh);
     mw_mesh_destroy(NULL);

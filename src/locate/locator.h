@@ -34,13 +34,9 @@ static MW_INLINE mw_location mw__nowhere(mw_where where)
         .weight = {NAN, NAN, NAN}, .triangle = MW_NONE, .hole = MW_NONE, .where = (uint8_t)where, .local = 255};
 }
 
-/* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to corner k: exact signs. */
-static MW_INLINE void mw__areas(const mw_point corner[3], mw_point q, double area[3])
-{
-    area[0] = mw__orient2d(corner[1], corner[2], q);
-    area[1] = mw__orient2d(corner[2], corner[0], q);
-    area[2] = mw__orient2d(corner[0], corner[1], q);
-}
+/* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to corner k: exact in sign,
+ * and off by less than 2^-42 of their sum. */
+void mw__areas(const mw_point corner[3], mw_point q, double area[3]);
 
 /* The location of q in a triangle that contains it: corners as stored, `user` its number and mark, area from mw__areas
  * (overwritten). */

@@ -1,6 +1,27 @@
 /* place.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
 #include "locate/locator.h"
 
+void mw__areas(const mw_point corner[3], mw_point q, double area[3])
+{
+    double x[3], y[3], bound[3];
+    for (uint32_t k = 0; k < 3; k++) {
+        x[k] = corner[k].x - q.x;
+        y[k] = corner[k].y - q.y;
+    }
+    bool sure = true;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t a = mw__next(k), b = mw__prev(k);
+        double left = x[a] * y[b], right = y[a] * x[b];
+        area[k] = left - right;
+        bound[k] = mw__orient2d_bound(left, right);
+        sure = sure && fabs(area[k]) > bound[k];
+    }
+    double off = bound[0] + bound[1] + bound[2], sum = area[0] + area[1] + area[2];
+    if (MW_LIKELY(sure && off < 0x1p-42 * sum)) return;
+    /* On an edge, or the triangle is so thin that rounded areas would spoil the weights. */
+    for (uint32_t k = 0; k < 3; k++) area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
+}
+
 /* Areas up to a common factor, for triangles so small or so large that their areas leave the range of doubles: all
  * distances from q are scaled to about 1 first. Signs stay those of the exact areas. */
 static void rescale(const mw_point corner[3], mw_point q, double area[3])
