@@ -2,6 +2,7 @@
 #include "files.h"
 #include "message.h"
 #include "progress.h"
+#include "signals.h"
 #include "tally.h"
 
 #include <stdlib.h>
@@ -47,7 +48,10 @@ const option query_options[] = {
     {"tolerance", 0, OPTION_LENGTH, offsetof(query_settings, tolerance), "D",
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(query_settings, columns), "LIST",
-     "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: 1,2)", NULL},
+     "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
+     "calls x and y, lon and lat, "
+     "..., else the first two)",
+     NULL},
     {"any", 0, OPTION_FLAG, offsetof(query_settings, any), NULL,
      "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
     {"strict", 0, OPTION_FLAG, offsetof(query_settings, strict), NULL, "exit with 1 if a point has no answer", NULL},
@@ -164,10 +168,9 @@ static int locate_block(stream *s, size_t count)
     return 0;
 }
 
-static int run_blocks(stream *s, const char *points)
+static int run_blocks(stream *s)
 {
     mw_error error;
-    progress_phase("locating", points);
     while (!mw_output_failed(s->out)) {
         size_t count;
         if (mw_points_read(s->reader, s->values, BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
@@ -181,19 +184,21 @@ static int run_blocks(stream *s, const char *points)
 }
 
 /* Points and output are open. */
-static int run_stream(stream *s, const char *points, const char *header)
+static int run_stream(stream *s, const char *header)
 {
     mw_error error;
+    signals_remove(mw_output_temporary(s->out));
     s->width = mw_points_width(s->reader);
     s->values = malloc(BLOCK * s->width * sizeof *s->values);
     s->locations = malloc(BLOCK * sizeof *s->locations);
     int end = s->values && s->locations ? 0 : fail_memory();
     if (end == 0) {
         mw_output_write(s->out, header, strlen(header));
-        end = run_blocks(s, points);
+        end = run_blocks(s);
     }
     progress_phase("writing", NULL);
     if (mw_output_close(s->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
+    signals_remove(NULL);
     for (size_t k = 0; k < CHUNKS; k++) text_release(&s->chunk[k]);
     free(s->locations);
     free(s->values);
@@ -210,12 +215,13 @@ int query_run(const query *q, const char *points, const char *header, query_row 
     *s = (stream){.query = q, .row = row, .self = self};
     tally_begin(&s->tally);
     int end;
+    progress_phase("locating", points);
     if (mw_points_open(points, &options, &s->reader, &error) != MW_OK)
         end = fail_reading(&error);
     else if (mw_output_open(settings->common.output ? settings->common.output : "-", &s->out, &error) != MW_OK)
         end = fail_writing(&error);
     else
-        end = run_stream(s, points, header);
+        end = run_stream(s, header);
     mw_points_close(s->reader);
     if (end == 0 && settings->stats) end = tally_print(&s->tally, q);
     if (end == 0 && settings->strict && s->tally.unanswered) end = END_UNLOCATED;

@@ -5,15 +5,17 @@
 #include "message.h"
 #include "progress.h"
 #include "report.h"
+#include "signals.h"
 #include "tally.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { FORMAT_BY_ENDING = 0 };
-static const char *const formats[] = {"auto", "off", "ply", "node", "csv", "vtk", "obj", "stl"};
+static const char *const formats[] = {"auto", "off", "ply", "ply-ascii", "node", "csv", "vtk", "obj", "stl"};
 static const char *const kinds[] = {"delaunay", "greedy", "min-weight", "min-max-angle"};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats, KIND_COUNT = sizeof kinds / sizeof *kinds };
 
@@ -39,11 +41,11 @@ static const option triangulate_options[] = {
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
      "kind of triangulation: delaunay, the only one so far", &kind_choices},
     {"format", 0, OPTION_CHOICE, offsetof(triangulate_settings, format), "NAME",
-     "format of MESH: off, ply, node (with .ele), csv, vtk, obj or stl (default: auto, by its ending)",
+     "format of MESH: off, ply, ply-ascii, node (with .ele), csv, vtk, obj or stl (default: auto, by its ending)",
      &format_choices},
     {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
-     "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5 (default: all); the first two "
-     "are x and y, the third is z, further ones become fields",
+     "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first two are x and y, the "
+     "third is z, further ones become fields (default: all, with x, y and z first where a header names them)",
      NULL},
     {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
      "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)", NULL},
@@ -191,6 +193,41 @@ static int print_report(const triangulate_settings *s, const work *w)
     return end;
 }
 
+/* Can the output be written at all? Better asked before the work than after it. `named` is set if the system writes it
+ * under a temporary name. */
+static int try_output(const char *output, bool *named)
+{
+    mw_error error;
+    mw_output *out;
+    *named = false;
+    if (files_is_stream(output)) return 0;
+    if (mw_output_open(output, &out, &error) != MW_OK) return fail_writing(&error);
+    *named = mw_output_temporary(out) != NULL;
+    mw_output_close(out, 0, NULL);
+    return 0;
+}
+
+static int write_mesh(const triangulate_settings *s, const work *w, bool named)
+{
+    mw_error error;
+    const char *format = s->format == FORMAT_BY_ENDING ? NULL : formats[s->format];
+    progress_phase("writing", NULL);
+    if (named) signals_hold(true);
+    mw_status status = mw_write_mesh(s->common.output, format, &w->file, &error);
+    if (named) signals_hold(false);
+    return status == MW_OK ? 0 : fail_writing(&error);
+}
+
+/* Does the name end in the name of a format, or in .ele, the other half of node? */
+static bool ending_is_known(const char *path)
+{
+    const char *ending = strrchr(path, '.');
+    if (!ending) return false;
+    for (int i = FORMAT_BY_ENDING + 1; i < FORMAT_COUNT; i++)
+        if (strcasecmp(ending + 1, formats[i]) == 0) return true;
+    return strcasecmp(ending, ".ele") == 0;
+}
+
 /* What can be refused before the work begins. */
 static int check_settings(const triangulate_settings *s, const char *points)
 {
@@ -207,22 +244,23 @@ static int check_settings(const triangulate_settings *s, const char *points)
         complain("triangulate: a mesh on standard output wants --format");
         return END_USAGE;
     }
+    if (s->format == FORMAT_BY_ENDING && !ending_is_known(output)) {
+        complain("%s: the name tells no format for meshes; --format does (off, ply, ...)", output);
+        return END_USAGE;
+    }
     return files_check(output, &points, 1);
 }
 
 static int run(const void *settings, const char *const *operands)
 {
     const triangulate_settings *s = settings;
-    mw_error error;
     work w = {.begin = tally_clock()};
+    bool named = false;
     int end = check_settings(s, operands[0]);
+    if (end == 0) end = try_output(s->common.output, &named);
     if (end == 0) end = read_points(s, operands[0], &w);
     if (end == 0) end = triangulate(operands[0], &w);
-    if (end == 0) {
-        const char *format = s->format == FORMAT_BY_ENDING ? NULL : formats[s->format];
-        progress_phase("writing", NULL);
-        if (mw_write_mesh(s->common.output, format, &w.file, &error) != MW_OK) end = fail_writing(&error);
-    }
+    if (end == 0) end = write_mesh(s, &w, named);
     if (end == 0) end = print_report(s, &w);
     release(&w);
     return end;

@@ -5,8 +5,8 @@
 points=$'0 0 0\n2 0 2\n2 2 4\n0 2 2\n1 1 2\n1 1 7\n'
 printf '%s' "$points" >p.xyz
 
-for format in off ply node vtk obj stl csv; do
-    run triangulate p.xyz -o "m.$format"; exits 0; says_nothing
+for format in off ply ply-ascii node vtk obj stl csv; do
+    run triangulate p.xyz --format "$format" -o "m.$format"; exits 0; says_nothing
     prints_line '^points +6$'; prints_line '^duplicates +1$'; prints_line '^triangles +4$'
     holds "m.$format is there" test -s "m.$format"
 done
@@ -19,6 +19,13 @@ for mesh in m.off m.ply m.node m.obj m.stl; do
     [[ $mesh == m.stl || $mesh == m.node ]] || prints $'x,y,z\n0.5,1,1.5\n1,1,2'
 done
 
+for format in off ply vtk obj stl csv; do
+    cp "m.$format" expected
+    run triangulate p.xyz -q -o "m.${format^^}" ; exits 0
+    holds "the ending tells the format $format" same_text "m.${format^^}" expected
+    rm "m.${format^^}"
+done
+
 # Streams: the mesh to standard output, the report to standard error.
 run_on "$points" triangulate - -o - --format off; exits 0
 prints_line '^OFF'; says '^triangles +4$'
@@ -28,7 +35,7 @@ run triangulate p.xyz -o - --format ply -q; exits 0; says_nothing
 run triangulate p.xyz -q -o q.off; exits 0; says_nothing; prints ''
 run triangulate p.xyz --json -o q.off; exits 0; holds "the report is JSON" is_json "$logs/out"
 prints_line '"duplicates": 1'
-run triangulate p.xyz -o m.xyzzy; refused 2 'm\.xyzzy'; absent m.xyzzy
+for name in m.xyzzy m m.ply.gz; do run triangulate absent.xyz -o "$name"; refused 2 "$name: .*--format"; absent "$name"; done
 run triangulate p.xyz --format off -o m.xyzzy; exits 0; holds "m.xyzzy is OFF" same_text m.xyzzy m.off
 
 # Columns and fields.
@@ -36,7 +43,7 @@ printf 'id,height,north,east,salt\n1,5,0,0,9\n2,5,0,1,8\n3,6,1,0,7\n' >table.csv
 run triangulate table.csv --columns east,north,height,salt -o t.ply; exits 0
 run info t.ply; prints_line '^heights +yes$'; prints_line '^height range +5 6$'; prints_line '^fields +salt$'
 run_on $'0 0\n1 0\n' sample t.ply - --field salt; exits 0; prints $'x,y,salt\n0,0,9\n1,0,8'
-run triangulate table.csv --columns east,north,depth -o u.ply; refused '[23]' 'depth'; absent u.ply
+run triangulate table.csv --columns east,north,depth -o u.ply; refused 3 "no column 'depth'"; absent u.ply
 
 # No triangulation: a clear message, code 3, and no file.
 none() { # none NAME PATTERN TEXT
