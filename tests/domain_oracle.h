@@ -1,5 +1,5 @@
 /* domain_oracle.h - what part of the plane a mesh covers, by brute force over pairs of triangles, exactly: coordinates
- * are small integers. */
+ * are small integers; a tiling is that of the mesh times 2^tiling_exponent. */
 #ifndef MW_TEST_DOMAIN_ORACLE_H
 #define MW_TEST_DOMAIN_ORACLE_H
 
@@ -9,6 +9,8 @@
 
 #include "domain/tiling.h"
 #include "meshes.h"
+
+static int tiling_exponent;
 
 typedef struct spot {
     int64_t x, y;
@@ -158,7 +160,8 @@ static int64_t hull_area2(spot *spots, size_t n)
 
 static spot tile_spot(const mw_tiling *tiling, uint32_t v)
 {
-    return (spot){(int64_t)tiling->point[v].x, (int64_t)tiling->point[v].y};
+    return (spot){(int64_t)ldexp(tiling->point[v].x, -tiling_exponent),
+                  (int64_t)ldexp(tiling->point[v].y, -tiling_exponent)};
 }
 
 /* What is wrong with a tile by itself and with its links; NULL if nothing is. */

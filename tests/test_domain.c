@@ -141,53 +141,99 @@ static void print_mesh(uint64_t seed, const arrays *a)
         print_message("t %u: %u %u %u\n", i, a->triangles[3 * i], a->triangles[3 * i + 1], a->triangles[3 * i + 2]);
 }
 
-/* --- tests --- */
+/* --- verdicts and tilings --- */
 
 typedef struct counts {
     uint32_t embeddings, cut, holes, full, refused;
 } counts;
 
-static const char *compare(const arrays *a, counts *tally)
+static const char *fault_of_description(const mw_mesh *mesh, const mw_tiling *tiling, bool embedding)
 {
-    mw_arrays view = arrays_view(a);
-    mw_check check;
-    if (mw_check_arrays(&view, &check, NULL) != MW_OK) return "check failed";
-    bool expected = oracle_embedding(a), found = check.embedding;
-    mw_check_release(&check);
-    if (expected != found) return expected ? "an embedding is refused" : "taken for an embedding";
-    mw_mesh *mesh;
+    mw_mesh_info info;
+    if (mw_mesh_describe(mesh, &info, NULL) != MW_OK) return "no description";
+    if (info.embedding != embedding) return "described otherwise";
+    if (!embedding) return info.holes || info.convex || info.delaunay ? "what is no embedding has holes" : NULL;
+    if (info.holes != tiling->hole_count) return "described with other holes";
+    if (info.convex != (tiling->tri_count > 0 && tiling->ghost_count == 0)) return "convexity described otherwise";
+    if (tiling->cut && info.delaunay) return "described as Delaunay";
+    return NULL;
+}
+
+/* The tiling of a mesh that is no embedding: refused, or with `any` the mesh's own arrays. */
+static const char *fault_of_refusal(const mw_mesh *mesh, const arrays *a)
+{
     mw_error error = {0};
     mw_tiling tiling;
+    if (mw__tiling_create(mesh, false, &tiling, &error) != MW_ERROR_INPUT) return "taken though it is no embedding";
+    if (error.message[0] == 0 || error.triangle < 0 || error.triangle >= a->triangle_count)
+        return "no place of an error";
+    if (mw__tiling_create(mesh, true, &tiling, &error) != MW_OK) return "refused with option any";
     const char *fault = NULL;
-    if (mw_mesh_create(&view, NULL, &mesh, &error) != MW_OK) return is_usable(a) ? "no mesh" : NULL;
-    mw_status status = mw__tiling_create(mesh, false, &tiling, &error);
-    if (!expected) {
-        tally->refused++;
-        if (status != MW_ERROR_INPUT || error.message[0] == 0) fault = "no error";
-    } else if (status != MW_OK) {
-        fault = "no tiling";
-    } else {
-        tally->embeddings++;
-        tally->cut += tiling.cut;
-        tally->holes += tiling.hole_count;
-        tally->full += tiling.ghost_count == 0;
-        fault = fault_of_tiling(a, &tiling);
-        if (!fault && mw__tiling_order(&tiling, NULL) == MW_OK) fault = fault_of_tiling(a, &tiling);
-        mw__tiling_release(&tiling);
-    }
-    mw_mesh_destroy(mesh);
+    spot c[3];
+    if (tiling.embedding || !tiling.borrowed || tiling.tri_count != a->triangle_count)
+        fault = "not the mesh's own tiles";
+    for (uint32_t t = 0; t < a->triangle_count && !fault; t++)
+        for (int k = 0; k < 3; k++)
+            if (corners(a, t, c) && tiling.owner[a->triangles[3 * t + (uint32_t)k]] > t)
+                fault = "a vertex has no owner";
+    mw__tiling_release(&tiling);
     return fault;
 }
 
-static void test_verdicts(void **state)
+static const char *fault_of_mesh(const mw_mesh *mesh, const arrays *a, bool embedding, counts *tally)
 {
-    (void)state;
+    mw_tiling tiling = {0};
+    if (!embedding) {
+        tally->refused++;
+        const char *fault = fault_of_refusal(mesh, a);
+        return fault ? fault : fault_of_description(mesh, NULL, false);
+    }
+    if (mw__tiling_create(mesh, false, &tiling, NULL) != MW_OK) return "no tiling";
+    tally->embeddings++;
+    tally->cut += tiling.cut;
+    tally->holes += tiling.hole_count;
+    tally->full += tiling.ghost_count == 0;
+    const char *fault = fault_of_tiling(a, &tiling);
+    if (!fault) fault = fault_of_description(mesh, &tiling, true);
+    if (!fault && mw__tiling_order(&tiling, NULL) != MW_OK) fault = "no order";
+    if (!fault) fault = fault_of_tiling(a, &tiling);
+    if (!fault && tiling.borrowed) fault = "still borrowed";
+    mw__tiling_release(&tiling);
+    return fault;
+}
+
+/* Hold check, tiling and description against the oracle; NULL if all is right. */
+static const char *compare(const arrays *a, counts *tally)
+{
+    mw_arrays view = arrays_view(a);
+    double *scaled = malloc((2 * (size_t)a->point_count + 1) * sizeof *scaled);
+    for (uint32_t i = 0; i < 2 * a->point_count; i++) scaled[i] = ldexp(a->points[i], tiling_exponent);
+    view.points = scaled;
+    mw_check check;
+    mw_mesh *mesh;
+    bool expected = oracle_embedding(a);
+    const char *fault = mw_check_arrays(&view, &check, NULL) == MW_OK ? NULL : "check failed";
+    if (!fault && check.embedding != expected) fault = expected ? "an embedding is refused" : "taken for an embedding";
+    if (!fault) mw_check_release(&check);
+    if (!fault && mw_mesh_create(&view, NULL, &mesh, NULL) == MW_OK) {
+        fault = fault_of_mesh(mesh, a, expected, tally);
+        mw_mesh_destroy(mesh);
+    } else if (!fault && is_usable(a)) {
+        fault = "no mesh";
+    }
+    free(scaled);
+    return fault;
+}
+
+/* Make and compare the meshes of a range of seeds, or only that of MW_TEST_SEED. */
+static counts compare_all(void (*make)(maker *), uint64_t first, uint64_t count)
+{
     counts tally = {0};
     const char *wanted = getenv("MW_TEST_SEED");
-    uint64_t first = wanted ? strtoull(wanted, NULL, 10) : 1, count = wanted ? 1 : 150000;
     for (uint64_t seed = first; seed < first + count; seed++) {
+        if (wanted && seed != strtoull(wanted, NULL, 10)) continue;
         maker m = {.random = mw__random_seed(seed, 0)};
-        make_mesh(&m);
+        make(&m);
         const char *fault = compare(&m.a, &tally);
         if (fault) {
             print_mesh(seed, &m.a);
@@ -197,13 +243,132 @@ static void test_verdicts(void **state)
     }
     print_message("%u embeddings, %u of them cut, %u full; %u holes; %u refused\n", tally.embeddings, tally.cut,
                   tally.full, tally.holes, tally.refused);
-    if (count > 1) assert_true(tally.embeddings > 20000 && tally.cut > 1000 && tally.refused > 20000);
+    return tally;
+}
+
+static void test_small(void **state)
+{
+    (void)state;
+    counts tally = compare_all(make_mesh, 1, 110000);
+    if (getenv("MW_TEST_SEED")) return;
+    assert_true(tally.embeddings > 20000 && tally.cut > 1000 && tally.refused > 20000 && tally.holes > 1000);
+}
+
+/* Coordinates so small, or so large, that products of them under- and overflow. */
+static void test_extreme(void **state)
+{
+    (void)state;
+    const int exponents[] = {-1074, -1000, 1000};
+    for (int i = 0; i < 3; i++) {
+        tiling_exponent = exponents[i];
+        compare_all(make_mesh, 1000000 + 1000 * (uint64_t)i, 1000);
+    }
+    tiling_exponent = 0;
+}
+
+/* A larger grid, moved about, with holes of all sizes, broken edges and coincident vertices. */
+static void make_large(maker *m)
+{
+    uint32_t n = 12 + below(m, 5);
+    arrays grid = grid_mesh(n, 0.6, &m->random);
+    m->a = arrays_make(4096, 4096);
+    for (uint32_t i = 0; i < grid.point_count; i++)
+        arrays_point(&m->a, 144 * rint(1000 * grid.points[2 * i]), 144 * rint(1000 * grid.points[2 * i + 1]));
+    for (uint32_t i = 0; i < grid.triangle_count; i++) {
+        const uint32_t *t = grid.triangles + 3 * (size_t)i;
+        arrays_triangle(&m->a, t[0], t[1], t[2]);
+    }
+    arrays_free(&grid);
+    punch(&m->a, below(m, 2) ? 0.1 : 0.5, &m->random);
+    for (uint32_t i = 0; i < 6; i++) break_edge(m, true);
+    if (below(m, 2)) split_vertices(m);
+    scramble(&m->a, 1, &m->random);
+}
+
+static void test_large(void **state)
+{
+    (void)state;
+    counts tally = compare_all(make_large, 2000000, 25);
+    if (!getenv("MW_TEST_SEED")) assert_true(tally.embeddings > 12 && tally.cut > 8 && tally.holes > 200);
+}
+
+/* --- single cases --- */
+
+static mw_tiling tile(const arrays *a, mw_mesh **mesh)
+{
+    mw_arrays view = arrays_view(a);
+    mw_tiling tiling;
+    assert_int_equal(mw_mesh_create(&view, NULL, mesh, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(*mesh, false, &tiling, NULL), MW_OK);
+    return tiling;
+}
+
+static void test_borrowed(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    arrays a = grid_mesh(5, 0, &random);
+    mw_mesh *mesh;
+    mw_tiling tiling = tile(&a, &mesh);
+    assert_true(tiling.borrowed && tiling.tri == mesh->tri && tiling.point == mesh->point);
+    assert_int_equal(mw__tiling_bytes(&tiling), 4 * a.point_count);
+    assert_int_equal(mw__tiling_order(&tiling, NULL), MW_OK);
+    assert_true(!tiling.borrowed && tiling.tri != mesh->tri);
+    assert_int_equal(mw__tiling_bytes(&tiling), 20 * a.point_count + 32 * a.triangle_count);
+    mw__tiling_release(&tiling);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
+static void test_nothing_to_tile(void **state)
+{
+    (void)state;
+    arrays a = arrays_make(6, 2);
+    mw_mesh *mesh;
+    for (int pass = 0; pass < 2; pass++) { /* no triangle, then a flat one only */
+        mw_tiling tiling = tile(&a, &mesh);
+        assert_true(tiling.embedding && tiling.tri_count == 0 && tiling.hole_count == 0);
+        assert_int_equal(mw__tiling_order(&tiling, NULL), MW_OK);
+        mw__tiling_release(&tiling);
+        mw_mesh_destroy(mesh);
+        for (int i = 0; i < 3; i++) arrays_point(&a, i, i);
+        arrays_triangle(&a, 0, 1, 2);
+    }
+    arrays_free(&a);
+}
+
+/* Two rings of different size and number: holes are numbered by the triangles beside them. */
+static void test_hole_numbers(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    arrays a = grid_mesh(7, 0, &random);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < a.triangle_count; i++) { /* holes of cells (5, 1), and (2, 3) with (2, 4) */
+        uint32_t x = i / 2 % 7, y = i / 14;
+        if ((x == 5 && y == 1) || (x == 2 && (y == 3 || y == 4))) continue;
+        memmove(a.triangles + 3 * kept++, a.triangles + 3 * i, 3 * sizeof *a.triangles);
+    }
+    a.triangle_count = kept;
+    mw_mesh *mesh;
+    mw_tiling tiling = tile(&a, &mesh);
+    assert_int_equal(tiling.hole_count, 2);
+    assert_int_equal(tiling.ghost_count, 6);
+    for (uint32_t t = 0; t < tiling.tri_count; t++) {
+        const mw_triangle *tri = &tiling.tri[t];
+        double x = tiling.point[tri->v[0]].x + tiling.point[tri->v[1]].x + tiling.point[tri->v[2]].x;
+        if (tri->user & MW_GHOST) assert_int_equal(tri->user & MW_USER_MASK, x > 12 ? 0 : 1);
+    }
+    mw__tiling_release(&tiling);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_borrowed), cmocka_unit_test(test_nothing_to_tile), cmocka_unit_test(test_hole_numbers),
+        cmocka_unit_test(test_small),    cmocka_unit_test(test_extreme),         cmocka_unit_test(test_large),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
