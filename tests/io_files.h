@@ -82,6 +82,7 @@ static inline void files_write_gzip(const char *name, bytes contents)
 static inline char *files_read(const char *name, size_t *size)
 {
     FILE *file = fopen(name, "rb");
+    if (size) *size = 0;
     if (!file) return NULL;
     size_t room = 1 << 16, used = 0, got;
     char *all = malloc(room + 1);
