@@ -70,7 +70,7 @@ static void warn_if_void(const query *q, const char *path)
 int query_open(query *q, const query_settings *settings, const char *const *operands, bool border)
 {
     mw_error error;
-    *q = (query){.settings = settings};
+    *q = (query){.settings = settings, .begin = tally_clock()};
     int end = files_check(settings->common.output, operands, 2);
     if (end) return end;
     const char *path = operands[0];

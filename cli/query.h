@@ -22,6 +22,7 @@ typedef struct query {
     mw_mesh_file file;
     mw_mesh *mesh;
     mw_locator *locator;
+    double begin; /* seconds, tally_clock */
 } query;
 
 /* Write the row of one point, with its newline; false: the point has no answer. `self` is the command's own. Called by

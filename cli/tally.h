@@ -9,7 +9,7 @@ typedef struct tally {
     uint64_t unanswered; /* rows without an answer */
     uint64_t blocks;
     mw_counters counters;
-    double begin, locating; /* seconds: when it began; the locating alone */
+    double begin, locating; /* seconds: when the mesh was ready; the locating alone */
 } tally;
 
 /* Seconds of a clock that only goes forward. */
