@@ -46,6 +46,7 @@ static mw_status fill_tiling(const mw_survey *survey, bool any, mw_tiling *tilin
     if (!survey->embedding && !any) return refuse(survey, error);
     if (survey->embedding && !survey->convex) return mw__complete(survey, tiling, error);
     borrow(survey->mesh, tiling);
+    if (!survey->embedding) tiling->defect = survey->defects.list[0];
     return MW_OK;
 }
 

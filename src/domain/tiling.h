@@ -19,10 +19,11 @@ typedef struct mw_tiling {
     mw_triangle *tri;
     uint32_t *owner; /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned */
     uint32_t point_count, tri_count, ghost_count, hole_count;
-    bool borrowed;  /* point and tri belong to the mesh               */
-    bool cut;       /* some of the user's triangles are several tiles */
-    bool embedding; /* false: the mesh is no embedding (option any); the tiles are the mesh's own triangles, borrowed,
+    bool borrowed;    /* point and tri belong to the mesh               */
+    bool cut;         /* some of the user's triangles are several tiles */
+    bool embedding;   /* false: the mesh is no embedding (option any); the tiles are the mesh's own triangles, borrowed,
                        links are MW_NONE on any border, and nothing above is promised */
+    mw_defect defect; /* the first one, where the mesh is no embedding */
 } mw_tiling;
 
 /* Tile the hull of `mesh`. Where the mesh is no embedding: with `any`, see mw_tiling.embedding; otherwise

@@ -32,13 +32,12 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
     if (options->layout == 1 || (options->layout == 0 && scattered(tiling))) status = mw__tiling_order(tiling, error);
     if (status) return status;
     if (!tiling->embedding) {
-        mw_error first = {.message = "the mesh is no embedding"};
-        mw_tiling unused;
-        if (mw__tiling_create(locator->mesh, false, &unused, &first) == MW_OK) mw__tiling_release(&unused);
+        char first[200];
+        mw_defect_describe(&tiling->defect, first, sizeof first);
         snprintf(locator->promise, sizeof locator->promise,
                  "the mesh is no embedding (%s): a point may be reported outside although a triangle contains it, and "
                  "of several triangles that contain it any may be reported",
-                 first.message);
+                 first);
     }
     if (options->border) {
         if (!mw__border_create(&locator->border, locator->mesh, tiling)) return mw__fail_memory(error);
