@@ -1,0 +1,112 @@
+/* fuzz_locate.c - points from the input are triangulated, some triangles dropped, some turned round; then every walk from
+ * every start has to name the lowest triangle that contains each query, as a look at all triangles does. Coordinates are
+ * small multiples of a power of two, so that points meet edges, vertices and each other often. */
+#include <meshwalk/meshwalk.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST = 24 };
+
+typedef struct input {
+    const uint8_t *byte;
+    size_t left;
+} input;
+
+static int next(input *in)
+{
+    if (in->left == 0) return 0;
+    in->left--;
+    return *in->byte++;
+}
+
+static double coordinate(input *in, int finer)
+{
+    int value = next(in);
+    return finer && value & 1 ? (value >> 1) / 8.0
+                              : (value >> 4) * 1.0; /* vertices on 16 x 16 places, queries anywhere */
+}
+
+static int contains(const mw_mesh *mesh, uint32_t t, const double q[2])
+{
+    uint32_t v[3];
+    double p[3][2];
+    mw_mesh_triangle(mesh, t, v);
+    for (int k = 0; k < 3; k++) mw_mesh_vertex(mesh, v[k], p[k]);
+    double turn = mw_orient2d(p[0], p[1], p[2]);
+    for (int k = 0; k < 3; k++) {
+        double side = mw_orient2d(p[k], p[(k + 1) % 3], q);
+        if (turn > 0 ? side < 0 : side > 0) return 0;
+    }
+    return turn != 0;
+}
+
+static uint32_t by_force(const mw_mesh *mesh, const double q[2])
+{
+    uint32_t n = mw_mesh_triangle_count(mesh);
+    for (uint32_t t = 0; t < n; t++)
+        if (contains(mesh, t, q)) return t;
+    return MW_NONE;
+}
+
+/* The triangulation less some of its triangles, in the input's order of corners. */
+static mw_mesh *damaged(input *in, const mw_mesh *whole)
+{
+    uint32_t n = mw_mesh_triangle_count(whole), points = mw_mesh_vertex_count(whole), kept = 0;
+    uint32_t triangles[6 * MOST];
+    double xy[2 * MOST];
+    for (uint32_t v = 0; v < points; v++) mw_mesh_vertex(whole, v, xy + 2 * (size_t)v);
+    for (uint32_t t = 0; t < n; t++) {
+        int what = next(in);
+        if ((what & 3) == 3 && n - t + kept > 1) continue;
+        uint32_t v[3], *to = triangles + 3 * (size_t)kept++;
+        mw_mesh_triangle(whole, t, v);
+        for (uint32_t k = 0; k < 3; k++) to[k] = v[((uint32_t)what / 8 + (what & 4 ? 3 - k : k)) % 3];
+    }
+    mw_arrays arrays = {.points = xy, .point_count = points, .triangles = triangles, .triangle_count = kept};
+    mw_mesh *mesh;
+    if (mw_mesh_create(&arrays, NULL, &mesh, NULL)) abort();
+    return mesh;
+}
+
+static void query(const mw_mesh *mesh, const mw_locator *locator, const double q[2], int layout)
+{
+    uint32_t want = by_force(mesh, q);
+    for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
+        for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
+            mw_query_options options = {.walk = (mw_walk_kind)walk,
+                                        .start = (mw_start_kind)start,
+                                        .arithmetic = (mw_arithmetic)((walk ^ start ^ layout) & 1),
+                                        .seed = 7};
+            mw_cursor cursor;
+            if (mw_cursor_init(&cursor, locator, &options, NULL)) abort();
+            mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
+            if (at.triangle != want) abort();
+        }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    input in = {data, size};
+    double points[2 * MOST];
+    size_t n = 3 + (size_t)next(&in) % (MOST - 3);
+    double scale = ldexp(1, (next(&in) & 7) * 90 - 360), offset = next(&in) & 1 ? 4096 : 0;
+    for (size_t i = 0; i < 2 * n; i++) points[i] = (coordinate(&in, 0) + offset) * scale;
+    mw_mesh *whole;
+    if (mw_delaunay(points, n, 2, NULL, NULL, &whole, NULL)) return 0; /* all on one line */
+    mw_mesh *mesh = damaged(&in, whole);
+    mw_locator_options prepare = {.layout = 1 + (next(&in) & 1)};
+    mw_locator *locator;
+    if (mw_locator_create(mesh, &prepare, &locator, NULL)) abort(); /* a part of an embedding is one */
+    for (int i = 0; i < 8; i++) {
+        const double q[2] = {(coordinate(&in, 1) + offset) * scale, (coordinate(&in, 1) + offset) * scale};
+        query(mesh, locator, q, prepare.layout);
+    }
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    mw_mesh_destroy(whole);
+    return 0;
+}
