@@ -44,9 +44,9 @@ static mw_mesh *with_hole(const mw_mesh *whole, const double *points)
         }
         kept += near < 3;
     }
-    mw_arrays arrays = {.points = points, .point_count = POINTS, .triangles = triangles, .triangle_count = kept};
+    mw_arrays view = {.points = points, .point_count = POINTS, .triangles = triangles, .triangle_count = kept};
     mw_mesh *mesh;
-    assert_int_equal(mw_mesh_create(&arrays, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     free(triangles);
     return mesh;
 }
