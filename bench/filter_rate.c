@@ -2,8 +2,8 @@
  *
  *     filter_rate [FILE...]     points as text, "x y ..." or "x,y,...", a header is skipped; "-" is standard input
  *
- * Without files it makes points: uniform ones, the same rounded to centimetres in UTM, and a regular grid. The points are
- * triangulated, and the predicates called as an insertion and a walk would:
+ * Without files it makes points: uniform ones, the same rounded to centimetres in UTM, and a regular grid. The points
+ * are triangulated, and the predicates called as an insertion and a walk would:
  *     incircle  the vertex across each inner edge against the circle of the triangle
  *     far       orient2d of an edge and a random point of the extent
  *     near      orient2d of an edge and the vertex across the next edge

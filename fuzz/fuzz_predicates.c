@@ -1,5 +1,5 @@
-/* The predicates against GMP on any bytes. The first byte says how to read the rest: as doubles, or as small integers times
- * a power of two, each moved by some units in the last place, which are often degenerate. */
+/* The predicates against GMP on any bytes. The first byte says how to read the rest: as doubles, or as small integers
+ * times a power of two, each moved by some units in the last place, which are often degenerate. */
 #include "predicates/predicates.h"
 
 #include "../tests/predicate_oracle.h"

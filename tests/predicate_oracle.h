@@ -1,7 +1,8 @@
 /* predicate_oracle.h - the predicates by brute force in GMP integers, for the tests and the fuzz target.
  *
- * Coordinates become integers times 2^base; each function returns the exponent of two that its result is to be multiplied
- * with. Not thread-safe: the numbers are kept between calls, because setting them up would take longer than using them. */
+ * Coordinates become integers times 2^base; each function returns the exponent of two that its result is to be
+ * multiplied with. Not thread-safe: the numbers are kept between calls, because setting them up would take longer
+ * than using them. */
 #ifndef MW_TESTS_PREDICATE_ORACLE_H
 #define MW_TESTS_PREDICATE_ORACLE_H
 
@@ -88,7 +89,8 @@ static long oracle_orient3d(oracle *o, const double *p)
     return 3 * base;
 }
 
-/* -x (y bar z - z bar y) + ... of the rows b - a, c - a, d - a lifted: a is taken for the origin, unlike in the library. */
+/* -x (y bar z - z bar y) + ... of the rows b - a, c - a, d - a lifted: a is taken for the origin, unlike in the
+ * library. */
 static long oracle_incircle(oracle *o, const double *p)
 {
     long base = oracle_load(o, p, 8);
@@ -168,7 +170,8 @@ static int oracle_compare_distance_to(oracle *o, const double *p)
 }
 
 /* Does value stand for the exact number result * 2^exponent: the same sign, and a relative error of at most 2^-50 where
- * the number is within the normal doubles? (Beyond them: at least DBL_MAX (1 - 2^-50), and at most DBL_MIN (1 + 2^-50).) */
+ * the number is within the normal doubles? (Beyond them: at least DBL_MAX (1 - 2^-50), and at most DBL_MIN (1 +
+ * 2^-50).) */
 static bool oracle_agrees(oracle *o, long exponent, double value)
 {
     if (oracle_sign(mpz_sgn(o->result)) != (value > 0) - (value < 0)) return false;

@@ -6,242 +6,13 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "base/random.h"
+#include "predicate_cases.h"
 #include "predicate_oracle.h"
-#include "predicates/big.h"
-#include "predicates/expansion.h"
+#include "predicates/predicates.h"
 
 #include <fenv.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-static uint64_t state;
 static oracle truth;
-
-/* ---- random numbers ---- */
-
-static uint32_t below(uint32_t n)
-{
-    return mw__random_below(&state, n);
-}
-
-static double uniform(void) /* in [-1, 1) */
-{
-    return (double)(int64_t)mw__random(&state) * 0x1p-63;
-}
-
-static double any_finite(void)
-{
-    double v;
-    do {
-        uint64_t bits = mw__random(&state);
-        memcpy(&v, &bits, sizeof v);
-    } while (!isfinite(v));
-    return v;
-}
-
-static double from_pool(void)
-{
-    static const double pool[] = {0,
-                                  -0.0,
-                                  DBL_TRUE_MIN,
-                                  3 * DBL_TRUE_MIN,
-                                  DBL_MIN,
-                                  DBL_MIN - DBL_TRUE_MIN,
-                                  1e-300,
-                                  1e-160,
-                                  1e-100,
-                                  0.1,
-                                  1,
-                                  1 + DBL_EPSILON,
-                                  1e15,
-                                  1e100,
-                                  1e153,
-                                  1e160,
-                                  1e300,
-                                  1.7e308,
-                                  DBL_MAX,
-                                  DBL_MAX,
-                                  DBL_MAX / 2,
-                                  DBL_MAX * (1 - 1e-9)};
-    double v = pool[below(sizeof pool / sizeof pool[0])];
-    return below(2) ? v : -v;
-}
-
-static double clamped(double v)
-{
-    return fmax(-DBL_MAX, fmin(DBL_MAX, v));
-}
-
-/* ---- generators: n values of points of `dimension` coordinates ---- */
-
-static void random_uniform(double *p, int n, int dimension)
-{
-    (void)dimension;
-    for (int i = 0; i < n; i++) p[i] = uniform();
-}
-
-static void random_exponents(double *p, int n, int dimension)
-{
-    (void)dimension;
-    int spread = 1 << below(10);
-    for (int i = 0; i < n; i++) p[i] = ldexp(uniform(), (int)below((uint32_t)spread) - spread / 2);
-}
-
-static void random_bits(double *p, int n, int dimension)
-{
-    (void)dimension;
-    for (int i = 0; i < n; i++) p[i] = below(3) ? any_finite() : from_pool();
-}
-
-static void extremes(double *p, int n, int dimension)
-{
-    (void)dimension;
-    for (int i = 0; i < n; i++) p[i] = from_pool();
-}
-
-/* Integers on a small grid: many exact zeros. */
-static void grid(double *p, int n, int dimension)
-{
-    uint32_t size = 2 + below(9);
-    double offset[3], step = below(2) ? 1 : 30;
-    for (int k = 0; k < 3; k++) offset[k] = below(2) ? 0 : 500000 + 100 * (double)below(40000);
-    for (int i = 0; i < n; i++) p[i] = offset[i % dimension] + step * (double)below(size);
-}
-
-/* The last point is an affine combination of the others, rounded: collinear in the plane, coplanar in space. */
-static void dependent(double *p, int n, int dimension)
-{
-    double offset = below(3) ? 0 : below(2) ? 5e6 : 1e15, size = below(2) ? 1 : 1000;
-    int count = n / dimension;
-    for (int i = 0; i < n; i++) p[i] = offset + size * uniform();
-    for (int i = dimension; i < count; i++) { /* point i depends on points 0 to dimension - 1 */
-        double weight[3] = {0}, rest = 1;
-        for (int k = 1; k < dimension; k++) rest -= weight[k] = 3 * uniform();
-        weight[0] = rest;
-        for (int k = 0; k < dimension; k++) {
-            p[i * dimension + k] = 0;
-            for (int j = 0; j < dimension; j++) p[i * dimension + k] += weight[j] * p[j * dimension + k];
-        }
-    }
-}
-
-/* The same, exactly, on integers. */
-static void exactly_dependent(double *p, int n, int dimension)
-{
-    double direction[2][3], origin[3];
-    for (int k = 0; k < dimension; k++) {
-        origin[k] = (double)(int32_t)mw__random(&state);
-        for (int j = 0; j < 2; j++) direction[j][k] = (double)below(1 << 20);
-    }
-    for (int i = 0; i < n; i += dimension) {
-        double s = (double)below(1000), t = dimension == 3 ? (double)below(1000) : 0;
-        for (int k = 0; k < dimension; k++) p[i + k] = origin[k] + s * direction[0][k] + t * direction[1][k];
-    }
-}
-
-/* Integer points on the circle of radius 65. */
-static void cocircular(double *p, int n, int dimension)
-{
-    static const int on[9][2] = {{65, 0},  {16, 63}, {33, 56}, {25, 60}, {39, 52},
-                                 {63, 16}, {56, 33}, {60, 25}, {52, 39}};
-    double centre = below(2) ? 0 : 1000 * (double)(int32_t)mw__random(&state), radius = below(2) ? 1 : 0x1p-20;
-    for (int i = 0; i + 1 < n; i += dimension) {
-        const int *v = on[below(9)];
-        p[i] = centre + radius * (below(2) ? v[0] : -v[0]);
-        p[i + 1] = centre + radius * (below(2) ? v[1] : -v[1]);
-    }
-}
-
-static void nearly_cocircular(double *p, int n, int dimension)
-{
-    double centre = below(3) ? 0 : below(2) ? 5e6 : 1e15, radius = below(2) ? 1 : 1000;
-    for (int i = 0; i + 1 < n; i += dimension) {
-        double angle = 3.2 * uniform();
-        p[i] = centre + radius * cos(angle);
-        p[i + 1] = centre + radius * sin(angle);
-    }
-}
-
-/* As in the classic picture of orient2d: points of a grid of 2^-53 beside a line through two points far away. */
-static void beside_line(double *p, int n, int dimension)
-{
-    for (int i = 0; i < n; i++) p[i] = i < dimension ? 0.5 + (double)below(256) * 0x1p-53 : i < 2 * dimension ? 12 : 24;
-    for (int i = 3 * dimension; i < n; i++) p[i] = below(2) ? 12 : 6;
-}
-
-/* Differences and products just above a power of two, where rounding errors are largest, and a determinant of some units
- * in the last place: nothing is wasted in the bounds of the filters. */
-static void largest_errors(double *p, int n, int dimension)
-{
-    static const double corner[4][3] = {{1, 1, 1}, {1, -1, 1}, {2, 0, 1}, {0, 0, 0}};
-    double noise = ldexp(1, -46 - (int)below(10));
-    int points = n / dimension, last = points - 1;
-    for (int i = 0; i < points; i++) {
-        const double *v = corner[i == last ? 3 : dimension == 2 && last == 2 ? 0 : i % 3];
-        for (int k = 0; k < dimension; k++) p[i * dimension + k] = v[k] + noise * uniform();
-    }
-}
-
-typedef void generator(double *p, int n, int dimension);
-static generator *const generators[] = {random_uniform,
-                                        random_exponents,
-                                        random_exponents,
-                                        random_bits,
-                                        extremes,
-                                        grid,
-                                        grid,
-                                        dependent,
-                                        dependent,
-                                        dependent,
-                                        dependent,
-                                        dependent,
-                                        exactly_dependent,
-                                        exactly_dependent,
-                                        exactly_dependent,
-                                        nearly_cocircular,
-                                        nearly_cocircular,
-                                        cocircular,
-                                        cocircular,
-                                        beside_line,
-                                        largest_errors};
-
-/* Move some coordinates by some units in the last place. */
-static void perturb(double *p, int n)
-{
-    uint32_t most = 1 + below(4);
-    for (int i = 0; i < n; i++) {
-        double target = below(2) ? DBL_MAX : -DBL_MAX;
-        for (uint32_t k = below(most); k > 0; k--) p[i] = nextafter(p[i], target);
-    }
-}
-
-/* To anywhere between the smallest and the largest doubles; most often to the ends of the range of expansions, which
- * are 2^-485 to 2^509 (orient2d), 2^-306 to 2^339 (orient3d), 2^-216 to 2^253 (incircle). */
-static void rescale(double *p, int n)
-{
-    static const int exponents[] = {-485, 509, -306, 339, -216, 253};
-    int exponent = below(2) ? exponents[below(6)] + (int)below(5) - 2 : (int)below(2100) - 1050;
-    for (int i = 0; i < n; i++) p[i] = clamped(ldexp(p[i], exponent));
-}
-
-static void generate(double *p, int n, int dimension)
-{
-    generators[below(sizeof generators / sizeof generators[0])](p, n, dimension);
-    if (below(2)) perturb(p, n);
-    if (below(4) == 0) rescale(p, n);
-    if (below(40) == 0) p[below((uint32_t)n)] = from_pool();
-    if (below(16) == 0) p[below((uint32_t)n)] = below(2) ? -0.0 : 0.0;
-}
-
-/* ---- comparing ---- */
-
-static long case_count(long n)
-{
-    const char *text = getenv("MW_TEST_LONG");
-    return text && strcmp(text, "0") != 0 ? 100 * n : n;
-}
 
 static void fail_case(const char *what, const double *p, int n, double value)
 {
@@ -411,8 +182,8 @@ static double error_share(double det, double bound, long exponent)
     return error / (bound + 0x1p-53 * fabs(det));
 }
 
-/* The bounds of the filters hold for every determinant, not only where a sign is at stake; and the worst case tried here,
- * differences and products just above a power of two, comes near enough to tell if one were too small. */
+/* The bounds of the filters hold for every determinant, not only where a sign is at stake; and the worst case tried
+ * here, differences and products just above a power of two, comes near enough to tell if one were too small. */
 static void test_bounds(void **unused)
 {
     (void)unused;
@@ -541,7 +312,8 @@ static mw_point reflected(mw_point p, int how) /* symmetries of the square: dist
     return p;
 }
 
-/* p: q, a, b, c, d. Half of the cases: cd is ab, mirrored in q, or has the same nearest vertex, or lies on the same line. */
+/* p: q, a, b, c, d. Half of the cases: cd is ab, mirrored in q, or has the same nearest vertex, or lies on the same
+ * line. */
 static void generate_distances(double p[10])
 {
     generate(p, 10, 2);
@@ -604,134 +376,10 @@ static void test_compare_distance_to(void **unused)
     }
 }
 
-/* ---- the arithmetic itself ---- */
-
-/* The number of an expansion, times 2^400, for parts whose lowest bits are above 2^-400. */
-static void exact_value(mpz_t r, mw_expansion e)
-{
-    mpz_t part;
-    mpz_init(part);
-    mpz_set_ui(r, 0);
-    for (int i = 0; i < e.n; i++) {
-        mpz_set_d(part, ldexp(e.part[i], 400));
-        mpz_add(r, r, part);
-    }
-    mpz_clear(part);
-}
-
-/* Each part is nonzero and below the lowest bit of the next. */
-static void check_form(mw_expansion e)
-{
-    for (int i = 0; i < e.n; i++) {
-        assert_true(e.part[i] != 0);
-        if (i == 0) continue;
-        int exponent;
-        uint64_t mantissa = (uint64_t)fabs(ldexp(frexp(e.part[i], &exponent), 53));
-        assert_true(fabs(e.part[i - 1]) < ldexp(1, exponent - 53 + __builtin_ctzll(mantissa)));
-    }
-}
-
-static double short_number(void) /* few bits, so that parts touch each other and cancel */
-{
-    return ldexp((double)below(8) - 4, (int)below(120) - 60) + (below(2) ? ldexp((double)below(4), (int)below(50)) : 0);
-}
-
-static void test_expansions(void **unused)
-{
-    (void)unused;
-    mpz_t x, y, z;
-    mpz_inits(x, y, z, NULL);
-    for (long i = case_count(50000); i > 0; i--) {
-        double room[600];
-        mw_arena arena = {room};
-        mw_expansion e[4], cross[2];
-        for (int k = 0; k < 4; k++) {
-            double a = below(2) ? uniform() : short_number(), b = below(2) ? uniform() : short_number();
-            e[k] = mw__expansion_difference(&arena, a, b);
-            exact_value(x, e[k]);
-            mpz_set_d(y, ldexp(a, 400));
-            mpz_set_d(z, ldexp(b, 400));
-            mpz_sub(y, y, z);
-            assert_int_equal(mpz_cmp(x, y), 0);
-        }
-        for (int k = 0; k < 2; k++) cross[k] = mw__expansion_cross(&arena, e[k], e[1], e[2 - k], e[3]);
-        mw_expansion sum = mw__expansion_add(&arena, cross[0], cross[1]);
-        mw_expansion difference = mw__expansion_subtract(&arena, cross[0], cross[1]);
-        mw_expansion product = mw__expansion_multiply(&arena, e[0], cross[1]);
-        check_form(sum);
-        check_form(difference);
-        check_form(product);
-        exact_value(x, cross[0]);
-        exact_value(y, cross[1]);
-        exact_value(z, sum);
-        mpz_add(x, x, y); /* x: the sum */
-        assert_int_equal(mpz_cmp(x, z), 0);
-        mpz_submul_ui(x, y, 2); /* x: the difference */
-        exact_value(z, difference);
-        assert_int_equal(mpz_cmp(x, z), 0);
-        exact_value(x, e[0]);
-        mpz_mul(x, x, y); /* times 2^800 */
-        exact_value(z, product);
-        mpz_mul_2exp(z, z, 400);
-        assert_int_equal(mpz_cmp(x, z), 0);
-    }
-    mpz_clears(x, y, z, NULL);
-}
-
-static void import(mpz_t r, const mw_big *a)
-{
-    mpz_import(r, (size_t)a->n, -1, sizeof a->limb[0], 0, 0, a->limb);
-    if (a->sign < 0) mpz_neg(r, r);
-    assert_int_equal(mpz_sgn(r), a->sign);
-    assert_true(a->n == 0 || a->limb[a->n - 1] != 0);
-}
-
-/* Limbs of all ones and of zeros, so that carries and borrows run through. */
-static void random_big(mw_big *a)
-{
-    a->n = (int)below(8);
-    a->sign = a->n == 0 ? 0 : below(2) ? 1 : -1;
-    for (int i = 0; i < a->n; i++) {
-        uint64_t choice[4] = {0, UINT64_MAX, UINT64_MAX - 1, mw__random(&state)};
-        a->limb[i] = choice[below(4)];
-    }
-    if (a->n > 0 && a->limb[a->n - 1] == 0) a->limb[a->n - 1] = 1;
-}
-
-static void test_integers(void **unused)
-{
-    (void)unused;
-    mpz_t x, y, z;
-    mpz_inits(x, y, z, NULL);
-    for (long i = case_count(100000); i > 0; i--) {
-        mw_big a, b, r;
-        random_big(&a);
-        random_big(&b);
-        if (below(8) == 0) memcpy(&b, &a, sizeof b), b.sign = below(2) ? a.sign : -a.sign;
-        import(x, &a);
-        import(y, &b);
-        mw__big_multiply(&r, &a, &b);
-        import(z, &r);
-        mpz_submul(z, x, y);
-        assert_int_equal(mpz_sgn(z), 0);
-        mw__big_subtract(&r, &a, &b);
-        import(z, &r);
-        mpz_add(z, z, y);
-        assert_int_equal(mpz_cmp(z, x), 0);
-        mw__big_add(&a, &a, &b);
-        import(z, &a);
-        mpz_sub(z, z, x);
-        assert_int_equal(mpz_cmp(z, y), 0);
-    }
-    mpz_clears(x, y, z, NULL);
-}
-
 static int setup(void **unused)
 {
     (void)unused;
-    const char *text = getenv("MW_TEST_SEED");
-    state = text ? strtoull(text, NULL, 10) : 1;
-    fprintf(stderr, "seed %llu\n", (unsigned long long)state);
+    seed_cases();
     oracle_init(&truth);
     return 0;
 }
@@ -747,7 +395,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_environment),      cmocka_unit_test(test_known_signs),
-        cmocka_unit_test(test_expansions),       cmocka_unit_test(test_integers),
         cmocka_unit_test(test_orient2d),         cmocka_unit_test(test_dot2d),
         cmocka_unit_test(test_orient3d),         cmocka_unit_test(test_incircle),
         cmocka_unit_test(test_bounds),           cmocka_unit_test(test_classic_picture),

@@ -1,9 +1,10 @@
 /* distance.c - which of two segments is nearer to a point, exactly.
  *
- *      q            The nearest point of a segment ab is a, b, or the foot of the perpendicular; dot products tell which
- *      :  \         without error. The squared distance is |q - v|^2 to a vertex v, orient2d(a, b, q)^2 / |b - a|^2 to
- *   a--:-----b      the line: a quotient of two polynomials. Intervals in doubles compare nearly all of them, big
- *                   integers the others, by cross-multiplication (of degree 6 at most: expansions would get long). */
+ *      q            The nearest point of a segment ab is a, b, or the foot of the perpendicular; dot products tell
+ *      :  \         which without error. The squared distance is |q - v|^2 to a vertex v, and to the line it is
+ *   a--:-----b      orient2d(a, b, q)^2 / |b - a|^2, a quotient of two polynomials. Intervals in doubles compare nearly
+ *                   all of them, big integers the others, by cross-multiplication (of degree 6 at most: expansions
+ *                   would get long). */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
@@ -30,11 +31,11 @@ static feature nearest_feature(mw_point q, mw_point a, mw_point b)
 }
 
 /* Rounding errors, u = 2^-53. The square of a length, two differences squared and added, is off by a factor of at most
- * (1 + u)^4. |orient2d| lies between area - bound and area + bound (predicates.h: the bound covers the error even after a
- * factor 1 - u), each off by (1 + u)^2; squared, and divided by the square of a length, that makes (1 + u)^10. WIDEN =
- * 2^4 u covers it together with its own rounding. FLOOR covers what underflows: an end that decides a comparison is
- * above FLOOR, and so what it was made of is normal as long as squares of lengths are at least SHORT: 2^-800 * 2^-200 is
- * well above 2^-1022. */
+ * (1 + u)^4. |orient2d| lies between area - bound and area + bound (predicates.h: the bound covers the error even
+ * after a factor 1 - u), each off by (1 + u)^2; squared, and divided by the square of a length, that makes
+ * (1 + u)^10. WIDEN = 2^4 u covers it together with its own rounding. FLOOR covers what underflows: an end that decides
+ * a comparison is above FLOOR, and so what it was made of is normal as long as squares of lengths are at least SHORT:
+ * 2^-800 * 2^-200 is well above 2^-1022. */
 #define WIDEN 0x1p-49
 #define FLOOR 0x1p-800
 #define SHORT 0x1p-200

@@ -1,9 +1,9 @@
 /* expansion.h - exact sums and products of doubles [Shewchuk 1997, sec. 2]. Private.
  *
- * An expansion is a number written as an unevaluated sum of doubles that do not overlap, in order of increasing magnitude
- * and without zeros; the number zero has no parts. Its last part has its sign. Rounding to nearest, ties to even, is
- * taken for granted, as are results that neither overflow nor need bits below 2^-1074: the predicates check the range
- * of their arguments first (mw__within).
+ * An expansion is a number written as an unevaluated sum of doubles that do not overlap, in order of increasing
+ * magnitude and without zeros; the number zero has no parts. Its last part has its sign. Rounding to nearest, ties to
+ * even, is taken for granted, as are results that neither overflow nor need bits below 2^-1074: the predicates check
+ * the range of their arguments first (mw__within).
  *
  * Results are put one after the other into an arena, an array of the caller's on the stack; each function says how
  * many doubles it may need there. */

@@ -27,10 +27,10 @@ static bool to_integer(mw_expansion x, double scale, int64_t *n)
     return (double)*n == scaled;
 }
 
-/* A short cut for points of a grid, of which many lie on one circle, and for points that lie close together far from the
- * origin: all differences are integers below 2^41 times one power of two. Then lifts and minors are below 2^83; each lift
- * is cut into high * 2^42 + low, and the sums of high * minor and of low * minor stay below 3 * 2^125. Two (grid) to eight
- * times as fast as expansions. False for other points. */
+/* A short cut for points of a grid, of which many lie on one circle, and for points that lie close together far from
+ * the origin: all differences are integers below 2^41 times one power of two. Then lifts and minors are below 2^83;
+ * each lift is cut into high * 2^42 + low, and the sums of high * minor and of low * minor stay below 3 * 2^125. Two
+ * (grid) to eight times as fast as expansions. False for other points. */
 static bool on_grid(const row p[3], double *det)
 {
     double largest = 0;

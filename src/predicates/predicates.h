@@ -5,10 +5,10 @@
  * coordinate is so large or so small that expansions could over- or underflow. So the signs are right for all finite
  * doubles. With a coordinate that is NaN or infinite the result is 0.
  *
- * How the bounds are found. Let u = 2^-53. A sum or difference of doubles is fl(x) = x(1 + d), and also x = fl(x)(1 + d),
- * with |d| <= u; so is a product, up to 2^-1075 where it underflows. Rounding is monotone: the bound, which is computed
- * from the absolute values in the same order, is never less than the value itself rounded, so a value that overflows
- * comes with an infinite bound and is not trusted. */
+ * How the bounds are found. Let u = 2^-53. A sum or difference x of doubles is rounded to fl(x) = x(1 + d), and also
+ * x = fl(x)(1 + e), with |d|, |e| <= u; so is a product, up to 2^-1075 where it underflows. A bound is proportional to a
+ * permanent: the determinant with absolute values for all products, computed in the same order. Rounding is monotone, so
+ * the permanent is never less than the determinant: one that overflows has an infinite bound and is not trusted. */
 #ifndef MW_SRC_PREDICATES_H
 #define MW_SRC_PREDICATES_H
 
@@ -26,8 +26,8 @@ typedef struct mw_point {
     double x, y;
 } mw_point;
 
-/* The exact stages, for when a filter could not decide. Their value has a relative error below 2^-50; a determinant above
- * the doubles gives +-DBL_MAX, one below the normal doubles something nonzero of its sign, at most DBL_MIN. */
+/* The exact stages, for when a filter could not decide. Their value has a relative error below 2^-50; a determinant
+ * above the doubles gives +-DBL_MAX, one below the normal doubles something nonzero of its sign, at most DBL_MIN. */
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c);
 double mw__dot2d_exact(mw_point a, mw_point b, mw_point c);
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d);
@@ -38,8 +38,9 @@ double mw__orient3d_exact(const double a[3], const double b[3], const double c[3
 
 /* Bound for det = left - right, where left and right are products of two differences.
  * Three roundings each: the true values are off left and right by at most (3u + 3u^2 + u^3)(|left| + |right|), and
- * |left| + |right| <= sum (1 + u), |left - right| >= |det| (1 - u): the sign is right when |det| > (3u + 9u^2 + ...) sum.
- * Computing the bound rounds twice, which leaves (3u + 16u^2)(1 - u)^2 > 3u + 9u^2 + .... Underflow: 2 * 2^-1075. */
+ * |left| + |right| <= sum (1 + u), |left - right| >= |det| (1 - u): the sign is right when
+ * |det| > (3u + 9u^2 + ...) sum. Computing the bound rounds twice, which leaves (3u + 16u^2)(1 - u)^2 > 3u + 9u^2 + ....
+ * Underflow: 2 * 2^-1075. */
 #define MW_ORIENT2D_ERROR ((3.0 + 16.0 * 0x1p-53) * 0x1p-53)
 static MW_INLINE double mw__orient2d_bound(double left, double right)
 {
@@ -75,13 +76,13 @@ static MW_INLINE double mw__dot2d(mw_point a, mw_point b, mw_point c)
     return MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right)) ? det : mw__dot2d_exact(a, b, c);
 }
 
-/* Bound for incircle in terms of permanent, the determinant with absolute values.
+/* Bound for incircle in terms of its permanent.
  * A minor m of two products of differences is off by (4u + 4u^2 + ...) times its permanent P, as above with its own
  * rounding; a lift by the factor (1 + u)^4; their product, rounded once more, by (9u + 32u^2 + ...) lift P, which is
  * (9u + 50u^2 + ...) of its computed permanent. The first sum adds u and one more factor 1 + u: 10u + 59u^2; the sum of
  * the permanents and the last rounding of det make it 10u + 79u^2 + .... (10u + 128u^2)(1 - u)^2 is more than that.
- * Underflow: an error of 2^-1075 in a product is multiplied by a lift or a minor. Both are below `lifts`, the sum of the
- * lifts, so with lifts < 2^100 that is at most 12 * 2^100 * 2^-1075 < 2^-971. */
+ * Underflow: an error of 2^-1075 in a product is multiplied by a lift or a minor. Both are below `lifts`, the sum of
+ * the lifts, so with lifts < 2^100 that is at most 12 * 2^100 * 2^-1075 < 2^-971. */
 #define MW_INCIRCLE_ERROR ((10.0 + 128.0 * 0x1p-53) * 0x1p-53)
 #define MW_INCIRCLE_LIFTS 0x1p100
 
@@ -104,11 +105,11 @@ static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_poin
     return MW_LIKELY(fabs(det) > bound) ? det : mw__incircle_exact(a, b, c, d);
 }
 
-/* Bound for orient3d in terms of permanent. A minor is off by (4u + 4u^2 + ...) P, as for incircle; its product with a
+/* Bound for orient3d in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as for incircle; its product with a
  * difference, rounded, by (6u + 11u^2 + ...) |difference| P, which is (6u + 23u^2 + ...) of its computed permanent; the
  * sums make it 7u + 43u^2 + .... (7u + 64u^2)(1 - u)^2 is more.
- * Underflow: an error of 2^-1075 in each of six products is multiplied by a z; with the sum of the z below 2^100 that is
- * less than 2^-970. */
+ * Underflow: an error of 2^-1075 in each of six products is multiplied by a z; with the sum of the z below 2^100 that
+ * is less than 2^-970. */
 #define MW_ORIENT3D_ERROR ((7.0 + 64.0 * 0x1p-53) * 0x1p-53)
 #define MW_ORIENT3D_HEIGHTS 0x1p100
 
@@ -134,8 +135,9 @@ static MW_INLINE double mw__orient3d(const double a[3], const double b[3], const
     return MW_LIKELY(fabs(det) > bound) ? det : mw__orient3d_exact(a, b, c, d);
 }
 
-/* Compare the distance of q to the closed segment ab with its distance to the closed segment cd, exactly: -1 where ab is
- * nearer, 0 where they are equal, 1 where cd is nearer. A segment may be a point (a equals b). Finite coordinates. */
+/* Compare the distance of q to the closed segment ab with its distance to the closed segment cd, exactly: -1 where ab
+ * is nearer, 0 where they are equal, 1 where cd is nearer. A segment may be a point (a equals b). All coordinates are
+ * finite. */
 int mw__compare_distance(mw_point q, mw_point a, mw_point b, mw_point c, mw_point d);
 
 /* Compare the distance of q to the closed segment ab with the length |d|, exactly. d may be infinite, but not NaN. */
