@@ -49,16 +49,22 @@ static void note_numbers(mw_columns *c, const char *row, char separator)
     }
 }
 
+/* Numbers like 1,5 between blanks are refused: they could as well be two. */
+static mw_status refuse_decimal_commas(const mw_source *source, const char *row, char *separator, mw_error *error)
+{
+    bool decimal_comma;
+    *separator = mw__table_separator(row, &decimal_comma);
+    if (!decimal_comma) return MW_OK;
+    return mw__source_fail(source, error, "decimal commas: write points, or separate the columns by semicolons or tabs");
+}
+
 mw_status mw__columns_detect(mw_source *source, mw_columns *c, char *separator, mw_error *error)
 {
-    char *row;
-    bool decimal_comma;
+    char *row, other;
     mw_status status = mw__columns_row(source, &row, error);
     if (status || !row) return status;
-    *separator = mw__table_separator(row, &decimal_comma);
-    if (decimal_comma)
-        return mw__source_fail(source, error,
-                               "decimal commas: write points, or separate the columns by semicolons or tabs");
+    status = refuse_decimal_commas(source, row, separator, error);
+    if (status) return status;
     c->count = mw__table_columns(row, *separator);
     if (c->count > MW_COLUMN_LIMIT) return mw__source_fail(source, error, "more than %d columns", MW_COLUMN_LIMIT);
     c->numbers = mw__calloc(c->count, sizeof *c->numbers);
@@ -66,6 +72,8 @@ mw_status mw__columns_detect(mw_source *source, mw_columns *c, char *separator, 
     if (mw__table_is_header(row, *separator)) {
         status = keep_names(c, row, *separator, error);
         if (!status) status = mw__columns_row(source, &row, error);
+        if (!status && row && !mw__table_takes_comma(*separator))
+            status = refuse_decimal_commas(source, row, &other, error);
         if (status) return status;
     }
     for (size_t i = 0; !row && i < c->count; i++) c->numbers[i] = true;
