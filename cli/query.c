@@ -64,7 +64,7 @@ const option query_options[] = {
 static void warn_if_void(const query *q, const char *path)
 {
     const char *promise = mw_locator_void_promise(q->locator);
-    if (promise && !q->settings->common.quiet) complain("%s: warning: not an embedding: %s", path, promise);
+    if (promise && !q->settings->common.quiet) complain("%s: warning: %s", path, promise);
 }
 
 int query_open(query *q, const query_settings *settings, const char *const *operands, bool border)

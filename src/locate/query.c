@@ -48,8 +48,10 @@ static mw_location settle(const mw_locator *locator, uint32_t t, mw_point q, dou
     mw_point corner[3] = {tiling->point[tile->v[0]], tiling->point[tile->v[1]], tiling->point[tile->v[2]]};
     double area[3];
     mw__areas(corner, q, area);
-    bool inside = area[0] != 0 && area[1] != 0 && area[2] != 0;
+    bool inside = area[0] > 0 && area[1] > 0 && area[2] > 0;
     if (MW_LIKELY(inside && !(tile->user & MW_GHOST) && !tiling->cut)) return mw__place(corner, tile->user, q, area);
+    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge it did not test. */
+    if (!(area[0] >= 0 && area[1] >= 0 && area[2] >= 0)) return outside(locator, 0, q, tolerance);
     uint32_t triangle = !inside                 ? lowest(tiling, tile, area)
                         : tile->user & MW_GHOST ? MW_NONE
                                                 : tile->user & MW_USER_MASK;

@@ -111,10 +111,19 @@ run locate square.off .; refused 3 '\.: Is a directory'
 
 # A mesh that is no embedding.
 run_on $'0.2 0.2\n5 5\n' locate overlap.off -; refused 3 'overlap\.off'; says "'meshwalk check overlap.off'.*--any"
-run_on $'0.2 0.2\n5 5\n' locate --any overlap.off -; exits 0; says 'warning: not an embedding'
+run_on $'0.2 0.2\n5 5\n' locate --any overlap.off -; exits 0; says 'overlap\.off: warning: .*no embedding'
 prints_line '^0.2,0.2,inside,[01],'
 prints_line '^5,5,(outside|hole),-1,,,$'
 run_on $'0.2 0.2\n' locate --any --quiet overlap.off -; exits 0; says_nothing
+# A fold: whatever walk comes over it, a triangle that is reported contains the point.
+printf 'OFF\n5 3 0\n0 0 0\n2 0 0\n0 2 0\n1 1.5 0\n2 2 0\n3 0 1 2\n3 0 1 3\n3 1 4 2\n' >fold.off
+awk 'BEGIN { for (i = 0; i < 400; i++) print (i % 20) / 7 - 0.3, int(i / 20) / 7 - 0.3 }' >grid.xyz
+for walk in $walks; do
+    for start in $starts; do
+        run locate --any -q --walk "$walk" --start "$start" fold.off grid.xyz; exits 0
+        holds "no weight is negative" test -z "$(grep -E ',-[0-9.e-]+(,|$)' <(cut -d, -f5- "$logs/out"))"
+    done
+done
 # Points in the place of a mesh.
 printf '0 0\n1 0\n0 1\n' >points.xyz
 run locate points.xyz points.xyz; refused 3 'points\.xyz'; says "'meshwalk triangulate points.xyz -o MESH'"
