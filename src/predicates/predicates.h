@@ -6,9 +6,9 @@
  * doubles. With a coordinate that is NaN or infinite the result is 0.
  *
  * How the bounds are found. Let u = 2^-53. A sum or difference x of doubles is rounded to fl(x) = x(1 + d), and also
- * x = fl(x)(1 + e), with |d|, |e| <= u; so is a product, up to 2^-1075 where it underflows. A bound is proportional to a
- * permanent: the determinant with absolute values for all products, computed in the same order. Rounding is monotone, so
- * the permanent is never less than the determinant: one that overflows has an infinite bound and is not trusted. */
+ * x = fl(x)(1 + e), with |d|, |e| <= u; so is a product, up to 2^-1075 where it underflows. A bound is proportional to
+ * a permanent: the determinant with absolute values for all products, computed in the same order. Rounding is monotone,
+ * so the permanent is never less than the determinant: one that overflows has an infinite bound and is not trusted. */
 #ifndef MW_SRC_PREDICATES_H
 #define MW_SRC_PREDICATES_H
 
@@ -39,8 +39,8 @@ double mw__orient3d_exact(const double a[3], const double b[3], const double c[3
 /* Bound for det = left - right, where left and right are products of two differences.
  * Three roundings each: the true values are off left and right by at most (3u + 3u^2 + u^3)(|left| + |right|), and
  * |left| + |right| <= sum (1 + u), |left - right| >= |det| (1 - u): the sign is right when
- * |det| > (3u + 9u^2 + ...) sum. Computing the bound rounds twice, which leaves (3u + 16u^2)(1 - u)^2 > 3u + 9u^2 + ....
- * Underflow: 2 * 2^-1075. */
+ * |det| > (3u + 9u^2 + ...) sum. Computing the bound rounds twice, which leaves (3u + 16u^2)(1 - u)^2, still more than
+ * 3u + 9u^2 + .... Underflow: 2 * 2^-1075. */
 #define MW_ORIENT2D_ERROR ((3.0 + 16.0 * 0x1p-53) * 0x1p-53)
 static MW_INLINE double mw__orient2d_bound(double left, double right)
 {
@@ -105,8 +105,8 @@ static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_poin
     return MW_LIKELY(fabs(det) > bound) ? det : mw__incircle_exact(a, b, c, d);
 }
 
-/* Bound for orient3d in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as for incircle; its product with a
- * difference, rounded, by (6u + 11u^2 + ...) |difference| P, which is (6u + 23u^2 + ...) of its computed permanent; the
+/* Bound for orient3d in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as for incircle; its product with
+ * a difference, rounded, by (6u + 11u^2 + ...) |difference| P, which is (6u + 23u^2 + ...) of its computed permanent; the
  * sums make it 7u + 43u^2 + .... (7u + 64u^2)(1 - u)^2 is more.
  * Underflow: an error of 2^-1075 in each of six products is multiplied by a z; with the sum of the z below 2^100 that
  * is less than 2^-970. */
