@@ -105,9 +105,9 @@ static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_poin
     return MW_LIKELY(fabs(det) > bound) ? det : mw__incircle_exact(a, b, c, d);
 }
 
-/* Bound for orient3d in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as for incircle; its product with
- * a difference, rounded, by (6u + 11u^2 + ...) |difference| P, which is (6u + 23u^2 + ...) of its computed permanent; the
- * sums make it 7u + 43u^2 + .... (7u + 64u^2)(1 - u)^2 is more.
+/* Bound for orient3d in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as for incircle; its product
+ * with a difference, rounded, by (6u + 11u^2 + ...) |difference| P, which is (6u + 23u^2 + ...) of its computed
+ * permanent; the sums make it 7u + 43u^2 + .... (7u + 64u^2)(1 - u)^2 is more.
  * Underflow: an error of 2^-1075 in each of six products is multiplied by a z; with the sum of the z below 2^100 that
  * is less than 2^-970. */
 #define MW_ORIENT3D_ERROR ((7.0 + 64.0 * 0x1p-53) * 0x1p-53)
