@@ -40,7 +40,7 @@ mw_status mw__read_node(mw_source *node, mw_builder *builder, mw_error *error); 
 mw_status mw__read_ele(mw_source *ele, mw_builder *builder, mw_error *error);   /* the triangles, after them */
 mw_status mw__read_node_ele(const char *path, mw_builder *builder, mw_error *error);
 /* Is there PATH.node or PATH.node.gz? */
-bool mw__node_ele_exists(const char *path);
+mw_status mw__node_ele_exists(const char *path, bool *exists, mw_error *error);
 
 /* The writers. */
 mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_error *error);

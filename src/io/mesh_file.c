@@ -35,7 +35,9 @@ static mw_status read_path(const char *path, mw_mesh_file *file, mw_error *error
     if (format && format->read_path) return format->read_path(path, &builder, error);
     mw_source source;
     mw_status status = mw__source_open(&source, path, error);
-    if (status == MW_ERROR_SYSTEM && mw__node_ele_exists(path)) return mw__read_node_ele(path, &builder, error);
+    bool pair = false;
+    if (status == MW_ERROR_SYSTEM && mw__node_ele_exists(path, &pair, error) != MW_OK) return MW_ERROR_MEMORY;
+    if (pair) return mw__read_node_ele(path, &builder, error);
     if (status) return status;
     builder.source = &source;
     status = read_source(&source, &builder, error);

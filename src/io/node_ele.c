@@ -245,12 +245,13 @@ static char *find_file(const char *path, const char *ending)
     return found;
 }
 
-bool mw__node_ele_exists(const char *path)
+mw_status mw__node_ele_exists(const char *path, bool *exists, mw_error *error)
 {
     char *found = find_file(path, ".node");
-    bool exists = found && access(found, F_OK) == 0;
+    if (!found) return mw__fail_memory(error);
+    *exists = access(found, F_OK) == 0;
     free(found);
-    return exists;
+    return MW_OK;
 }
 
 static mw_status read_file(const char *path, const char *ending, mw_builder *builder,
