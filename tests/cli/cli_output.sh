@@ -28,6 +28,22 @@ for arguments in 'locate m.off p.xyz -o out.csv' 'sample m.off p.xyz -o out.csv'
     only_files m.off p.xyz
 done
 
+# Too little memory: code 4 and a message, or a complete answer; never a crash, and no file but a complete one.
+# (A sanitizer takes so much address space that nothing runs below such limits.)
+if (ulimit -v 250000; "$meshwalk" --version) >/dev/null 2>&1; then
+    for kilobytes in 7000 8000 10000 12000 14000 17000 20000 25000 40000; do
+        for arguments in 'locate m.off p.xyz -o out.csv' 'triangulate p.xyz -q -o out.ply' 'info m.off -o out.txt'; do
+            last="meshwalk $arguments --threads 1, with $kilobytes kB of memory"
+            # shellcheck disable=SC2086 # words
+            (ulimit -v $kilobytes; exec "$meshwalk" $arguments --threads 1) >"$logs/out" 2>"$logs/err"
+            code=$?
+            [[ $code == 127 || $(<"$logs/err") == *'shared libraries'* ]] && continue # not even loaded
+            [[ $code == 0 ]] && rm out.* && continue
+            exits 4; says '^meshwalk: .*out of memory'; only_files m.off p.xyz
+        done
+    done
+fi
+
 # A closed pipe: code 4, no message.
 for arguments in 'locate m.off p.xyz' 'sample m.off p.xyz' 'triangulate p.xyz -q -o - --format ply'; do
     last="meshwalk $arguments | head -n 1"
