@@ -1,7 +1,9 @@
 /* triangulate.h - Delaunay triangulation of points.
  *
- * Incremental insertion in spatial order with walking location [Bowyer 1981; Watson 1981; Amenta, Choi, Rote 2003],
- * exact: the result is a Delaunay triangulation of the given doubles, whatever their position. */
+ * Points are inserted one by one, in random rounds along a Hilbert curve [Amenta, Choi, Rote 2003], each by a walk from
+ * the one before, a split and flips [Lawson 1977]. Exact: the result is a Delaunay triangulation of the given doubles,
+ * whatever their position. Where more than three points lie on an empty circle there are several, and the order of the
+ * points decides which one is made. */
 #ifndef MESHWALK_TRIANGULATE_H
 #define MESHWALK_TRIANGULATE_H
 
@@ -12,8 +14,8 @@ extern "C" {
 #endif
 
 typedef struct mw_triangulation_report {
-    size_t points;          /* points given                                      */
-    size_t duplicates;      /* points equal to an earlier one; in no triangle    */
+    size_t points;              /* points given                                      */
+    size_t duplicates;          /* points equal to an earlier one; in no triangle    */
     uint64_t triangles_visited; /* by the walks that located the points              */
 } mw_triangulation_report;
 
@@ -23,8 +25,12 @@ typedef struct mw_triangulation_report {
  *   duplicate_of  NULL, or n numbers: MW_NONE, or the lowest-numbered point with the same coordinates. Such points are
  *                 vertices of the mesh that no triangle uses
  *   report        NULL or filled
+ *   out           set to the mesh, owned by the caller (mw_mesh_destroy), or to NULL on failure. Its triangles are numbered
+ *                 along a Hilbert curve
  * MW_ERROR_INPUT: fewer than three different points, all points on one line, or a coordinate that is not finite (the
- * error names the point as its vertex). Expected O(n log n) worst case for points in spatial order O(n). */
+ * error names the point as its vertex). MW_ERROR_ARGUMENT: NULL, or a stride of 1; MW_ERROR_LIMIT: more than 2^29 points;
+ * MW_ERROR_MEMORY: about 135 bytes per point are needed on the way, 80 of them for the mesh. The expected number of
+ * triangles made is O(n log n) wherever the points lie; time is about linear. One thread; thread-safe. */
 MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
                              mw_triangulation_report *report, mw_mesh **out, mw_error *error);
 
