@@ -130,7 +130,7 @@ static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
 
 /* --- harvest --- */
 
-/* Number the facets that are no ghosts by their lowest vertex: along the curve. Sets next[f] for facet f, MW_NONE for
+/* Number the facets that are no ghosts by their lowest vertex: along the curve. Sets number[f] for facet f, MW_NONE for
  * ghosts, and *count. */
 static bool number_facets(const mw_growth *g, uint32_t *number, uint32_t *count)
 {
