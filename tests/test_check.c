@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "meshes.h"
 
@@ -438,6 +437,57 @@ static void test_area_compensated(void **state)
     arrays_free(&a);
 }
 
+/* --- real data, where it is at hand --- */
+
+typedef struct real {
+    const char *name;
+    bool embedding, convex, delaunay;
+    uint32_t border_edges, border_loops, components; /* as the data's own notes count them, or another program */
+} real;
+
+static void check_real(const real *expected)
+{
+    char path[300];
+    mw_mesh_file file;
+    snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, expected->name);
+    FILE *present = fopen(path, "rb");
+    if (!present) return;
+    fclose(present);
+    assert_int_equal(mw_read_mesh(path, &file, NULL), MW_OK);
+    mw_arrays view = mw_mesh_file_arrays(&file);
+    mw_check check = check_of(view);
+    mw_mesh_info info = describe(view);
+    print_message("%s: %zu triangles, %zu defects\n", expected->name, file.triangle_count, check.defect_count);
+    assert_int_equal(check.embedding, expected->embedding);
+    assert_int_equal(info.embedding, expected->embedding);
+    assert_int_equal(info.convex, expected->convex);
+    assert_int_equal(info.delaunay, expected->delaunay);
+    assert_int_equal(info.border_edges, expected->border_edges);
+    assert_int_equal(info.border_loops, expected->border_loops);
+    assert_int_equal(info.components, expected->components);
+    assert_true(check.defect_count < 10 * (size_t)info.triangles);
+    mw_check_release(&check);
+    mw_mesh_file_release(&file);
+}
+
+static void test_real(void **state)
+{
+    (void)state;
+    const real meshes[] = {
+        {"domain/greenland.node.gz", true, false, true, 2559, 1, 1},
+        {"ocean/malpasset.node.gz", true, false, false, 1080, 1, 1},
+        {"terrain/terrain.stl.gz", true, true, false, 126, 1, 1},
+        /* surfaces in space, seen from above: folded, in pieces, with holes in them, without orientation */
+        {"surface/bunny_zipper.ply.gz", false, false, false, 223, 5, 1},
+        {"surface/shark_holes.off.gz", false, false, false, 304, 4, 1},
+        {"surface/lion_head.off.gz", false, false, false, 36, 1, 1},
+        {"surface/bones.off.gz", false, false, false, 0, 0, 26},
+        {"surface/igea.ply.gz", false, false, false, 0, 0, 1},
+        {"bad/blobby_shuffled.off.gz", false, false, false, 0, 0, 1},
+    };
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) check_real(&meshes[i]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -462,6 +512,7 @@ int main(void)
         cmocka_unit_test(test_describe_ring),
         cmocka_unit_test(test_describe_defective),
         cmocka_unit_test(test_area_compensated),
+        cmocka_unit_test(test_real),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ static bool loop_is_convex(const mw_mesh *mesh, uint32_t h, uint32_t count)
 
 bool mw__convex(const mw_mesh *mesh)
 {
-    if (mesh->tolerant || mesh->flat_count > 0 || mesh->tri_count == 0) return false;
+    if (mesh->flat_count > 0 || mesh->tri_count == 0) return false; /* what is not usable is flat, too */
     uint32_t count = 0, border = MW_NONE;
     for (uint32_t t = 0; t < mesh->tri_count; t++)
         if (is_folded(mesh, t, &count, &border)) return false;
