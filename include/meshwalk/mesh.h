@@ -18,12 +18,12 @@ typedef enum mw_index_type { MW_UINT32 = 0, MW_INT32, MW_INT64 } mw_index_type;
 
 /* The caller's arrays. They are read during the call only; the mesh keeps copies. */
 typedef struct mw_arrays {
-    const double *points;        /* x, y of vertex i at points[i * point_stride], points[i * point_stride + 1]       */
-    size_t point_count;          /*                                                                                  */
-    size_t point_stride;         /* in doubles; 0 means 2 (packed x y); 3 skips the z of x y z                       */
-    const void *triangles;       /* 3 * triangle_count vertex numbers of type index_type, 0-based, packed            */
-    size_t triangle_count;       /*                                                                                  */
-    mw_index_type index_type;    /* 0 = MW_UINT32                                                                    */
+    const double *points;     /* x, y of vertex i at points[i * point_stride], points[i * point_stride + 1]       */
+    size_t point_count;       /*                                                                                  */
+    size_t point_stride;      /* in doubles; 0 means 2 (packed x y); 3 skips the z of x y z                       */
+    const void *triangles;    /* 3 * triangle_count vertex numbers of type index_type, 0-based, packed            */
+    size_t triangle_count;    /*                                                                                  */
+    mw_index_type index_type; /* 0 = MW_UINT32                                                                    */
 } mw_arrays;
 
 /* Defects of a mesh. The first group makes the arrays unusable: mw_mesh_create refuses them. The second group leaves a
@@ -82,7 +82,8 @@ typedef struct mw_mesh_options {
  *   options  NULL = all zero
  *   out      set to the new mesh, owned by the caller (mw_mesh_destroy), or to NULL on failure
  * MW_ERROR_INPUT names the first defect of the unusable group; MW_ERROR_LIMIT, MW_ERROR_MEMORY. */
-MW_API mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out, mw_error *error);
+MW_API mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out,
+                                mw_error *error);
 MW_API void mw_mesh_destroy(mw_mesh *mesh); /* NULL is allowed */
 
 MW_API uint32_t mw_mesh_vertex_count(const mw_mesh *mesh);
@@ -95,7 +96,8 @@ MW_API size_t mw_mesh_bytes(const mw_mesh *mesh);
 
 /* Values per vertex: heights, fields. `values` has one double per vertex, `stride` doubles apart (0 = 1); copied.
  * Names are unique; setting one again replaces its values. Not to be called while other threads use the mesh. */
-MW_API mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values, size_t stride, mw_error *error);
+MW_API mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values, size_t stride,
+                                   mw_error *error);
 /* The values of a field, one per vertex, owned by the mesh; NULL if there is none of that name. */
 MW_API const double *mw_mesh_field(const mw_mesh *mesh, const char *name);
 MW_API size_t mw_mesh_field_count(const mw_mesh *mesh);
@@ -104,20 +106,20 @@ MW_API const char *mw_mesh_field_name(const mw_mesh *mesh, size_t index);
 /* What kind of mesh it is. Holes, convexity and the embedding are decided exactly, in near-linear time. */
 typedef struct mw_mesh_info {
     uint32_t vertices, triangles;
-    uint32_t unused_vertices;      /* vertices of no triangle                                            */
-    uint32_t flat_triangles;       /* triangles without area                                             */
-    uint32_t clockwise_triangles;  /* the others are counter-clockwise or flat                           */
-    uint32_t clashing_edges;       /* inner edges whose two triangles are oriented differently           */
-    uint32_t border_edges;         /* edges of one triangle                                              */
-    uint32_t border_loops;         /* closed chains of border edges                                      */
-    uint32_t components;           /* pieces that share no vertex                                        */
-    uint32_t holes;                /* bounded pieces of the plane without the mesh; 0 if no embedding    */
-    int oriented;                  /* no clashing edges                                                  */
-    int embedding;                 /* as mw_check_arrays                                                 */
-    int convex;                    /* an embedding that fills its convex hull                            */
-    int delaunay;                  /* an embedding, and no inner edge has a vertex across it in a circle */
-    double low[2], high[2];        /* extent of the used vertices; NaN without triangles                 */
-    double area;                   /* sum of the triangles' areas                                        */
+    uint32_t unused_vertices;     /* vertices of no triangle                                            */
+    uint32_t flat_triangles;      /* triangles without area                                             */
+    uint32_t clockwise_triangles; /* the others are counter-clockwise or flat                           */
+    uint32_t clashing_edges;      /* inner edges whose two triangles are oriented differently           */
+    uint32_t border_edges;        /* edges of one triangle                                              */
+    uint32_t border_loops;        /* closed chains of border edges                                      */
+    uint32_t components;          /* pieces that share no vertex                                        */
+    uint32_t holes;               /* bounded pieces of the plane without the mesh; 0 if no embedding    */
+    int oriented;                 /* no clashing edges                                                  */
+    int embedding;                /* as mw_check_arrays                                                 */
+    int convex;                   /* an embedding that fills its convex hull                            */
+    int delaunay;                 /* an embedding, and no inner edge has a vertex across it in a circle */
+    double low[2], high[2];       /* extent of the used vertices; NaN without triangles                 */
+    double area;                  /* sum of the triangles' areas                                        */
 } mw_mesh_info;
 
 MW_API mw_status mw_mesh_describe(const mw_mesh *mesh, mw_mesh_info *info, mw_error *error);
