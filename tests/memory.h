@@ -1,12 +1,12 @@
-/* memory.h - allocations that fail on demand. Programs that include this are listed in CMakeLists.txt: the linker sends
- * the library's (and the program's) calls of malloc, calloc and realloc here. */
+/* memory.h - one allocation fails on demand. A test that includes this has a line that sends the library's (and the
+ * test's) calls here by the linker: see CMakeLists.txt. */
 #ifndef MW_TEST_MEMORY_H
 #define MW_TEST_MEMORY_H
 
 #include <stdint.h>
 #include <stdlib.h>
 
-/* How many more allocations succeed; -1: all. */
+/* How many more allocations succeed before one fails; -1: none fails. */
 static long allocations_left = -1;
 
 void *__real_malloc(size_t size);
@@ -18,10 +18,7 @@ void *__wrap_calloc(size_t count, size_t size);
 
 static int allocation_fails(void)
 {
-    if (allocations_left < 0) return 0;
-    if (allocations_left == 0) return 1;
-    allocations_left--;
-    return 0;
+    return allocations_left >= 0 && allocations_left-- == 0;
 }
 
 void *__wrap_malloc(size_t size)

@@ -1,4 +1,5 @@
 /* The Delaunay triangulation: every one made here is checked exactly, triangle by triangle. */
+/* wrap: malloc calloc realloc */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

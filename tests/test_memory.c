@@ -1,5 +1,6 @@
 /* Every allocation of the library fails once: the call reports it, and nothing is lost or broken (leaks show in a build
- * with the address sanitizer). The linker sends the library's calls to malloc, calloc and realloc here. */
+ * with the address sanitizer). */
+/* wrap: malloc calloc realloc */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -9,36 +10,8 @@
 #include <math.h>
 
 #include "domain/tiling.h"
+#include "memory.h"
 #include "meshes.h"
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-static long left = -1; /* allocations until one fails; < 0: none does */
-
-static bool fails(void)
-{
-    return left >= 0 && left-- == 0;
-}
-
-void *__wrap_malloc(size_t size)
-{
-    return fails() ? NULL : __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return fails() ? NULL : __real_calloc(count, size);
-}
-
-void *__wrap_realloc(void *old, size_t size)
-{
-    return fails() ? NULL : __real_realloc(old, size);
-}
 
 typedef mw_status job(const mw_arrays *view, mw_error *error);
 
@@ -90,6 +63,30 @@ static mw_status locator_job(const mw_arrays *view, mw_error *error)
     return status;
 }
 
+static mw_status batch_job(const mw_arrays *view, mw_error *error)
+{
+    static mw_location at[200];
+    mw_status status;
+    mw_mesh *mesh = make(view, &status, error);
+    mw_locator *locator = NULL;
+    if (!status) status = mw_locator_create(mesh, &(mw_locator_options){.any = 1}, &locator, error);
+    double q[400] = {0};
+    if (!status) status = mw_locate_batch(locator, q, 200, 2, NULL, at, NULL, error);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    return status;
+}
+
+static mw_status order_job(const mw_arrays *view, mw_error *error)
+{
+    uint32_t vertices[200];
+    mw_status status;
+    mw_mesh *mesh = make(view, &status, error);
+    if (!status) status = mw_mesh_hilbert_order(mesh, NULL, vertices, error);
+    mw_mesh_destroy(mesh);
+    return status;
+}
+
 static mw_status delaunay_job(const mw_arrays *view, mw_error *error)
 {
     mw_mesh *mesh;
@@ -105,10 +102,10 @@ static void exhaust(job *run, const arrays *a)
     long failures = 0;
     for (;; failures++) {
         mw_error error = {0};
-        left = failures;
+        allocations_left = failures;
         mw_status status = run(&view, &error);
-        bool failed = left < 0;
-        left = -1;
+        bool failed = allocations_left < 0;
+        allocations_left = -1;
         if (!failed) {
             assert_int_equal(status, MW_OK);
             break;
@@ -126,6 +123,8 @@ static void exhaust_all(arrays *a)
     exhaust(describe_job, a);
     exhaust(tile_job, a);
     exhaust(locator_job, a);
+    exhaust(batch_job, a);
+    exhaust(order_job, a);
     exhaust(delaunay_job, a);
     arrays_free(a);
 }
@@ -186,11 +185,34 @@ static void test_bad_index(void **state)
     arrays_free(&a);
 }
 
+/* A field that could not be stored is not there, and those before it are. */
+static void test_fields(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    arrays a = grid_mesh(2, 0, &random);
+    mw_arrays view = arrays_view(&a);
+    mw_mesh *mesh;
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_mesh_set_field(mesh, "first", a.points, 1, NULL), MW_OK);
+    for (long k = 0; k < 3; k++) {
+        allocations_left = k;
+        mw_status status = mw_mesh_set_field(mesh, "second", a.points, 1, NULL);
+        allocations_left = -1;
+        assert_int_equal(status, MW_ERROR_MEMORY);
+        assert_int_equal(mw_mesh_field_count(mesh), 1);
+        assert_null(mw_mesh_field(mesh, "second"));
+        assert_true(mw_mesh_field(mesh, "first")[2] == a.points[2]);
+    }
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_convex),    cmocka_unit_test(test_punched),   cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_defective), cmocka_unit_test(test_bad_index),
+        cmocka_unit_test(test_defective), cmocka_unit_test(test_bad_index), cmocka_unit_test(test_fields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
