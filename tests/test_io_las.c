@@ -139,7 +139,7 @@ static void test_columns(void **state)
 {
     (void)state;
     static las l;
-    make(&l, 2, 3, 0, NULL, 0);
+    make(&l, 2, 3, 0, "", 0);
     mw_point_reader *reader = open_las(&l, NULL);
     assert_int_equal(mw_points_width(reader), 3);
     assert_string_equal(mw_points_column(reader, 2), "z");
@@ -170,7 +170,7 @@ static void test_classes(void **state)
     (void)state;
     static las l;
     for (unsigned format = 0; format <= 6; format += 6) {
-        make(&l, 4, format, 0, NULL, 0);
+        make(&l, 4, format, 0, "", 0);
         mw_points_options options = {.columns = "user_data,classification"};
         size_t wanted = 0;
         unsigned other = format < 6 ? 9 : 198;
@@ -225,7 +225,7 @@ static void test_laz(void **state)
 {
     (void)state;
     static las l;
-    make(&l, 2, 3, 0, NULL, 0);
+    make(&l, 2, 3, 0, "", 0);
     l.bytes[104] |= 0x80;
     expect_bad(&l,
                "p.las: this is LAZ, compressed LAS, which is not read: unpack it first, for instance with 'las2las");
@@ -249,7 +249,7 @@ static void test_malformed(void **state)
 {
     (void)state;
     static las l, good;
-    make(&good, 2, 1, 0, NULL, 0);
+    make(&good, 2, 1, 0, "", 0);
     l = good;
     l.size = 4;
     expect_bad(&l, "p.las: at byte 4: the data end within the header");
@@ -283,7 +283,7 @@ static void test_malformed(void **state)
     l = good;
     l.size -= 1;
     expect_bad(&l, "at byte 1319: the data end after 39 of 40 points");
-    make(&l, 4, 6, 0, NULL, 0);
+    make(&l, 4, 6, 0, "", 0);
     mw__put_bytes(l.bytes + 247, 8, UINT64_MAX);
     expect_bad(&l, "the data end after 40 of 18446744073709551615 points");
     /* what follows the points is no concern of ours */
@@ -306,7 +306,7 @@ static void test_gzip(void **state)
 {
     (void)state;
     static las l;
-    make(&l, 2, 3, 0, NULL, 0);
+    make(&l, 2, 3, 0, "", 0);
     files_write_gzip("p.las.gz", (bytes){(const char *)l.bytes, l.size});
     mw_point_reader *reader;
     double values[3 * POINTS];

@@ -161,6 +161,7 @@ void mw__output_flush(mw_output *output)
 
 void mw_output_write(mw_output *output, const void *bytes, size_t size)
 {
+    if (size == 0) return;
     if (MW_UNLIKELY(size > ROOM - output->used)) {
         mw__output_flush(output);
         if (size > ROOM) {

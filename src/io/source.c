@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-enum { BLOCK = 1 << 18, PACKED_BLOCK = 1 << 16 };
+enum { BLOCK = 1 << 18, PACKED_BLOCK = 1 << 16, MEMORY_BLOCK = 64 };
 
 const char *mw__source_name(const mw_source *source)
 {
@@ -32,6 +32,8 @@ static mw_status fail_at(const mw_source *source, uint64_t place, mw_error *erro
     if (!error) return MW_ERROR_INPUT;
     char message[256];
     vsnprintf(message, sizeof message, format, arguments);
+    for (char *c = message; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?'; /* pieces of the input may be in it */
     const char *name = mw__source_name(source);
     if (source->binary)
         mw__fail(error, MW_ERROR_INPUT, "%.240s: at byte %" PRIu64 ": %s", name, place, message);
@@ -63,10 +65,7 @@ mw_excerpt mw__excerpt_of(const char *text, size_t length)
 {
     mw_excerpt excerpt;
     size_t room = sizeof excerpt.text - 4, n = length < room ? length : room;
-    for (size_t i = 0; i < n; i++) {
-        unsigned char c = (unsigned char)text[i];
-        excerpt.text[i] = c < 0x20 || c == 0x7f ? '?' : text[i];
-    }
+    memcpy(excerpt.text, text, n);
     strcpy(excerpt.text + n, length > room ? "..." : "");
     return excerpt;
 }
@@ -83,9 +82,9 @@ static mw_status system_error(const char *name, int number, mw_error *error)
     return mw__fail(error, MW_ERROR_SYSTEM, "%.240s: %s", name, strerror_r(number, text, sizeof text));
 }
 
-static mw_status start(mw_source *source, const char *path, mw_error *error)
+static mw_status start(mw_source *source, const char *path, size_t block, mw_error *error)
 {
-    *source = (mw_source){.path = strdup(path), .capacity = BLOCK};
+    *source = (mw_source){.path = strdup(path), .capacity = block};
     source->buffer = mw__alloc(source->capacity + 1, 1);
     if (source->path && source->buffer) return MW_OK;
     mw__source_close(source);
@@ -108,7 +107,7 @@ static int open_for_reading(const char *path)
 
 mw_status mw__source_open(mw_source *source, const char *path, mw_error *error)
 {
-    mw_status status = start(source, path, error);
+    mw_status status = start(source, path, BLOCK, error);
     if (status) return status;
     int fd = open_for_reading(path);
     if (fd < 0) {
@@ -127,7 +126,7 @@ mw_status mw__source_open(mw_source *source, const char *path, mw_error *error)
 
 mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size, mw_error *error)
 {
-    mw_status status = start(source, name, error);
+    mw_status status = start(source, name, MEMORY_BLOCK, error);
     if (status) return status;
     source->memory = bytes;
     source->memory_left = size;

@@ -33,7 +33,8 @@ typedef struct mw_source {
 
 /* Open a file, or standard input for "-". MW_ERROR_SYSTEM if that fails. Release with mw__source_close. */
 mw_status mw__source_open(mw_source *source, const char *path, mw_error *error);
-/* Read from memory, which must outlive the source; `name` is for messages and to tell the format. */
+/* Read from memory, which must outlive the source; `name` is for messages and to tell the format. The block is small, so
+ * that tests with little data reach its borders. */
 mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size, mw_error *error);
 void mw__source_close(mw_source *source);
 
@@ -60,7 +61,7 @@ void mw__source_unread_line(mw_source *source);
 /* The next line that holds more than blanks and a comment ("#" to the end of the line, cut off), without leading blanks. */
 mw_status mw__source_content(mw_source *source, char **line, mw_error *error);
 
-/* Fill in an error with MW_ERROR_INPUT at the present place. */
+/* Fill in an error with MW_ERROR_INPUT at the present place. Control characters in the message become '?'. */
 mw_status mw__source_fail(const mw_source *source, mw_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The same with a place noted before: a line number, or an offset in a binary source. */
@@ -69,7 +70,7 @@ mw_status mw__source_fail_at(const mw_source *source, uint64_t place, mw_error *
 /* The present place, for mw__source_fail_at. */
 uint64_t mw__source_place(const mw_source *source);
 
-/* A piece of the input for a message, shortened, what cannot be printed replaced; the first up to the next blank. */
+/* A piece of the input for a message, shortened; the first up to the next blank. */
 typedef struct mw_excerpt {
     char text[48];
 } mw_excerpt;

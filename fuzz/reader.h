@@ -1,0 +1,99 @@
+/* reader.h - what the fuzz targets of the readers share: a reader that takes the input must give a sound mesh or sound
+ * points, one that refuses must leave nothing and say why. */
+#ifndef MW_FUZZ_READER_H
+#define MW_FUZZ_READER_H
+
+#include "io/builder.h"
+#include "io/formats.h"
+#include "io/points.h"
+#include "io/source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static inline void require(bool right)
+{
+    if (!right) abort();
+}
+
+/* The status of a reader and its error agree, and the message has a text. */
+static inline void require_error(mw_status status, const mw_error *error, const char *name)
+{
+    require(status == MW_ERROR_INPUT || status == MW_ERROR_LIMIT);
+    require(error->status == status);
+    require(strlen(error->message) > strlen(name) && strlen(error->message) < sizeof error->message);
+    require(strncmp(error->message, name, strlen(name)) == 0);
+    for (const char *p = error->message; *p; p++) require((unsigned char)*p >= 0x20);
+}
+
+/* Look at all values, so that the sanitizers see it if some are not there. */
+static inline void require_values(const double *values, size_t n)
+{
+    size_t numbers = 0;
+    for (size_t i = 0; i < n; i++) numbers += values[i] <= 0 || values[i] > 0 || values[i] != values[i];
+    require(numbers == n);
+}
+
+/* The mesh names only vertices that exist, and holds no more than the input can have announced. */
+static inline void require_mesh(const mw_mesh_file *file, size_t size)
+{
+    require(file->point_count <= size && file->triangle_count <= size + 1 && file->field_count <= MW_COLUMN_LIMIT);
+    for (size_t i = 0; i < 3 * file->triangle_count; i++) require(file->triangles[i] < file->point_count);
+    require_values(file->points, 3 * file->point_count);
+    for (size_t f = 0; f < file->field_count; f++) require_values(file->fields[f], file->point_count);
+}
+
+typedef mw_status mesh_reader(mw_source *source, mw_builder *builder, mw_error *error);
+
+/* Run one reader on the input. */
+static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const uint8_t *data, size_t size)
+{
+    mw_error error = {0};
+    mw_source source;
+    mw_mesh_file file;
+    mw_builder builder;
+    if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
+    mw__build_start(&builder, &file, &source);
+    mw_status status = read(&source, &builder, &error);
+    if (!status) status = mw__build_finish(&builder, &error);
+    if (status)
+        require_error(status, &error, name);
+    else
+        require_mesh(&file, size);
+    mw_mesh_file_release(&file);
+    mw__source_close(&source);
+}
+
+/* Run the reader of points that the contents choose. */
+static inline void fuzz_points(const char *name, const mw_points_options *options, const uint8_t *data, size_t size)
+{
+    enum { BLOCK = 7 };
+    mw_error error = {0};
+    mw_source source;
+    mw_point_reader *reader = NULL;
+    if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
+    mw_status status = mw__points_start(source, options, &reader, &error);
+    if (!status) {
+        size_t width = mw_points_width(reader), count = BLOCK, total = 0;
+        require(width >= 2 && width <= MW_COLUMN_LIMIT);
+        for (size_t i = 0; i < width; i++) require(mw_points_column(reader, i) != NULL);
+        double *values = malloc(BLOCK * width * sizeof *values);
+        require(values != NULL);
+        while (!status && count > 0) {
+            status = mw_points_read(reader, values, BLOCK, &count, &error);
+            require(count <= BLOCK && (total += count) <= size);
+            require_values(values, count * width);
+        }
+        free(values);
+    }
+    mw_points_close(reader);
+    /* a column may turn out to be selected twice, by name and by number */
+    if (status == MW_ERROR_ARGUMENT)
+        require(options->columns != NULL);
+    else if (status)
+        require_error(status, &error, name);
+}
+
+#endif
