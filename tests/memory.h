@@ -12,9 +12,11 @@ static long allocations_left = -1;
 void *__real_malloc(size_t size);
 void *__real_realloc(void *old, size_t size);
 void *__real_calloc(size_t count, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
 void *__wrap_malloc(size_t size);
 void *__wrap_realloc(void *old, size_t size);
 void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
 
 static int allocation_fails(void)
 {
@@ -34,6 +36,11 @@ void *__wrap_realloc(void *old, size_t size)
 void *__wrap_calloc(size_t count, size_t size)
 {
     return allocation_fails() ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    return allocation_fails() ? NULL : __real_aligned_alloc(alignment, size);
 }
 
 #endif

@@ -85,9 +85,17 @@ static void test_allocation(void **state)
     (void)state;
     assert_null(mw__alloc(SIZE_MAX / 2, 3));
     assert_null(mw__calloc(SIZE_MAX / 2, 3));
+    assert_null(mw__alloc_lines(SIZE_MAX / 2, 3));
+    assert_null(mw__alloc_lines(SIZE_MAX, 1));
     void *nothing = mw__alloc(0, 8);
     assert_non_null(nothing);
     free(nothing);
+    for (size_t n = 0; n < 200; n += 7) {
+        char *lines = mw__alloc_lines(n, 3);
+        assert_true(lines && (uintptr_t)lines % 64 == 0);
+        memset(lines, 1, 3 * n);
+        free(lines);
+    }
 }
 
 static void test_errors(void **state)

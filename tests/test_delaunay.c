@@ -1,5 +1,5 @@
 /* The Delaunay triangulation: every one made here is checked exactly, triangle by triangle. */
-/* wrap: malloc calloc realloc */
+/* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

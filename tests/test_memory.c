@@ -1,6 +1,6 @@
 /* Every allocation of the library fails once: the call reports it, and nothing is lost or broken (leaks show in a build
  * with the address sanitizer). */
-/* wrap: malloc calloc realloc */
+/* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -62,6 +62,14 @@ void *mw__alloc(size_t count, size_t size)
     return mw__realloc(NULL, count, size);
 }
 
+void *mw__alloc_lines(size_t count, size_t size)
+{
+    enum { LINE = 64 };
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX - LINE) return NULL;
+    return aligned_alloc(LINE, (bytes / LINE + 1) * LINE);
+}
+
 void *mw__calloc(size_t count, size_t size)
 {
     return calloc(count ? count : 1, size);

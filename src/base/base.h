@@ -24,6 +24,8 @@ mw_status mw__fail_at(mw_error *error, int64_t triangle, int64_t vertex, const c
 /* Arrays: count * size checked for overflow; NULL on failure; count 0 gives a valid pointer. Release with free(). */
 void *mw__alloc(size_t count, size_t size);
 void *mw__calloc(size_t count, size_t size);
+/* As mw__alloc, but begins with a cache line, so that records of a power of two of bytes do not straddle two. */
+void *mw__alloc_lines(size_t count, size_t size);
 void *mw__realloc(void *old, size_t count, size_t size);
 
 #endif

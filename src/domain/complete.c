@@ -111,8 +111,8 @@ mw_status mw__complete(const mw_survey *survey, mw_tiling *tiling, mw_error *err
         return mw__fail(error, MW_ERROR_LIMIT,
                         "%" PRIu64 " triangles fill the hull of the mesh, at most %" PRIu32 " are possible", most,
                         MW_MAX_TRIANGLES);
-    tiling->tri = mw__alloc(most, sizeof *tiling->tri);
-    tiling->point = mw__alloc(mesh->point_count, sizeof *tiling->point);
+    tiling->tri = mw__alloc_lines(most, sizeof *tiling->tri);
+    tiling->point = mw__alloc_lines(mesh->point_count, sizeof *tiling->point);
     if (!tiling->tri || !tiling->point) return mw__fail_memory(error);
     if (mesh->point_count > 0) memcpy(tiling->point, mesh->point, mesh->point_count * sizeof *tiling->point);
     for (uint32_t t = 0; t < mesh->tri_count; t++)

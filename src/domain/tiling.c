@@ -114,8 +114,8 @@ static bool reserve(layout *to, const mw_tiling *from)
     to->triangle_place = mw__alloc(from->tri_count, sizeof *to->triangle_place);
     to->vertex_order = mw__alloc(from->point_count, sizeof *to->vertex_order);
     to->vertex_place = mw__alloc(from->point_count, sizeof *to->vertex_place);
-    to->point = mw__alloc(from->point_count, sizeof *to->point);
-    to->tri = mw__alloc(from->tri_count, sizeof *to->tri);
+    to->point = mw__alloc_lines(from->point_count, sizeof *to->point);
+    to->tri = mw__alloc_lines(from->tri_count, sizeof *to->tri);
     to->owner = mw__alloc(from->point_count, sizeof *to->owner);
     return to->triangle_order && to->triangle_place && to->vertex_order && to->vertex_place && to->point && to->tri &&
            to->owner;

@@ -107,8 +107,8 @@ mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options
     mesh->tolerant = options && options->tolerant;
     mesh->point_count = (uint32_t)arrays->point_count;
     mesh->tri_count = (uint32_t)arrays->triangle_count;
-    mesh->point = mw__alloc(mesh->point_count, sizeof *mesh->point);
-    mesh->tri = mw__alloc(mesh->tri_count, sizeof *mesh->tri);
+    mesh->point = mw__alloc_lines(mesh->point_count, sizeof *mesh->point);
+    mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
     status = mesh->point && mesh->tri ? fill(mesh, arrays, error) : mw__fail_memory(error);
     if (status)
         mw_mesh_destroy(mesh);

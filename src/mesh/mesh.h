@@ -14,7 +14,7 @@
 
 #include <meshwalk/mesh.h>
 
-/* 32 bytes, two to a cache line. v[3] repeats v[0], so that edge k is v[k], v[k + 1] without a modulo. */
+/* 32 bytes, two to a cache line (mw__alloc_lines). v[3] repeats v[0], so that edge k is v[k], v[k + 1] without a modulo. */
 typedef struct mw_triangle {
     uint32_t v[4];
     uint32_t link[3];

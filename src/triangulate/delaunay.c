@@ -171,7 +171,7 @@ static mw_status harvest(const delaunay *d, mw_triangle **tri, uint32_t *tri_cou
 {
     uint32_t *number = mw__alloc(d->growth.facet_count, sizeof *number);
     bool done = number && number_facets(&d->growth, number, tri_count);
-    if (done) *tri = mw__alloc(*tri_count, sizeof **tri);
+    if (done) *tri = mw__alloc_lines(*tri_count, sizeof **tri);
     done = done && *tri;
     if (done) copy_facets(d, number, *tri);
     free(number);
@@ -211,7 +211,7 @@ mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *d
     if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "points is NULL");
     if (n > MW_MAX_VERTICES) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
-    if (mesh) mesh->point = mw__alloc(n, sizeof *mesh->point);
+    if (mesh) mesh->point = mw__alloc_lines(n, sizeof *mesh->point);
     mw_status status = mesh && mesh->point ? MW_OK : mw__fail_memory(error);
     if (status == MW_OK) {
         mesh->point_count = (uint32_t)n;

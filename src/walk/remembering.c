@@ -10,9 +10,7 @@ static MW_INLINE mw_verdict remembering_step(mw_walk *w, mw_policy P)
         if (beyond(w, 0, P)) return cross(w, 0, P);
         w->e = 0; /* as if entered there: the rest is the same */
     }
-    uint32_t first = mw__next(w->e);
-    if (beyond(w, first, P)) return cross(w, first, P);
-    return leave(w, mw__prev(w->e), P);
+    return leave_either(w, mw__next(w->e), mw__prev(w->e), P);
 }
 
 MW_STAMP_WALK(remembering, false)

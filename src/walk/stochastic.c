@@ -25,8 +25,7 @@ static MW_INLINE mw_verdict stochastic_step(mw_walk *w, mw_policy P)
     }
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
     uint32_t first = coin & 1 ? next : prev;
-    if (beyond(w, first, P)) return cross(w, first, P);
-    return leave(w, next + prev - first, P);
+    return leave_either(w, first, next + prev - first, P);
 }
 
 MW_STAMP_WALK(stochastic, false)
