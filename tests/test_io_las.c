@@ -89,7 +89,7 @@ static void make(las *l, unsigned minor, unsigned format, size_t extra, const vo
     mw__put_f64(h + 155, 500000);
     mw__put_f64(h + 163, -20);
     if (minor == 4) mw__put_bytes(h + 247, 8, POINTS);
-    memcpy(h + header, between, between_size);
+    if (between_size > 0) memcpy(h + header, between, between_size);
     for (int i = 0; i < POINTS; i++) put_point(h + header + between_size + (size_t)i * record, i, format);
     l->size = header + between_size + POINTS * record;
 }

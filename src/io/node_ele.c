@@ -320,8 +320,9 @@ mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_erro
         return mw__fail(error, MW_ERROR_ARGUMENT, "the format 'node' writes two files: it needs a name for them");
     int stem = (int)stem_length(path);
     size_t size = strlen(path) + 16;
-    char *node_path = mw__alloc(2, size), *ele_path = node_path + size;
+    char *node_path = mw__alloc(2, size);
     if (!node_path) return mw__fail_memory(error);
+    char *ele_path = node_path + size;
     snprintf(node_path, size, "%.*s.node", stem, path);
     snprintf(ele_path, size, "%.*s.ele", stem, path);
     mw_output *node = NULL, *ele = NULL;

@@ -143,7 +143,7 @@ on_terminal() { # on_terminal SECONDS ARGUMENTS...: what a terminal shows while 
     script -qec "sh -c '{ head -n 9 p.xyz; sleep $seconds; } | \"$meshwalk\" $* >/dev/null'" /dev/null </dev/null \
         >"$logs/terminal" 2>&1
 }
-if command -v script >/dev/null; then
+if script -qec true /dev/null </dev/null >/dev/null 2>&1; then # not where no terminal can be made
     on_terminal 1.8 locate m.off -
     holds "progress is shown" grep -q 'locating standard input, 1 s' "$logs/terminal"
     on_terminal 1.8 locate --quiet m.off -
