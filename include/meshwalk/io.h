@@ -30,7 +30,8 @@ typedef struct mw_mesh_file {
 /* Read a mesh. Coordinates may be NaN or infinite; vertex numbers all exist.
  *   OFF          with normals, colours or texture coordinates, which are passed over
  *   OBJ          v and f; all else is passed over
- *   PLY          text, little- and big-endian; numbers of the vertices beside x, y, z become fields; triangle strips too
+ *   PLY          text, little- and big-endian; numbers of the vertices beside x, y, z become fields; also triangle
+ *                strips
  *   STL          text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
  *   .node, .ele  Triangle: path is the name of either, or the name without ending; numbered from 0 or 1. Attributes
  *                become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" on top names them; one
@@ -49,11 +50,11 @@ MW_API mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file);
  *   "node"        Triangle: two files, .node and .ele, whichever is named; z becomes the first attribute
  *   "obj", "stl"  (STL as text, with all digits); fields are not written
  *   "vtk"         legacy VTK as text, an unstructured grid with the fields as point data, for ParaView; not read
- *   "csv"         a table for other programs: a row for each corner of each triangle, triangle,corner,vertex,x,y,z and the
- *                 fields; not read as a mesh
+ *   "csv"         a table for other programs: a row for each corner of each triangle, with the columns
+ *                 triangle,corner,vertex,x,y,z and the fields; not read as a mesh
  * Vertices, triangles, z and fields keep their order and every bit (the sign of a NaN apart); names of fields become
- * single words. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names a vertex
- * that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left. */
+ * single words. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names a
+ * vertex that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left. */
 MW_API mw_status mw_write_mesh(const char *path, const char *format, const mw_mesh_file *file, mw_error *error);
 
 /* All zero = take everything, as the file has it. */
@@ -66,17 +67,18 @@ typedef struct mw_points_options {
 /* A stream of points, read block by block in constant memory: text, or LAS 1.0-1.4 (LAZ is refused with a hint).
  *
  * Text: columns separated by semicolons, tabs, commas or blanks (what the first row has, in this order of preference).
- * The first row is a header if none of its fields is a number. Empty lines and lines that begin with # are skipped. Rows
- * all have the same number of columns. Fields may stand in double quotes. "nan" and "inf" are numbers; an empty field is
- * NaN. Decimal commas are taken where semicolons or tabs separate, and refused elsewhere.
+ * The first row is a header if none of its fields is a number. Empty lines and lines that begin with # are skipped.
+ * Rows all have the same number of columns. Fields may stand in double quotes. "nan" and "inf" are numbers; an empty
+ * field is NaN. Decimal commas are taken where semicolons or tabs separate, and refused elsewhere, and beside decimal
+ * points. Triangle's .node is read too, without its numbers and markers.
  *
- * Columns: those selected, in the order given. With `columns` NULL: all columns that hold numbers in the first row; where
- * a header has x and y (or lon and lat, longitude and latitude, easting and northing), these, and z, come first. LAS has
- * x, y, z, intensity, return, returns, classification, scan_angle, user_data, point_source, time, red, green, blue (time
- * and colours NaN where the point format has none); with `columns` NULL x, y, z.
+ * Columns: those selected, in the order given. With `columns` NULL: all columns that hold numbers in the first row;
+ * where a header has x and y (or lon and lat, longitude and latitude, easting and northing), these, and z, come first.
+ * LAS has x, y, z, intensity, return, returns, classification, scan_angle, user_data, point_source, time, red, green,
+ * blue (time and colours NaN where the point format has none); with `columns` NULL x, y, z.
  *
- * MW_ERROR_SYSTEM, MW_ERROR_INPUT (also for a column that the file does not have), MW_ERROR_MEMORY; MW_ERROR_ARGUMENT: a
- * selection of fewer than two columns, or of one twice. A file without rows is a stream of no points. */
+ * MW_ERROR_SYSTEM, MW_ERROR_INPUT (also for a column that the file does not have), MW_ERROR_MEMORY; MW_ERROR_ARGUMENT:
+ * a selection of fewer than two columns, or of one twice. A file without rows is a stream of no points. */
 typedef struct mw_point_reader mw_point_reader;
 
 MW_API mw_status mw_points_open(const char *path, const mw_points_options *options, mw_point_reader **out,
@@ -91,13 +93,14 @@ MW_API mw_status mw_points_read(mw_point_reader *reader, double *values, size_t 
                                 mw_error *error);
 MW_API void mw_points_close(mw_point_reader *reader); /* NULL is allowed */
 
-/* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside it, then
- * given its name, in one step where a file of that name exists (its permissions are kept; a symbolic link to it stays).
- * Pipes, terminals and devices are written directly. Writing into a closed pipe raises SIGPIPE: a program that wants the
- * error instead ignores that signal. */
+/* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside
+ * it, then given its name, in one step where a file of that name exists (its permissions are kept; a symbolic link to it
+ * stays). Pipes, terminals and devices are written directly. Writing into a closed pipe raises SIGPIPE: a program that
+ * wants the error instead ignores that signal. */
 typedef struct mw_output mw_output;
 MW_API mw_status mw_output_open(const char *path, mw_output **out, mw_error *error);
-MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size); /* errors are kept for mw_output_close */
+/* Errors are kept for mw_output_close. */
+MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size);
 /* As printf, for text and integers: decimals would follow the locale. */
 MW_API void mw_output_printf(mw_output *output, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* The shortest of %.15g, %.16g and %.17g in the "C" locale that reads back as the same double; "nan", "inf", "-inf".
@@ -106,8 +109,8 @@ MW_API size_t mw_format_double(char text[32], double value);
 MW_API void mw_output_double(mw_output *output, double value);
 /* Has a write failed yet? Long jobs ask, and stop. */
 MW_API int mw_output_failed(const mw_output *output);
-/* The temporary file that an interrupted program should remove; NULL where the system needs none (or there is none yet).
- * Owned by the output. */
+/* The temporary file that an interrupted program should remove; NULL where the system needs none. Owned by the
+ * output. */
 MW_API const char *mw_output_temporary(const mw_output *output);
 /* commit = 1: finish and rename; 0: remove. Reports the first failed write ("FILE: No space left on device").
  * Frees the output in any case. */

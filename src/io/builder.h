@@ -28,7 +28,7 @@ typedef struct mw_builder {
 /* `file` is emptied; on failure the caller releases it. */
 void mw__build_start(mw_builder *builder, mw_mesh_file *file, mw_source *source);
 
-/* Add a field; before the first point. Its values for the point added last: builder->file->fields[f][point_count - 1]. */
+/* Add a field; before the first point. Its value for the point added last is set with mw__build_value. */
 mw_status mw__build_field(mw_builder *builder, const char *name, mw_error *error);
 mw_status mw__build_point(mw_builder *builder, double x, double y, double z, mw_error *error);
 /* A point from the three numbers that a text begins with; reading them alone. */

@@ -55,7 +55,8 @@ static mw_status refuse_decimal_commas(const mw_source *source, const char *row,
     bool decimal_comma;
     *separator = mw__table_separator(row, &decimal_comma);
     if (!decimal_comma) return MW_OK;
-    return mw__source_fail(source, error, "decimal commas: write points, or separate the columns by semicolons or tabs");
+    return mw__source_fail(source, error,
+                           "decimal commas: write points, or separate the columns by semicolons or tabs");
 }
 
 mw_status mw__columns_detect(mw_source *source, mw_columns *c, char *separator, mw_error *error)

@@ -14,9 +14,9 @@ typedef struct mw_columns {
 /* Look at the header, if there is one, and at the first row of data, which stays unread. `columns` is all zero but for
  * `expected`; a table without rows leaves it so. Release it in any case. */
 mw_status mw__columns_detect(mw_source *source, mw_columns *columns, char *separator, mw_error *error);
-/* The same for the vertices of Triangle's .node, a table separated by blanks, whose first row "rows dimension attributes
- * markers" tells what its columns are: number, x, y, (z,) attribute1, ..., (marker). Numbers and markers do not count as
- * columns of numbers. */
+/* The same for the vertices of Triangle's .node, a table separated by blanks, whose first row "rows dimension
+ * attributes markers" tells what its columns are: number, x, y, (z,) attribute1, ..., (marker). Numbers and markers
+ * do not count as columns of numbers. */
 mw_status mw__columns_of_node(mw_source *source, mw_columns *columns, mw_error *error);
 void mw__columns_release(mw_columns *columns);
 

@@ -2,8 +2,8 @@
  * "count 3 attributes", then "number a b c ..." a line. Numbering starts with 0 or 1, as the first vertex says. Markers
  * and attributes of triangles are passed over; of six corners the first three count.
  *
- * The format has no names for attributes and no heights. A comment "# attributes: z, depth" on top, which other programs
- * skip, names them here, and an attribute called z is taken as the height. */
+ * The format has no names for attributes and no heights. A comment "# attributes: z, depth" on top, which other
+ * programs skip, names them here, and an attribute called z is taken as the height. */
 #include "io/formats.h"
 #include "io/number.h"
 #include "io/output.h"

@@ -1,7 +1,7 @@
 /* number.h - numbers as text, read and written the same whatever the locale says. Private.
  *
- * Both directions are correctly rounded. The usual cases are decided in doubles or in 128-bit integers; the C library is
- * asked for the rest (very long, very large or very small numbers). */
+ * Both directions are correctly rounded. The usual cases are decided in doubles or in 128-bit integers; the C
+ * library is asked for the rest (very long, very large or very small numbers). */
 #ifndef MW_SRC_IO_NUMBER_H
 #define MW_SRC_IO_NUMBER_H
 

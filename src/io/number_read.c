@@ -64,8 +64,8 @@ double mw__decimal(uint64_t digits, int exponent)
         unsigned __int128 product = (unsigned __int128)digits * mw__power_of_5[exponent];
         return (double)product * power_of_2(exponent);
     }
-    /* Divide w by 5^k, both shifted up to their 64th bit: the quotient has 63 or 64 bits, and its last bit may stand for
-     * all that follow when it is rounded to 53. */
+    /* Divide w by 5^k, both shifted up to their 64th bit: the quotient has 63 or 64 bits, and its last bit may
+     * stand for all that follow when it is rounded to 53. */
     uint64_t divisor = mw__power_of_5[-exponent];
     int up = __builtin_clzll(digits), down = __builtin_clzll(divisor);
     unsigned __int128 numerator = (unsigned __int128)(digits << up) << 63;

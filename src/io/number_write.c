@@ -48,7 +48,8 @@ static decimal tidy(uint64_t digits, int exponent, int precision)
 }
 
 /* Most numbers in files have at most 15 digits: find them with one multiplication or division and prove them with
- * another. If n < 10^15 and n / 10^k rounds to v, then n is the one 15-digit decimal of v; nothing is lost if n is off. */
+ * another. If n < 10^15 and n / 10^k rounds to v, then n is the one 15-digit decimal of v; nothing is lost if n is
+ * off. */
 static bool fifteen_digits(double v, int exponent, decimal *d)
 {
     int k = 14 - exponent;

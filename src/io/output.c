@@ -2,8 +2,8 @@
  *
  * Where the system can make a file without a name (O_TMPFILE), the data go there, and the file is linked to its name in
  * the end: an interrupted program leaves nothing. Else they go to ".NAME.xxxxxxxx" in the same directory, which is
- * renamed. A file that exists is replaced in one step by rename, and its permissions are kept. What is no regular file (a pipe, a terminal,
- * /dev/null) is written directly. */
+ * renamed. A file that exists is replaced in one step by rename, and its permissions are kept. What is no regular
+ * file (a pipe, a terminal, /dev/null) is written directly. */
 #define _GNU_SOURCE /* O_TMPFILE, strerror_r that returns the text */
 #include "io/output.h"
 #include "base/random.h"

@@ -33,8 +33,8 @@ typedef struct mw_source {
 
 /* Open a file, or standard input for "-". MW_ERROR_SYSTEM if that fails. Release with mw__source_close. */
 mw_status mw__source_open(mw_source *source, const char *path, mw_error *error);
-/* Read from memory, which must outlive the source; `name` is for messages and to tell the format. The block is small, so
- * that tests with little data reach its borders. */
+/* Read from memory, which must outlive the source; `name` is for messages and to tell the format. The block is
+ * small, so that tests with little data reach its borders. */
 mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size, mw_error *error);
 void mw__source_close(mw_source *source);
 
@@ -58,7 +58,8 @@ mw_status mw__source_line(mw_source *source, char **line, mw_error *error);
 /* Give the line read last back, unchanged; nothing else may have been read since, and it must not have been altered. */
 void mw__source_unread_line(mw_source *source);
 
-/* The next line that holds more than blanks and a comment ("#" to the end of the line, cut off), without leading blanks. */
+/* The next line that holds more than blanks and a comment ("#" to the end of the line, cut off), without leading
+ * blanks. */
 mw_status mw__source_content(mw_source *source, char **line, mw_error *error);
 
 /* Fill in an error with MW_ERROR_INPUT at the present place. Control characters in the message become '?'. */

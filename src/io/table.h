@@ -11,7 +11,8 @@ typedef struct mw_text_field {
 } mw_text_field;
 
 /* The separator of the columns: ';', tab, ',', or ' ' for any white space, from one row. Semicolons win over tabs, tabs
- * over commas, commas over blanks. *decimal_comma is set where the numbers of a row separated by blanks look like 1,5. */
+ * over commas, commas over blanks. *decimal_comma is set where the numbers of a row separated by blanks look like
+ * 1,5. */
 char mw__table_separator(const char *row, bool *decimal_comma);
 
 /* Take the next field off *row; false after the last. Start with *more = true. With ' ' as the separator there are no

@@ -1,4 +1,5 @@
-/* Writing legacy VTK (text, version 3.0), for ParaView: an unstructured grid of triangles with the fields as point data. */
+/* Writing legacy VTK (text, version 3.0), for ParaView: an unstructured grid of triangles with the fields as point
+ * data. */
 #include "io/formats.h"
 #include "io/output.h"
 
