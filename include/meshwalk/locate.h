@@ -73,9 +73,9 @@ typedef struct mw_location {
 typedef struct mw_locator mw_locator;
 
 typedef struct mw_locator_options {
-    int any;     /* 1: take also a mesh that is no embedding; see mw_locator_void_promise                      */
-    int border;  /* 1: build the index that nearest-border queries and a tolerance need                        */
-    int layout;  /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
+    int any;    /* 1: take also a mesh that is no embedding; see mw_locator_void_promise                      */
+    int border; /* 1: build the index that nearest-border queries and a tolerance need                        */
+    int layout; /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
     uint32_t reserved[5];
 } mw_locator_options;
 
@@ -94,8 +94,8 @@ typedef struct mw_locator_info {
     size_t border_bytes;      /* of it, the index of the border                    */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;               /* 1: walks run on an own copy in Hilbert order      */
-    int embedding;            /* 0: only with options.any                          */
+    int copied;    /* 1: walks run on an own copy: ghosts, Hilbert order */
+    int embedding; /* 0: only with options.any                          */
 } mw_locator_info;
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
 
@@ -107,12 +107,12 @@ typedef struct mw_query_options {
     mw_walk_kind walk;
     mw_start_kind start;
     mw_arithmetic arithmetic;
-    uint64_t seed;      /* for everything random; answers do not depend on it                                  */
-    uint32_t sample;    /* MW_START_SAMPLE: number of triangles looked at; 0 = cube root of their number        */
-    uint32_t threads;   /* batches: 0 = what OpenMP gives                                                      */
-    double tolerance;   /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
-    int count;          /* 1: fill the counters                                                                */
-    uint32_t lanes;     /* batches: walks in flight at a time; 0 = choose, at most MW_MAX_LANES                 */
+    uint64_t seed;    /* for everything random; answers do not depend on it                                  */
+    uint32_t sample;  /* MW_START_SAMPLE: number of triangles looked at; 0 = cube root of their number        */
+    uint32_t threads; /* batches: 0 = what OpenMP gives                                                      */
+    double tolerance; /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
+    int count;        /* 1: fill the counters                                                                */
+    uint32_t lanes;   /* batches: walks in flight at a time; 0 = choose, at most MW_MAX_LANES                 */
     uint32_t reserved[4];
 } mw_query_options;
 
@@ -130,11 +130,11 @@ typedef struct mw_counters {
 /* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. */
 typedef struct mw_cursor {
     mw_counters counters;
-    uint64_t random;     /* state of the random numbers                 */
-    double tolerance;    /* as in the options                           */
-    uint32_t last;       /* triangle of the query before (internal number) */
-    uint32_t sample;     /* resolved number of samples                  */
-    uint32_t fuel;       /* steps after which a walk hands over         */
+    uint64_t random;                        /* state of the random numbers                 */
+    double tolerance;                       /* as in the options                           */
+    uint32_t last;                          /* triangle of the query before (internal number) */
+    uint32_t sample;                        /* resolved number of samples                  */
+    uint32_t fuel;                          /* steps after which a walk hands over         */
     uint8_t walk, start, arithmetic, count; /* resolved options          */
     uint32_t reserved[2];
 } mw_cursor;
