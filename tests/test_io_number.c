@@ -183,13 +183,42 @@ static void test_written_text(void **state)
 static void test_read_text(void **state)
 {
     (void)state;
-    static const char *const numbers[] = {
-        "0", "-0", "+1", "1.", ".5", "-.5e1", "1e5", "1E+5", "1e-5", "00012", "0.1", "1e400", "-1e400", "1e-400",
-        "4.9406564584124654e-324", "2.4703282292062327e-324", "2.4703282292062328e-324", "1.7976931348623157e308",
-        "1.7976931348623158e308", "1.7976931348623159e308", "9007199254740993", "9007199254740992.9999999999999999999",
-        "0.000000000000000000000000000000123", "123456789012345678901234567890", "18446744073709551616", "1e23",
-        "8.5e22", "0.28764899999999999", "1e99999999999999999999", "-0e99999999999999999999", "0.5e-0", "nan", "inf",
-        "-inf", "infinity", "-Infinity"};
+    static const char *const numbers[] = {"0",
+                                          "-0",
+                                          "+1",
+                                          "1.",
+                                          ".5",
+                                          "-.5e1",
+                                          "1e5",
+                                          "1E+5",
+                                          "1e-5",
+                                          "00012",
+                                          "0.1",
+                                          "1e400",
+                                          "-1e400",
+                                          "1e-400",
+                                          "4.9406564584124654e-324",
+                                          "2.4703282292062327e-324",
+                                          "2.4703282292062328e-324",
+                                          "1.7976931348623157e308",
+                                          "1.7976931348623158e308",
+                                          "1.7976931348623159e308",
+                                          "9007199254740993",
+                                          "9007199254740992.9999999999999999999",
+                                          "0.000000000000000000000000000000123",
+                                          "123456789012345678901234567890",
+                                          "18446744073709551616",
+                                          "1e23",
+                                          "8.5e22",
+                                          "0.28764899999999999",
+                                          "1e99999999999999999999",
+                                          "-0e99999999999999999999",
+                                          "0.5e-0",
+                                          "nan",
+                                          "inf",
+                                          "-inf",
+                                          "infinity",
+                                          "-Infinity"};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         double value;
         const char *end = mw__read_double(numbers[i], &value);
@@ -213,7 +242,7 @@ static void test_read_rest(void **state)
     (void)state;
     const struct {
         const char *text, *rest;
-    } cases[] = {{"1,5", ",5"},   {"1e", "e"},  {"1e+", "e+"}, {"0x10", "x10"}, {"1.2.3", ".3"},
+    } cases[] = {{"1,5", ",5"},    {"1e", "e"},   {"1e+", "e+"}, {"0x10", "x10"}, {"1.2.3", ".3"},
                  {"12abc", "abc"}, {"nano", "o"}, {"1 2", " 2"}, {"inf2", "2"},   {"infinit", "init"}};
     double value;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
@@ -285,8 +314,8 @@ static void test_locale(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_write_random), cmocka_unit_test(test_read_random), cmocka_unit_test(test_read_middles),
-        cmocka_unit_test(test_written_text), cmocka_unit_test(test_read_text),   cmocka_unit_test(test_read_rest),
+        cmocka_unit_test(test_write_random),  cmocka_unit_test(test_read_random), cmocka_unit_test(test_read_middles),
+        cmocka_unit_test(test_written_text),  cmocka_unit_test(test_read_text),   cmocka_unit_test(test_read_rest),
         cmocka_unit_test(test_read_integers), cmocka_unit_test(test_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,14 +17,14 @@ extern "C" {
 /* A mesh as read: arrays owned by the structure; release with mw_mesh_file_release. Faces of more than three corners
  * are cut into triangles, a fan from the first corner. */
 typedef struct mw_mesh_file {
-    double *points;       /* 3 per vertex: x y z (z = 0 where the file has none) */
-    uint32_t *triangles;  /* 3 per triangle */
+    double *points;      /* 3 per vertex: x y z (z = 0 where the file has none) */
+    uint32_t *triangles; /* 3 per triangle */
     size_t point_count, triangle_count;
     int has_z;
-    char **field_names;   /* further values per vertex (attributes of .node, properties of PLY) */
-    double **fields;      /* field_count arrays of point_count */
+    char **field_names; /* further values per vertex (attributes of .node, properties of PLY) */
+    double **fields;    /* field_count arrays of point_count */
     size_t field_count;
-    size_t welded;        /* STL: vertices merged because their coordinates are equal */
+    size_t welded; /* STL: vertices merged because their coordinates are equal */
 } mw_mesh_file;
 
 /* Read a mesh. Coordinates may be NaN or infinite; vertex numbers all exist.
@@ -59,8 +59,8 @@ MW_API mw_status mw_write_mesh(const char *path, const char *format, const mw_me
 
 /* All zero = take everything, as the file has it. */
 typedef struct mw_points_options {
-    const char *columns;     /* NULL = see mw_points_open; else names or 1-based numbers, "x,y", "3,4,5", "lon,lat,z" */
-    uint8_t classes[256];    /* LAS: 1 = take points of this class; all zero = take all                            */
+    const char *columns;  /* NULL = see mw_points_open; else names or 1-based numbers, "x,y", "3,4,5", "lon,lat,z" */
+    uint8_t classes[256]; /* LAS: 1 = take points of this class; all zero = take all                            */
     uint32_t reserved[4];
 } mw_points_options;
 
@@ -94,8 +94,8 @@ MW_API mw_status mw_points_read(mw_point_reader *reader, double *values, size_t 
 MW_API void mw_points_close(mw_point_reader *reader); /* NULL is allowed */
 
 /* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside
- * it, then given its name, in one step where a file of that name exists (its permissions are kept; a symbolic link to it
- * stays). Pipes, terminals and devices are written directly. Writing into a closed pipe raises SIGPIPE: a program that
+ * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a link to
+ * it). Pipes, terminals and devices are written directly. Writing into a closed pipe raises SIGPIPE: a program that
  * wants the error instead ignores that signal. */
 typedef struct mw_output mw_output;
 MW_API mw_status mw_output_open(const char *path, mw_output **out, mw_error *error);
