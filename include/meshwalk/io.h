@@ -52,15 +52,15 @@ MW_API mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file);
  *   "vtk"         legacy VTK as text, an unstructured grid with the fields as point data, for ParaView; not read
  *   "csv"         a table for other programs: a row for each corner of each triangle, with the columns
  *                 triangle,corner,vertex,x,y,z and the fields; not read as a mesh
- * Vertices, triangles, z and fields keep their order and every bit (the sign of a NaN apart); names of fields become
- * single words. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names a
+ * Vertices, triangles, z and fields keep their order and every bit (the sign of a NaN apart), but for the vertices of
+ * STL and csv, which have corners only; names of fields become single words. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names a
  * vertex that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left. */
 MW_API mw_status mw_write_mesh(const char *path, const char *format, const mw_mesh_file *file, mw_error *error);
 
 /* All zero = take everything, as the file has it. */
 typedef struct mw_points_options {
     const char *columns;  /* NULL = see mw_points_open; else names or 1-based numbers, "x,y", "3,4,5", "lon,lat,z" */
-    uint8_t classes[256]; /* LAS: 1 = take points of this class; all zero = take all                            */
+    uint8_t classes[256]; /* LAS: 1 = take points of this class; all zero = take all */
     uint32_t reserved[4];
 } mw_points_options;
 
