@@ -44,6 +44,10 @@ endif()
 add_test(NAME arrows COMMAND ${PROJECT_SOURCE_DIR}/tools/check_arrows)
 add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols ${PROJECT_SOURCE_DIR}/include
   $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
+# Fast-math would make the predicates wrong: the sources refuse it.
+add_test(NAME fast_math COMMAND ${CMAKE_C_COMPILER} -ffast-math -fsyntax-only -I${PROJECT_SOURCE_DIR}/include
+  -I${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/predicates/orient2d.c)
+set_tests_properties(fast_math PROPERTIES PASS_REGULAR_EXPRESSION "do not compile it with -ffast-math")
 if(MW_BUILD_CLI)
   add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
 endif()
