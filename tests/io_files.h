@@ -19,13 +19,14 @@ typedef struct bytes {
 } bytes;
 #define BYTES(literal) ((bytes){literal, sizeof(literal) - 1})
 
-static char files_directory[64];
+static char files_directory[512];
 
 /* Set-up and tear-down of a group: the tests run in an empty directory of their own. */
 static inline int files_enter(void **state)
 {
     (void)state;
-    strcpy(files_directory, "/tmp/meshwalk-test-XXXXXX");
+    const char *place = getenv("TMPDIR");
+    snprintf(files_directory, sizeof files_directory, "%s/meshwalk-test-XXXXXX", place ? place : P_tmpdir);
     return mkdtemp(files_directory) && chdir(files_directory) == 0 ? 0 : -1;
 }
 
