@@ -119,13 +119,26 @@ static void add(mw_counters *sum, const mw_counters *more)
     sum->handovers += more->handovers;
 }
 
+/* Threads for `chunks` chunks: as many as asked for, or as OpenMP gives, but none without work. */
+static int choose_threads(uint32_t asked, int64_t chunks)
+{
+#ifdef _OPENMP
+    int64_t threads = asked ? asked : omp_get_max_threads();
+#else
+    int64_t threads = 1;
+    (void)asked;
+#endif
+    return (int)(threads < chunks ? threads : chunks);
+}
+
 /* Answer one piece of the batch, chunk by chunk on all threads. */
 static void answer_piece(const batch *b, uint32_t n, uint32_t threads, mw_counters *sum)
 {
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
-    (void)threads; /* unused without OpenMP */
+    int team = choose_threads(threads, chunks);
+    (void)team; /* unused without OpenMP */
 #ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) num_threads(threads ? (int)threads : omp_get_max_threads()) if (chunks > 1)
+#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
 #endif
     for (int64_t i = 0; i < chunks; i++) {
         uint32_t first = (uint32_t)(i * CHUNK);
