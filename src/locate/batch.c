@@ -123,7 +123,7 @@ static void add(mw_counters *sum, const mw_counters *more)
 static int choose_threads(uint32_t asked, int64_t chunks)
 {
 #ifdef _OPENMP
-    int64_t threads = asked ? asked : omp_get_max_threads();
+    int64_t threads = asked ? (int64_t)asked : omp_get_max_threads();
 #else
     int64_t threads = 1;
     (void)asked;
