@@ -202,9 +202,8 @@ int main(int argc, char **argv)
     defaults.sizes = {10000, 100000, 1000000};
     defaults.data = {"uniform"};
     defaults.queries = 5000;
-#define X(id, name, source, help) defaults.walks.push_back(name);
+#define MW_WALK_ENTRY(id, symbol, name, source, help) defaults.walks.push_back(name);
 #include <meshwalk/walks.def>
-#undef X
     Options options = parse(argc, argv, defaults, "point location beside CGAL, ns per query");
     print_machine(options.tsv, peer_version());
     Table table({"data", "points", "walk", "start", "way", "ns/query", "(least)", "ratio", "triangles", "tests"});

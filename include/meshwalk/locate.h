@@ -17,17 +17,15 @@ extern "C" {
 
 typedef enum mw_walk_kind {
     MW_WALK_AUTO = 0,
-#define X(id, name, source, help) MW_WALK_##id,
+#define MW_WALK_ENTRY(id, symbol, name, source, help) MW_WALK_##id,
 #include <meshwalk/walks.def>
-#undef X
     MW_WALK_COUNT
 } mw_walk_kind;
 
 typedef enum mw_start_kind {
     MW_START_AUTO = 0,
-#define X(id, name, source, help) MW_START_##id,
+#define MW_START_ENTRY(id, name, source, help) MW_START_##id,
 #include <meshwalk/starts.def>
-#undef X
     MW_START_COUNT
 } mw_start_kind;
 
@@ -40,7 +38,7 @@ MW_API const char *mw_walk_source(mw_walk_kind walk);
 MW_API const char *mw_walk_help(mw_walk_kind walk);
 MW_API const char *mw_start_name(mw_start_kind start);
 MW_API const char *mw_start_help(mw_start_kind start);
-/* The number of a name; MW_WALK_COUNT or MW_START_COUNT if there is none. */
+/* The number of a name (not NULL); MW_WALK_COUNT or MW_START_COUNT if there is none. */
 MW_API mw_walk_kind mw_walk_by_name(const char *name);
 MW_API mw_start_kind mw_start_by_name(const char *name);
 
@@ -63,7 +61,8 @@ typedef struct mw_location {
     double weight[3];  /* barycentric weights of the triangle's vertices: >= 0, sum 1 up to rounding, exactly 0 for the
                           vertices off the edge the point is on; for MW_NEAR, of the nearest point; else NaN        */
     uint32_t triangle; /* the caller's number, or MW_NONE                                                           */
-    uint32_t hole;     /* MW_IN_HOLE and MW_NEAR in a hole: number of the hole; else MW_NONE                        */
+    uint32_t hole;     /* MW_IN_HOLE and MW_NEAR in a hole: number of the hole; else MW_NONE. Holes are numbered from 0
+                          in the order of the lowest-numbered triangle beside each                                  */
     uint8_t where;     /* mw_where                                                                                  */
     uint8_t local;     /* MW_ON_EDGE and MW_NEAR: local edge; MW_ON_VERTEX: local vertex; else 255                  */
     uint16_t reserved;
@@ -80,7 +79,7 @@ typedef struct mw_locator_options {
 } mw_locator_options;
 
 /* Prepare a mesh for queries.
- *   mesh     must outlive the locator and not change while it exists
+ *   mesh     must outlive the locator; its fields may change while that exists
  *   options  NULL = all zero
  *   out      owned by the caller (mw_locator_destroy); NULL on failure
  * MW_ERROR_INPUT: the mesh has no triangle with an area, or is no embedding; the error names the first defect. */
@@ -94,7 +93,8 @@ typedef struct mw_locator_info {
     size_t border_bytes;      /* of it, the index of the border                    */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;    /* 1: walks run on an own copy: ghosts, Hilbert order */
+    int copied;    /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
+                      Hilbert order */
     int embedding; /* 0: only with options.any                          */
 } mw_locator_info;
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
@@ -118,16 +118,23 @@ typedef struct mw_query_options {
 
 #define MW_MAX_LANES 64
 
-/* What the walks did, summed over queries. `init` is the turning round the first vertex of the straight walk. */
+/* What the walks did, summed over queries; filled where options.count says so. `init` is the turning round the first
+ * vertex of the straight walk. Independent of threads; where queries begin at the one before (last, sorted, auto), they
+ * depend on lanes. */
 typedef struct mw_counters {
     uint64_t queries;
     uint64_t triangles_init, triangles; /* triangles visited, the first one included     */
     uint64_t triangles_max;             /* most triangles visited by one query           */
     uint64_t tests_init, tests;         /* orientation tests, the final answer's three not counted */
-    uint64_t handovers;                 /* walks that ran out of steps and were ended by the celestial walk */
+    uint64_t handovers; /* walks that ran out of steps, or in doubles ended in a wrong triangle, and were
+                                           ended by the celestial walk in exact arithmetic */
 } mw_counters;
 
-/* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. */
+/* Add `more` to `sum`: for the cursors of several threads. */
+MW_API void mw_counters_add(mw_counters *sum, const mw_counters *more);
+
+/* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. It serves only the
+ * locator it was initialised with. */
 typedef struct mw_cursor {
     mw_counters counters;
     uint64_t random;                        /* state of the random numbers                 */
@@ -139,8 +146,8 @@ typedef struct mw_cursor {
     uint32_t reserved[2];
 } mw_cursor;
 
-/* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a negative or NaN tolerance, or a tolerance
- * without the border index. MW_START_SORTED in single queries means MW_START_LAST. */
+/* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a tolerance that is negative, NaN or
+ * infinite, or one without the border index. MW_START_SORTED in single queries means MW_START_LAST. */
 MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options,
                                 mw_error *error);
 
@@ -151,12 +158,17 @@ MW_API mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, doubl
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
  *   counters  NULL or filled with the sum over the batch (options->count)
+ * MW_START_AUTO means MW_START_SORTED for 64 queries and more. MW_START_LAST and _SORTED: each thread takes 16,384
+ * queries at a time, in `lanes` runs; the first query of a run begins as with MW_START_SAMPLE, each other where the one
+ * before it ended.
  * MW_ERROR_ARGUMENT as mw_cursor_init; MW_ERROR_MEMORY (then locations is unspecified). */
 MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,
                                  const mw_query_options *options, mw_location *locations, mw_counters *counters,
                                  mw_error *error);
 
-/* The border edge nearest to a point, exactly: of several at the same distance the lowest triangle, then edge. */
+/* The border edge nearest to a point, exactly: of several at the same distance the lowest triangle, then edge. A border
+ * edge has a triangle with an area on one side, and on the other nothing that the mesh covers: flat triangles do not
+ * count, and where two pieces lie along one another there is no border. */
 typedef struct mw_border_hit {
     uint32_t triangle; /* the caller's number */
     uint32_t edge;     /* local edge */
@@ -164,11 +176,13 @@ typedef struct mw_border_hit {
     double point[2];   /* nearest point of that edge, rounded */
 } mw_border_hit;
 
-/* MW_ERROR_ARGUMENT if the locator was made without options.border, or the point is not finite. Thread-safe. */
+/* Logarithmic in the border edges where few of them are about equally near; linear at worst, in the middle of a round
+ * hole. MW_ERROR_ARGUMENT if the locator was made without options.border, or the point is not finite. Thread-safe. */
 MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_border_hit *hit, mw_error *error);
 
 /* Linear interpolation: value[i] = sum of location[i].weight[k] * values[vertex k of its triangle], exact at vertices;
- * NaN where the location has no triangle. values: one per vertex of the mesh. Thread-safe. */
+ * NaN where the location has no triangle. values: one per vertex of the mesh, in which the points were located.
+ * Thread-safe. */
 MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations, size_t n,
                            double *result);
 

@@ -86,6 +86,7 @@ MW_API mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *
                                 mw_error *error);
 MW_API void mw_mesh_destroy(mw_mesh *mesh); /* NULL is allowed */
 
+/* Numbers of vertices, triangles and local edges are not checked: they must be those of the mesh. */
 MW_API uint32_t mw_mesh_vertex_count(const mw_mesh *mesh);
 MW_API uint32_t mw_mesh_triangle_count(const mw_mesh *mesh);
 MW_API void mw_mesh_vertex(const mw_mesh *mesh, uint32_t vertex, double point[2]);

@@ -108,7 +108,7 @@ static mw_counters answer(const batch *b, uint32_t first, uint32_t count)
     return c.counters;
 }
 
-static void add(mw_counters *sum, const mw_counters *more)
+void mw_counters_add(mw_counters *sum, const mw_counters *more)
 {
     sum->queries += more->queries;
     sum->triangles_init += more->triangles_init;
@@ -146,7 +146,7 @@ static void answer_piece(const batch *b, uint32_t n, uint32_t threads, mw_counte
 #ifdef _OPENMP
 #pragma omp critical(mw_counters)
 #endif
-        add(sum, &counters);
+        mw_counters_add(sum, &counters);
     }
 }
 

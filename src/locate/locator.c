@@ -24,6 +24,32 @@ static bool scattered(const mw_tiling *tiling)
     return far > links / 4;
 }
 
+/* Does the vertex across the link lie in the tile's circle? Rounded. */
+static bool fails_circle(const mw_tiling *tiling, const mw_triangle *tile, uint32_t link)
+{
+    const mw_point *p = tiling->point;
+    uint32_t across = tiling->tri[mw__link_triangle(link)].v[mw__prev(mw__link_edge(link))];
+    double bound, in = mw__incircle_rounded(p[tile->v[0]], p[tile->v[1]], p[tile->v[2]], p[across], &bound);
+    return in > bound;
+}
+
+/* The remembering walk is the cheapest, but may go round in cycles where edges are not Delaunay, and hands over only when
+ * its fuel is used up. The celestial walk costs more on long walks, little more on short ones. A look at the edges of a
+ * few tiles is enough to choose by. */
+static mw_walk_kind choose_walk(const mw_tiling *tiling)
+{
+    enum { PROBES = 1024, FEW = 50 }; /* one edge in FEW may fail */
+    uint32_t edges = 0, failing = 0, stride = tiling->tri_count / PROBES + 1;
+    for (uint32_t t = 0; t < tiling->tri_count; t += stride)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t link = tiling->tri[t].link[k];
+            if (link == MW_NONE) continue;
+            edges++;
+            failing += fails_circle(tiling, &tiling->tri[t], link);
+        }
+    return failing * FEW > edges ? MW_WALK_CELESTIAL : MW_WALK_REMEMBERING;
+}
+
 static mw_status prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
     mw_tiling *tiling = &locator->tiling;
@@ -44,6 +70,7 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
         locator->has_border = true;
     }
     mw__extent(tiling->point, tiling->tri, tiling->tri_count, locator->low, locator->high);
+    locator->auto_walk = choose_walk(tiling);
     locator->centre = mw__start_centre(tiling, locator->low, locator->high);
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->near2 = width / mw__sample_count(tiling) * height;
@@ -95,25 +122,4 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
 const char *mw_locator_void_promise(const mw_locator *locator)
 {
     return locator->tiling.embedding ? NULL : locator->promise;
-}
-
-const char *mw_where_name(mw_where where)
-{
-    static const char *const names[MW_WHERE_COUNT] = {"inside", "edge", "vertex", "outside", "hole", "near", "bad"};
-    return (unsigned)where < MW_WHERE_COUNT ? names[where] : NULL;
-}
-
-void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations, size_t n, double *result)
-{
-    for (size_t i = 0; i < n; i++) {
-        const mw_location *at = &locations[i];
-        result[i] = NAN;
-        if (at->triangle == MW_NONE) continue;
-        uint32_t v[3];
-        mw_mesh_triangle(mesh, at->triangle, v);
-        double sum = 0;
-        for (int k = 0; k < 3; k++)
-            if (at->weight[k] != 0) sum += at->weight[k] * values[v[k]]; /* a weight of 0 ignores even NaN */
-        result[i] = sum;
-    }
 }

@@ -22,26 +22,24 @@ void mw__areas(const mw_point corner[3], mw_point q, double area[3])
     for (uint32_t k = 0; k < 3; k++) area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
 }
 
-/* Areas up to a common factor, for triangles so small or so large that their areas leave the range of doubles: all
- * distances from q are scaled to about 1 first. Signs stay those of the exact areas. */
+/* The exponent of the largest of four magnitudes: v * 2^-exponent is below 1. */
+static int exponent_of(double a, double b, double c, double d)
+{
+    int exponent;
+    frexp(fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d))), &exponent);
+    return exponent;
+}
+
+/* Areas up to a common factor, for triangles so small, large or thin that their areas leave the range of doubles: each
+ * axis is scaled to 1 by a power of two, which changes no weight. Signs stay those of the exact areas. */
 static void rescale(const mw_point corner[3], mw_point q, double area[3])
 {
-    double x[3], y[3], size = 0;
-    for (uint32_t k = 0; k < 3; k++) {
-        x[k] = corner[k].x / 2 - q.x / 2;
-        y[k] = corner[k].y / 2 - q.y / 2;
-        size = fmax(size, fmax(fabs(x[k]), fabs(y[k])));
-    }
-    int exponent;
-    frexp(size, &exponent);
-    for (uint32_t k = 0; k < 3; k++) {
-        x[k] = ldexp(x[k], -exponent);
-        y[k] = ldexp(y[k], -exponent);
-    }
-    for (uint32_t k = 0; k < 3; k++) {
-        uint32_t a = mw__next(k), b = mw__prev(k);
-        if (area[k] != 0) area[k] = fmax(x[a] * y[b] - y[a] * x[b], 0x1p-1000);
-    }
+    int ex = exponent_of(corner[0].x, corner[1].x, corner[2].x, q.x);
+    int ey = exponent_of(corner[0].y, corner[1].y, corner[2].y, q.y);
+    mw_point p[3], at = {ldexp(q.x, -ex), ldexp(q.y, -ey)};
+    for (uint32_t k = 0; k < 3; k++) p[k] = (mw_point){ldexp(corner[k].x, -ex), ldexp(corner[k].y, -ey)};
+    for (uint32_t k = 0; k < 3; k++)
+        if (area[k] != 0) area[k] = fmax(mw__orient2d_exact(p[mw__next(k)], p[mw__prev(k)], at), 0x1p-1020);
 }
 
 mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, double area[3])
@@ -79,4 +77,10 @@ mw_location mw__place_in(const mw_mesh *mesh, uint32_t triangle, mw_point q)
     double area[3];
     mw__areas(corner, q, area);
     return mw__place(corner, t->user, q, area);
+}
+
+const char *mw_where_name(mw_where where)
+{
+    static const char *const names[MW_WHERE_COUNT] = {"inside", "edge", "vertex", "outside", "hole", "near", "bad"};
+    return (unsigned)where < MW_WHERE_COUNT ? names[where] : NULL;
 }

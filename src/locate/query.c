@@ -20,11 +20,11 @@ static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const d
     if (zeros == 2) return tiling->owner[tile->v[at]];
     if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is no embedding */
     uint32_t best = tile->user & MW_GHOST ? MW_NONE : tile->user & MW_USER_MASK;
-    if (tile->link[on] != MW_NONE) {
-        uint32_t other = tiling->tri[mw__link_triangle(tile->link[on])].user;
-        if (!(other & MW_GHOST) && (other & MW_USER_MASK) < best) best = other & MW_USER_MASK;
-    }
-    return best;
+    if (tile->link[on] == MW_NONE) return best;
+    const mw_triangle *across = &tiling->tri[mw__link_triangle(tile->link[on])];
+    uint32_t other = across->user & MW_USER_MASK;
+    if (across->user & MW_GHOST || other >= best) return best;
+    return tiling->embedding || mw__has_area(tiling->point, across) ? other : best; /* flat ones own no point */
 }
 
 /* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the tolerance says so. */
@@ -108,9 +108,12 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, m
     case MW_START_AUTO:
         if (mw__distance2(tiling->point[tiling->tri[cursor->last].v[0]], q) > locator->near2)
             return mw__start_sample(tiling, q, cursor->sample, cursor->last, random);
-        return cursor->last;
-    default: return cursor->last; /* MW_START_LAST, MW_START_SORTED */
+        break;
+    case MW_START_LAST:
+    case MW_START_SORTED:
+    case MW_START_COUNT: break;
     }
+    return cursor->last;
 }
 
 mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
@@ -133,7 +136,7 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         return mw__fail(error, MW_ERROR_ARGUMENT, "the tolerance is not a length");
     if (options->tolerance > 0 && !locator->has_border)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a tolerance needs a locator with options.border");
-    mw_walk_kind walk = options->walk ? options->walk : MW_WALK_REMEMBERING;
+    mw_walk_kind walk = options->walk ? options->walk : locator->auto_walk;
     *cursor = (mw_cursor){
         .random = mw__random_seed(options->seed, 0),
         .tolerance = options->tolerance,

@@ -8,9 +8,8 @@ static const struct {
     const char *name, *help;
 } entries[MW_START_COUNT] = {
     [MW_START_AUTO] = {"auto", "chosen by the mesh and the queries"},
-#define X(id, name, source, help) [MW_START_##id] = {name, help},
+#define MW_START_ENTRY(id, name, source, help) [MW_START_##id] = {name, help},
 #include <meshwalk/starts.def>
-#undef X
 };
 
 const char *mw_start_name(mw_start_kind start)

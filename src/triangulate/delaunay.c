@@ -209,7 +209,7 @@ mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *d
     if (!stride) stride = 2;
     if (stride < 2) return mw__fail(error, MW_ERROR_ARGUMENT, "stride %zu is below 2", stride);
     if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "points is NULL");
-    if (n > MW_MAX_VERTICES) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
+    if (n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     if (mesh) mesh->point = mw__alloc_lines(n, sizeof *mesh->point);
     mw_status status = mesh && mesh->point ? MW_OK : mw__fail_memory(error);

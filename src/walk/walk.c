@@ -9,15 +9,13 @@ typedef struct mw_walk_entry {
 
 static const mw_walk_entry entries[MW_WALK_COUNT] = {
     [MW_WALK_AUTO] = {"auto", "", "chosen by the mesh and the queries"},
-#define X(id, name, source, help) [MW_WALK_##id] = {name, source, help},
+#define MW_WALK_ENTRY(id, symbol, name, source, help) [MW_WALK_##id] = {name, source, help},
 #include <meshwalk/walks.def>
-#undef X
 };
 
 static const mw_kernels *const kernels[MW_WALK_COUNT] = {
-    [MW_WALK_LAWSON] = &mw__lawson,         [MW_WALK_REMEMBERING] = &mw__remembering,
-    [MW_WALK_STOCHASTIC] = &mw__stochastic, [MW_WALK_STRAIGHT] = &mw__straight,
-    [MW_WALK_CELESTIAL] = &mw__celestial,
+#define MW_WALK_ENTRY(id, symbol, name, source, help) [MW_WALK_##id] = &mw__##symbol,
+#include <meshwalk/walks.def>
 };
 
 static const mw_walk_entry *entry(mw_walk_kind walk)

@@ -45,7 +45,8 @@ typedef struct mw_kernels {
     bool ends; /* with exact arithmetic it enters no tile of a tiling twice, by the argument in its file */
 } mw_kernels;
 
-extern const mw_kernels mw__lawson, mw__remembering, mw__stochastic, mw__straight, mw__celestial;
+#define MW_WALK_ENTRY(id, symbol, name, source, help) extern const mw_kernels mw__##symbol;
+#include <meshwalk/walks.def>
 
 /* The kernels of a walk; not for MW_WALK_AUTO. */
 const mw_kernels *mw__walk_kernels(mw_walk_kind kind);
