@@ -8,6 +8,7 @@
 #include "meshes.h"
 #include "oracle.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 static mw_mesh *mesh_of(const arrays *a)
@@ -26,6 +27,15 @@ static mw_locator *locator_of(const mw_mesh *mesh, int layout, int border)
     mw_locator_options options = {.layout = layout, .border = border};
     if (mw_locator_create(mesh, &options, &locator, &error)) fail_msg("locator: %s", error.message);
     return locator;
+}
+
+static bool is_embedding(const mw_arrays *view)
+{
+    mw_check check;
+    assert_int_equal(mw_check_arrays(view, &check, NULL), MW_OK);
+    bool embedding = check.embedding;
+    mw_check_release(&check);
+    return embedding;
 }
 
 static void compare(const mw_location *got, const oracle_answer *want, const double q[2], const char *how)
@@ -152,11 +162,8 @@ static void test_slivers(void **state)
         for (uint32_t v = 0; v < a.point_count; v++)
             a.points[2 * v + 1] = a.points[2 * v + 1] * 0x1p-40 + 3 * a.points[2 * v];
         scramble(&a, i % 2, &random);
-        mw_check check;
         mw_arrays view = arrays_view(&a);
-        assert_int_equal(mw_check_arrays(&view, &check, NULL), MW_OK);
-        if (check.embedding) try_everything(&a, 8, &random); /* rounding may have folded it */
-        mw_check_release(&check);
+        if (is_embedding(&view)) try_everything(&a, 8, &random); /* rounding may have folded it */
         arrays_free(&a);
     }
 }
@@ -230,6 +237,119 @@ static void test_bad_points(void **state)
     arrays_free(&a);
 }
 
+static mw_location locate_in(const double points[6], double x, double y)
+{
+    const uint32_t corners[3] = {0, 1, 2};
+    mw_arrays view = {.points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
+    mw_mesh *mesh;
+    mw_locator *locator;
+    mw_cursor cursor;
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_locator_create(mesh, NULL, &locator, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(&cursor, locator, NULL, NULL), MW_OK);
+    mw_location at = mw_locate(locator, &cursor, x, y);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    return at;
+}
+
+/* Areas below or above the doubles, long and thin, in one direction or the other. */
+static void test_weights_at_any_scale(void **state)
+{
+    (void)state;
+    const double thin[6] = {1e-307, -1, -1e-307, -1, 0, -0.5}, low[6] = {0, 0, 1, 0, 0, 0x1p-1030};
+    const double large[6] = {-0x1p1023, -0x1p1023, 0x1p1023, -0x1p1023, 0, 0x1p1023};
+    const double mixed[6] = {-0.383, -5.74e307, -3.406e-320, 7.314073710692655e306, 0, -7.69e307};
+    mw_location at = locate_in(thin, 0, -0.99);
+    assert_true(fabs(at.weight[0] - 0.49) < 1e-12 && fabs(at.weight[2] - 0.02) < 1e-12);
+    at = locate_in(thin, 0, -0.51);
+    assert_true(fabs(at.weight[1] - 0.01) < 1e-12 && fabs(at.weight[2] - 0.98) < 1e-12);
+    at = locate_in(low, 0.25, 0x1p-1031);
+    assert_true(at.weight[0] == 0.25 && at.weight[1] == 0.25 && at.weight[2] == 0.5);
+    at = locate_in(large, 0, 0);
+    assert_true(at.weight[0] == 0.25 && at.weight[1] == 0.25 && at.weight[2] == 0.5);
+    at = locate_in(mixed, -3.406e-320, 7.314073710692654e306);
+    assert_int_equal(at.where, MW_INSIDE);
+    assert_true(fabs(at.weight[1] - 1) < 1e-12 && at.weight[0] > 0 && at.weight[2] > 0);
+}
+
+/* In a mesh that is no embedding too, flat triangles own no point, and weights are weights. */
+static void test_any(void **state)
+{
+    (void)state;
+    uint64_t random = 9;
+    for (int round = 0; round < 3000; round++) {
+        enum { V = 6, T = 4 };
+        arrays a = arrays_make(V, T);
+        for (int i = 0; i < V; i++) arrays_point(&a, mw__random_below(&random, 3), mw__random_below(&random, 3));
+        for (int i = 0; i < T; i++) {
+            uint32_t u = mw__random_below(&random, V), v = (u + 1 + mw__random_below(&random, V - 1)) % V, w = u;
+            while (w == u || w == v) w = mw__random_below(&random, V);
+            arrays_triangle(&a, u, v, w);
+        }
+        mw_arrays view = arrays_view(&a);
+        mw_mesh *mesh;
+        mw_locator *locator;
+        mw_mesh_options tolerant = {.tolerant = 1};
+        mw_locator_options any = {.any = 1};
+        assert_int_equal(mw_mesh_create(&view, &tolerant, &mesh, NULL), MW_OK);
+        if (mw_locator_create(mesh, &any, &locator, NULL) == MW_OK) {
+            for (int i = 0; i < 12; i++) {
+                mw_query_options options = {
+                    .walk = (mw_walk_kind)(i % MW_WALK_COUNT), .start = MW_START_RANDOM, .seed = (uint64_t)i};
+                mw_cursor cursor;
+                assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+                double q[2] = {mw__random_below(&random, 5) / 2.0, mw__random_below(&random, 5) / 2.0};
+                mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
+                check_weights(&a, &at, q);
+                oracle_answer answer;
+                if (at.triangle != MW_NONE)
+                    assert_true(oracle_contains(a.points, a.triangles + 3 * (size_t)at.triangle, q, &answer));
+            }
+            assert_true((mw_locator_void_promise(locator) == NULL) == is_embedding(&view));
+            mw_locator_destroy(locator);
+        }
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
+/* Remembering where the mesh is Delaunay, celestial where it is far from that: seen in what the walks count. */
+static void test_auto_looks_at_the_mesh(void **state)
+{
+    (void)state;
+    uint64_t random = 10;
+    for (int delaunay = 0; delaunay < 2; delaunay++) {
+        arrays a = grid_mesh(40, 0.9, &random);
+        mw_arrays view = arrays_view(&a);
+        mw_mesh *mesh;
+        if (delaunay)
+            assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, &mesh, NULL), MW_OK);
+        else
+            assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+        mw_locator *locator;
+        mw_locator_options any = {.any = 1};
+        assert_int_equal(mw_locator_create(mesh, &any, &locator, NULL), MW_OK);
+        mw_counters as_auto, as_named;
+        double q[200];
+        mw_location at[100];
+        for (int i = 0; i < 200; i++) q[i] = 40 * random_unit(&random);
+        mw_query_options options = {.start = MW_START_RANDOM, .count = 1};
+        assert_int_equal(mw_locate_batch(locator, q, 100, 2, &options, at, &as_auto, NULL), MW_OK);
+        options.walk = delaunay ? MW_WALK_REMEMBERING : MW_WALK_CELESTIAL;
+        assert_int_equal(mw_locate_batch(locator, q, 100, 2, &options, at, &as_named, NULL), MW_OK);
+        assert_memory_equal(&as_auto, &as_named, sizeof as_auto);
+        mw_counters twice = as_auto;
+        mw_counters_add(&twice, &as_named);
+        assert_int_equal(twice.queries, 200);
+        assert_int_equal(twice.tests, 2 * as_auto.tests);
+        assert_int_equal(twice.triangles_max, as_auto.triangles_max);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
 /* Counters do not depend on the number of threads, answers on nothing. */
 static void test_determinism(void **state)
 {
@@ -271,10 +391,17 @@ static void test_determinism(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grids),      cmocka_unit_test(test_offset_and_scale),
-        cmocka_unit_test(test_slivers),    cmocka_unit_test(test_fan),
-        cmocka_unit_test(test_holes),      cmocka_unit_test(test_celestial_trap),
-        cmocka_unit_test(test_bad_points), cmocka_unit_test(test_determinism),
+        cmocka_unit_test(test_grids),
+        cmocka_unit_test(test_offset_and_scale),
+        cmocka_unit_test(test_slivers),
+        cmocka_unit_test(test_fan),
+        cmocka_unit_test(test_holes),
+        cmocka_unit_test(test_celestial_trap),
+        cmocka_unit_test(test_bad_points),
+        cmocka_unit_test(test_determinism),
+        cmocka_unit_test(test_weights_at_any_scale),
+        cmocka_unit_test(test_any),
+        cmocka_unit_test(test_auto_looks_at_the_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
