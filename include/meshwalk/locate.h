@@ -133,8 +133,8 @@ typedef struct mw_counters {
 /* Add `more` to `sum`: for the cursors of several threads. */
 MW_API void mw_counters_add(mw_counters *sum, const mw_counters *more);
 
-/* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. It serves only the
- * locator it was initialised with. */
+/* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. It serves only
+ * the locator it was initialised with. */
 typedef struct mw_cursor {
     mw_counters counters;
     uint64_t random;                        /* state of the random numbers                 */

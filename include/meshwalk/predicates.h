@@ -3,8 +3,8 @@
  * Each returns a double whose *sign* is the sign of the determinant taken over the real numbers that the given doubles
  * stand for, for all finite doubles; its magnitude approximates the determinant. A filter decides nearly every call,
  * exact expansion arithmetic [Shewchuk 1997] the rest, and big integers where coordinates are out of its range, which
- * docs/guarantees.md states. With a coordinate that is NaN or infinite the result is 0. Rounding must be to nearest, and
- * tiny numbers must not be flushed to zero: both are the rule unless a program asks for something else. Thread-safe. */
+ * docs/guarantees.md states. With a coordinate that is NaN or infinite the result is 0. Rounding must be to nearest,
+ * and tiny numbers must not be flushed to zero: both are so unless a program asks for something else. Thread-safe. */
 #ifndef MESHWALK_PREDICATES_H
 #define MESHWALK_PREDICATES_H
 

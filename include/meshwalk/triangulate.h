@@ -25,10 +25,10 @@ typedef struct mw_triangulation_report {
  *   duplicate_of  NULL, or n numbers: MW_NONE, or the lowest-numbered point with the same coordinates. Such points are
  *                 vertices of the mesh that no triangle uses
  *   report        NULL or filled
- *   out           set to the mesh, owned by the caller (mw_mesh_destroy), or to NULL on failure. Its triangles are numbered
- *                 along a Hilbert curve
+ *   out           set to the mesh, owned by the caller (mw_mesh_destroy), or to NULL on failure. Its triangles are
+ *                 numbered along a Hilbert curve
  * MW_ERROR_INPUT: fewer than three different points, all points on one line, or a coordinate that is not finite (the
- * error names the point as its vertex). MW_ERROR_ARGUMENT: NULL, or a stride of 1; MW_ERROR_LIMIT: more than 2^29 points;
+ * error names the point as its vertex). MW_ERROR_ARGUMENT: NULL, or a stride of 1; MW_ERROR_LIMIT: over 2^29 points;
  * MW_ERROR_MEMORY: about 135 bytes per point are needed on the way, 80 of them for the mesh. The expected number of
  * triangles made is O(n log n) wherever the points lie; time is about linear. One thread; thread-safe. */
 MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
