@@ -8,6 +8,8 @@
 #include "meshes.h"
 #include "oracle.h"
 
+#include <float.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 /* Squared distance from q to the segment ab, in rationals. */
@@ -70,20 +72,74 @@ static mw_locator *locator_of(const mw_mesh *mesh)
     return locator;
 }
 
+/* |v - want| <= tolerance, and a rounding of the smallest doubles. An infinite v is for what is above the doubles. */
+static bool close_to(double v, const mpf_t want, const mpf_t tolerance)
+{
+    mpf_t off, most;
+    mpf_init_set_d(off, isinf(v) ? DBL_MAX : v);
+    mpf_init_set_d(most, DBL_TRUE_MIN);
+    bool infinite = isinf(v) && mpf_cmp(want, off) > 0;
+    mpf_sub(off, off, want);
+    mpf_abs(off, off);
+    mpf_add(most, most, tolerance);
+    bool is = !isnan(v) && (infinite || (!isinf(v) && mpf_cmp(off, most) <= 0));
+    mpf_clears(off, most, NULL);
+    return is;
+}
+
+/* Is the hit's point as far from q as the edge is, up to a rounding of the coordinates? */
+static bool foot_is_right(const mw_border_hit *hit, const double q[2], const double a[2], const double b[2],
+                          const mpf_t want)
+{
+    for (int k = 0; k < 2; k++)
+        if (!(hit->point[k] >= fmin(a[k], b[k]) && hit->point[k] <= fmax(a[k], b[k]))) return false;
+    mpf_t d, off, tolerance;
+    mpf_inits(d, off, tolerance, NULL);
+    for (int k = 0; k < 2; k++) {
+        mpf_set_d(off, hit->point[k]);
+        mpf_set_d(tolerance, q[k]);
+        mpf_sub(off, off, tolerance);
+        mpf_mul(off, off, off);
+        mpf_add(d, d, off);
+    }
+    mpf_sqrt(d, d);
+    mpf_set(tolerance, want);
+    for (int k = 0; k < 2; k++) {
+        mpf_set_d(off, fmax(fabs(q[k]), fmax(fabs(a[k]), fabs(b[k]))));
+        mpf_add(tolerance, tolerance, off);
+    }
+    mpf_div_2exp(tolerance, tolerance, 49);
+    mpf_set_d(off, 4 * DBL_TRUE_MIN);
+    mpf_add(tolerance, tolerance, off);
+    mpf_sub(d, d, want);
+    mpf_abs(d, d);
+    bool is = mpf_cmp(d, tolerance) <= 0;
+    mpf_clears(d, off, tolerance, NULL);
+    return is;
+}
+
 static void compare(const arrays *a, const mw_mesh *mesh, const mw_locator *locator, const double q[2])
 {
     mpq_t least;
+    mpf_t want, tolerance;
     mpq_init(least);
+    mpf_init2(want, 256);
+    mpf_init2(tolerance, 256);
     uint32_t triangle, edge = 3;
     nearest_by_force(a, mesh, q, least, &triangle, &edge);
+    mpf_set_q(want, least);
+    mpf_sqrt(want, want);
+    mpf_div_2exp(tolerance, want, 49);
     mw_border_hit hit;
     assert_int_equal(mw_nearest_border(locator, q[0], q[1], &hit, NULL), MW_OK);
     if (hit.triangle != triangle || hit.edge != edge)
         fail_msg("(%.17g, %.17g): triangle %u edge %u, not %u %u", q[0], q[1], hit.triangle, hit.edge, triangle, edge);
-    double want = sqrt(mpq_get_d(least)), off = hypot(hit.point[0] - q[0], hit.point[1] - q[1]);
-    if (!(fabs(hit.distance - want) <= 1e-14 * want + 1e-160)) /* squares below that underflow */
-        fail_msg("(%.17g, %.17g): distance %.17g, not %.17g", q[0], q[1], hit.distance, want);
-    assert_true(fabs(off - want) <= 1e-13 * (want + fabs(q[0]) + fabs(q[1]) + 10));
+    if (!close_to(hit.distance, want, tolerance))
+        fail_msg("(%.17g, %.17g): distance %.17g, not %.17g", q[0], q[1], hit.distance, mpf_get_d(want));
+    const uint32_t *v = a->triangles + 3 * (size_t)triangle;
+    if (!foot_is_right(&hit, q, a->points + 2 * (size_t)v[edge], a->points + 2 * (size_t)v[(edge + 1) % 3], want))
+        fail_msg("(%.17g, %.17g): nearest is (%.17g, %.17g)?", q[0], q[1], hit.point[0], hit.point[1]);
+    mpf_clears(want, tolerance, NULL);
     mpq_clear(least);
 }
 
@@ -104,6 +160,113 @@ static void test_nearest(void **state)
         double *q = nasty_queries(&a, 25, &n, &random);
         for (size_t i = 0; i < n; i++) compare(&a, mesh, locator, q + 2 * i);
         free(q);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
+/* A mesh about the origin, at most as large as the doubles go at scale 1.5e308. */
+static arrays scaled_mesh(double sx, double sy, uint64_t *random)
+{
+    arrays a = grid_mesh(4, mw__random(random) >> 63 ? 0.4 : 0, random);
+    punch(&a, 0.2, random);
+    scramble(&a, 1, random);
+    for (uint32_t i = 0; i < a.point_count; i++) {
+        a.points[2 * i] = (a.points[2 * i] / 2 - 1) * sx;
+        a.points[2 * i + 1] = (a.points[2 * i + 1] / 2 - 1) * sy;
+    }
+    return a;
+}
+
+static void compare_scaled(double sx, double sy, uint64_t *random)
+{
+    arrays a = scaled_mesh(sx, sy, random);
+    mw_arrays view = arrays_view(&a);
+    mw_mesh *mesh;
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+    mw_locator *locator = locator_of(mesh);
+    size_t n;
+    double *q = nasty_queries(&a, 12, &n, random);
+    for (size_t i = 0; i < 2 * n; i++) /* some are beyond the doubles */
+        if (!isfinite(q[i])) q[i] = (2 * random_unit(random) - 1) * DBL_MAX;
+    for (size_t i = 0; i < n; i++) compare(&a, mesh, locator, q + 2 * i);
+    const double corners[] = {DBL_MAX, DBL_MAX, -DBL_MAX, DBL_MAX, 0, 0, DBL_TRUE_MIN, 0, 1, 1};
+    for (size_t i = 0; i < 5; i++) compare(&a, mesh, locator, corners + 2 * i);
+    free(q);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
+/* Where squares, areas or even differences leave the range of doubles; the same in x and y, or not. */
+static void test_scales(void **state)
+{
+    (void)state;
+    static const double scale[] = {1e100,  1e-100, 1e120,  1e-120, 1e155,  1e-155,    1e160,   1e-160, 1e200,
+                                   1e-200, 1e290,  1e-290, 1e300,  1e-300, 0x1p-1060, 1.5e308, 1};
+    enum { SCALES = sizeof scale / sizeof *scale };
+    uint64_t random = 4;
+    for (int i = 0; i < SCALES; i++) {
+        for (int round = 0; round < 4; round++) compare_scaled(scale[i], scale[i], &random);
+        compare_scaled(scale[i], scale[mw__random_below(&random, SCALES)], &random);
+    }
+}
+
+/* One triangle, as wide as the doubles allow. */
+static void test_widest(void **state)
+{
+    (void)state;
+    arrays a = arrays_make(3, 1);
+    arrays_point(&a, -1.5e308, 0);
+    arrays_point(&a, 1.5e308, 0);
+    arrays_point(&a, 0, 1e308);
+    arrays_triangle(&a, 0, 1, 2);
+    mw_arrays view = arrays_view(&a);
+    mw_mesh *mesh;
+    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+    mw_locator *locator = locator_of(mesh);
+    const double q[] = {0, -1e307, 0, 1e307, 1e308, -1e-300, -1e308, 1e308, 1.5e308, -1.5e308, 0.5, 1, 0, DBL_TRUE_MIN};
+    for (size_t i = 0; i < sizeof q / sizeof *q; i += 2) compare(&a, mesh, locator, q + i);
+    mw_border_hit hit;
+    assert_int_equal(mw_nearest_border(locator, 3e307, -1e307, &hit, NULL), MW_OK);
+    assert_true(hit.edge == 0 && hit.distance == 1e307 && hit.point[1] == 0);
+    assert_true(fabs(hit.point[0] - 3e307) < 1e293);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
+/* The tolerance of tiny meshes: half a unit from the border of a hole, then just beyond. */
+static void test_near_tiny(void **state)
+{
+    (void)state;
+    static const double units[] = {1e-155, 1e-203, 1e-290, 0x1p-1060};
+    for (int i = 0; i < 4; i++) {
+        double unit = units[i];
+        arrays a = arrays_make(8, 8);
+        for (int ring = 0; ring < 2; ring++)
+            for (int k = 0; k < 4; k++) {
+                double r = (ring ? 4 : 12) * unit;
+                arrays_point(&a, k == 1 || k == 2 ? r : -r, k >= 2 ? r : -r);
+            }
+        for (uint32_t k = 0; k < 4; k++) {
+            arrays_triangle(&a, k, (k + 1) % 4, 4 + k);
+            arrays_triangle(&a, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k);
+        }
+        mw_arrays view = arrays_view(&a);
+        mw_mesh *mesh;
+        assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+        mw_locator *locator = locator_of(mesh);
+        const double q[] = {3.5 * unit, unit, unit, -2 * unit, 12.5 * unit, 0, 14 * unit, 0};
+        const mw_where want[] = {MW_NEAR, MW_IN_HOLE, MW_NEAR, MW_OUTSIDE};
+        const mw_query_options options = {.tolerance = 0.6 * unit};
+        mw_location at[4];
+        assert_int_equal(mw_locate_batch(locator, q, 4, 2, &options, at, NULL, NULL), MW_OK);
+        for (int k = 0; k < 4; k++) {
+            assert_int_equal(at[k].where, want[k]);
+            compare(&a, mesh, locator, q + (size_t)2 * (size_t)k);
+        }
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);
         arrays_free(&a);
@@ -174,9 +337,8 @@ static void test_arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nearest),
-        cmocka_unit_test(test_near),
-        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_nearest), cmocka_unit_test(test_scales),    cmocka_unit_test(test_widest),
+        cmocka_unit_test(test_near),    cmocka_unit_test(test_near_tiny), cmocka_unit_test(test_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -139,6 +139,29 @@ typedef struct search {
     double most; /* the distance to `best` is at most this */
 } search;
 
+/* The distance of q to a segment lies between these. */
+typedef struct range {
+    double low, high;
+} range;
+
+/* The vector (x, y) 2^exponent, with the larger coordinate, unless it is 0, from 1/2 to 1. */
+typedef struct vector {
+    double x, y;
+    int exponent;
+} vector;
+
+static vector vector_to(mw_point p, mw_point r)
+{
+    double x = r.x - p.x, y = r.y - p.y;
+    int halved = !(fabs(x) <= DBL_MAX && fabs(y) <= DBL_MAX), exponent;
+    if (halved) {
+        x = r.x / 2 - p.x / 2;
+        y = r.y / 2 - p.y / 2;
+    }
+    frexp(fmax(fmax(fabs(x), fabs(y)), DBL_TRUE_MIN), &exponent);
+    return (vector){ldexp(x, -exponent), ldexp(y, -exponent), exponent + halved};
+}
+
 /* Where on the segment is the point nearest to q? Exact. */
 typedef enum part { AT_A, AT_B, BETWEEN } part;
 
@@ -148,6 +171,31 @@ static part nearest_part(const mw_border_edge *e, mw_point q)
     return mw__dot2d(e->b, q, e->a) <= 0 ? AT_B : BETWEEN;
 }
 
+static double scaled_area(const mw_border_edge *e, mw_point q, int shift)
+{
+    return fabs(mw__orient2d_exact((mw_point){ldexp(e->a.x, shift), ldexp(e->a.y, shift)},
+                                   (mw_point){ldexp(e->b.x, shift), ldexp(e->b.y, shift)},
+                                   (mw_point){ldexp(q.x, shift), ldexp(q.y, shift)}));
+}
+
+/* Of the triangle abq, whose angles at a and b are acute. Its area is exact up to one rounding; where it would leave
+ * the range of doubles, the triangle is scaled first. Bits lost in scaling down are below 2^-600, and the area is at
+ * least 2^-200 then. A coordinate overflows in scaling up only where it is at least 2^423, and so |ab| at least 2^369:
+ * the height is below 2^-1000 / 2^369, which rounds to 0 as the area of infinite coordinates does. */
+#define SHIFT 600
+static double height(const mw_border_edge *e, mw_point q)
+{
+    int shift = 0;
+    double area = fabs(mw__orient2d_exact(e->a, e->b, q));
+    if (area == 0) return 0;
+    if (area < 0x1p-1000) shift = SHIFT;
+    if (area > 0x1p1000) shift = -SHIFT;
+    if (shift) area = scaled_area(e, q, shift);
+    vector ab = vector_to(e->a, e->b);
+    return ldexp(area / hypot(ab.x, ab.y), -2 * shift - ab.exponent);
+}
+
+/* Rounded only at the end; infinite where it is above the doubles. */
 static double distance(const mw_border_edge *e, mw_point q)
 {
     switch (nearest_part(e, q)) {
@@ -155,39 +203,66 @@ static double distance(const mw_border_edge *e, mw_point q)
     case AT_B: return hypot(q.x - e->b.x, q.y - e->b.y);
     case BETWEEN: break;
     }
-    /* Height of the triangle abq: its area is exact up to one rounding. Halves keep it in range. */
-    mw_point a = {e->a.x - q.x, e->a.y - q.y};
-    double length = hypot(e->b.x - e->a.x, e->b.y - e->a.y);
-    double height = fabs(mw__orient2d_exact(e->a, e->b, q)) / length;
-    double above = hypot(a.x, a.y); /* the height is no longer than this, whatever over- or underflowed */
-    return height < above ? height : above;
+    return height(e, q);
 }
 
-/* Rounded distances are off by a few roundings of numbers no larger than the distances to the ends. */
-static double margin(const mw_border_edge *e, mw_point q)
+/* Rounding errors of `rounded`, u = 2^-53, size = |ax| + |ay| + |bx| + |by|, between 2^-400 and 2^400. Where an end of a
+ * segment moves, the distance changes by no more than it: rounded differences to q, and the rounded b - a, are worth
+ * u size each. A dot or cross product with b - a, divided by |b - a|, is off by 3u size, the other roundings of the height
+ * by 3u size; a sign that is wrong takes a, b or the height for another that is as near up to 3u size. Together that
+ * is below 2^-49 size. What underflows: at most 2^-1073 in a product, 2^-536 in its root, or 2^-593 where it is divided
+ * by the length of a segment, which is a point if shorter than 2^-480. */
+#define ROUNDING 0x1p-49
+#define POINT 0x1p-960
+
+/* The distance of the segment ab to the origin. */
+static double rounded(mw_point a, mw_point b)
 {
-    return 0x1p-49 * (fabs(e->a.x - q.x) + fabs(e->a.y - q.y) + fabs(e->b.x - q.x) + fabs(e->b.y - q.y)) + 0x1p-1000;
+    double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
+    if (square < POINT || x * a.x + y * a.y >= 0) return sqrt(a.x * a.x + a.y * a.y);
+    if (x * b.x + y * b.y <= 0) return sqrt(b.x * b.x + b.y * b.y);
+    return fabs(a.x * y - a.y * x) / sqrt(square);
+}
+
+/* The same where numbers are so large or so small that products would leave the range of doubles: scaled first. */
+static range scaled_bounds(const mw_border_edge *e, mw_point q)
+{
+    vector a = vector_to(q, e->a), b = vector_to(q, e->b);
+    int k = a.exponent > b.exponent ? a.exponent : b.exponent, i = a.exponent - k, j = b.exponent - k;
+    double d = rounded((mw_point){ldexp(a.x, i), ldexp(a.y, i)}, (mw_point){ldexp(b.x, j), ldexp(b.y, j)});
+    double low = ldexp(d - 4 * ROUNDING, k), high = ldexp(d + 4 * ROUNDING, k);
+    return (range){fmin(low, DBL_MAX) - DBL_TRUE_MIN, high + DBL_TRUE_MIN}; /* what ldexp may have lost */
+}
+
+static range bounds(const mw_border_edge *e, mw_point q)
+{
+    mw_point a = {e->a.x - q.x, e->a.y - q.y}, b = {e->b.x - q.x, e->b.y - q.y};
+    double size = fabs(a.x) + fabs(a.y) + fabs(b.x) + fabs(b.y);
+    if (MW_UNLIKELY(!(size > 0x1p-400 && size < 0x1p400))) return scaled_bounds(e, q);
+    double d = rounded(a, b), off = ROUNDING * size;
+    return (range){d - off, d + off};
 }
 
 static void consider(search *s, const mw_border_edge *e)
 {
-    double d = distance(e, s->q), off = margin(e, s->q);
-    if (d - off > s->most) return;
+    range d = bounds(e, s->q);
+    if (d.low > s->most) return;
     if (s->best) {
         int order = mw__compare_distance(s->q, s->best->a, s->best->b, e->a, e->b);
         bool lower = e->triangle != s->best->triangle ? e->triangle < s->best->triangle : e->edge < s->best->edge;
         if (order < 0 || (order == 0 && !lower)) return;
     }
     s->best = e;
-    s->most = d + off;
+    s->most = d.high;
 }
 
-/* A lower bound of the distance from q to anything in the box. */
+/* A lower bound of the distance from q to anything in the box: finite, as the distance may be just above the doubles
+ * and the best one just below. */
 static double box_distance(const mw_box *box, mw_point q)
 {
     double dx = fmax(fmax(box->low[0] - q.x, q.x - box->high[0]), 0);
     double dy = fmax(fmax(box->low[1] - q.y, q.y - box->high[1]), 0);
-    return hypot(dx, dy) * (1 - 0x1p-49) - 0x1p-1000;
+    return fmin(hypot(dx, dy), DBL_MAX) * (1 - 0x1p-49) - 0x1p-1070;
 }
 
 static void descend(search *s, uint32_t level, uint32_t index)
@@ -226,17 +301,24 @@ static double share(const mw_border_edge *e, mw_point q)
 {
     part where = nearest_part(e, q);
     if (where != BETWEEN) return where == AT_B;
-    double ux = e->b.x / 2 - e->a.x / 2, uy = e->b.y / 2 - e->a.y / 2, length = hypot(ux, uy);
-    double along = (q.x / 2 - e->a.x / 2) * (ux / length) + (q.y / 2 - e->a.y / 2) * (uy / length);
-    return fmin(fmax(along / length, 0), 1);
+    vector ab = vector_to(e->a, e->b), aq = vector_to(e->a, q);
+    double along = (ab.x * aq.x + ab.y * aq.y) / (ab.x * ab.x + ab.y * ab.y);
+    return fmin(fmax(ldexp(along, aq.exponent - ab.exponent), 0), 1);
+}
+
+/* Never beyond a and b, and so exact where they are equal. */
+static double mix(double a, double b, double s)
+{
+    return fmin(fmax((1 - s) * a + s * b, fmin(a, b)), fmax(a, b));
 }
 
 /* The point of the edge nearest to q. */
 static mw_point foot(const mw_border_edge *e, mw_point q)
 {
     double s = share(e, q);
+    if (s == 0) return e->a;
     if (s == 1) return e->b;
-    return (mw_point){e->a.x + s * (e->b.x - e->a.x), e->a.y + s * (e->b.y - e->a.y)};
+    return (mw_point){mix(e->a.x, e->b.x, s), mix(e->a.y, e->b.y, s)};
 }
 
 mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_border_hit *hit, mw_error *error)
