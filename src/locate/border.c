@@ -206,12 +206,12 @@ static double distance(const mw_border_edge *e, mw_point q)
     return height(e, q);
 }
 
-/* Rounding errors of `rounded`, u = 2^-53, size = |ax| + |ay| + |bx| + |by|, between 2^-400 and 2^400. Where an end of a
- * segment moves, the distance changes by no more than it: rounded differences to q, and the rounded b - a, are worth
- * u size each. A dot or cross product with b - a, divided by |b - a|, is off by 3u size, the other roundings of the height
- * by 3u size; a sign that is wrong takes a, b or the height for another that is as near up to 3u size. Together that
- * is below 2^-49 size. What underflows: at most 2^-1073 in a product, 2^-536 in its root, or 2^-593 where it is divided
- * by the length of a segment, which is a point if shorter than 2^-480. */
+/* Rounding errors of `rounded`, with u = 2^-53 and size = |ax| + |ay| + |bx| + |by|, between 2^-400 and 2^400.
+ * Where an end of a segment moves, the distance changes by no more than that: rounded differences to q, and the
+ * rounded b - a, are worth u size each. A dot or cross product with b - a, divided by |b - a|, is off by 3u size, the
+ * other roundings of the height by 3u size; a wrong sign takes a, b or the height for another that is as near up to
+ * 3u size. Together that is below 2^-49 size. What underflows: at most 2^-1073 in a product, 2^-536 in its root, or
+ * 2^-593 where it is divided by the length of a segment, which counts as a point if shorter than 2^-480. */
 #define ROUNDING 0x1p-49
 #define POINT 0x1p-960
 
