@@ -1,4 +1,5 @@
-/* Hilbert curve of order 16 by a table of 4 states, two bits of key a step and four steps at a time, and a radix sort of the 32-bit keys. */
+/* hilbert.c - the Hilbert curve of order 16 by a table of 4 states, two bits of key a step and four steps at a time, and
+ * a radix sort of the 32-bit keys. */
 #include "base/hilbert.h"
 
 #include <string.h>
