@@ -172,7 +172,7 @@ MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points
 typedef struct mw_border_hit {
     uint32_t triangle; /* the caller's number */
     uint32_t edge;     /* local edge */
-    double distance;   /* mesh units, rounded; 0 for a point on the border */
+    double distance;   /* mesh units, rounded; 0 for a point on the border; infinite beyond the largest double */
     double point[2];   /* nearest point of that edge, rounded */
 } mw_border_hit;
 
