@@ -3,6 +3,7 @@
 #include "files.h"
 #include "message.h"
 #include "progress.h"
+#include "signals.h"
 #include "spelling.h"
 
 #include <fcntl.h>
@@ -53,7 +54,7 @@ static int print_command_help(const command *c)
     return files_write_text(NULL, &t);
 }
 
-#define MOST_THREADS 1024 /* a system refuses threads without bound, and OpenMP would end the program */
+#define MOST_THREADS 256 /* a system refuses threads without bound, and OpenMP would end the program */
 
 static int run_command(const command *c, int count, char **arguments)
 {
@@ -68,6 +69,7 @@ static int run_command(const command *c, int count, char **arguments)
         complain("option '--threads' wants at most %d", MOST_THREADS);
         end = END_USAGE;
     } else if (end == 0) {
+        signals_begin();
         progress_begin(common->quiet);
         end = c->run(settings, operands);
         progress_end();
@@ -93,10 +95,17 @@ static void fill_standard_streams(void)
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
 }
 
-int main(int count, char **arguments)
+/* OpenMP ends a program that cannot get its threads with 1, which means something else here. */
+static bool returned;
+static void end_by_limit(void)
 {
-    fill_standard_streams();
-    signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error of the output like any other */
+    if (returned) return;
+    signals_clean();
+    _exit(END_INTERNAL);
+}
+
+static int run_word(int count, char **arguments)
+{
     if (count < 2) {
         complain("which command? 'meshwalk --help' lists them");
         return END_USAGE;
@@ -107,4 +116,14 @@ int main(int count, char **arguments)
     for (size_t i = 0; i < COMMAND_COUNT; i++)
         if (strcmp(commands[i]->name, word) == 0) return run_command(commands[i], count - 2, arguments + 2);
     return unknown_command(word);
+}
+
+int main(int count, char **arguments)
+{
+    fill_standard_streams();
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error of the output like any other */
+    if (atexit(end_by_limit) != 0) return fail_memory();
+    int end = run_word(count, arguments);
+    returned = true;
+    return end;
 }

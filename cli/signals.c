@@ -1,43 +1,76 @@
 #include "signals.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <unistd.h>
 
-static const int ending[] = {SIGHUP, SIGINT, SIGTERM, SIGQUIT};
-enum { ENDING_COUNT = sizeof ending / sizeof *ending };
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* held: no signal ends the program just now */
+static char doomed[4096];                                /* "": none; under the lock */
+static sigset_t ending;                                  /* written before the thread begins */
 
-static char doomed[4096]; /* "" : none; only changed while the signals are held */
+/* The signals that would end the program: one that is ignored, as under nohup, stays ignored. */
+static void collect_signals(void)
+{
+    static const int numbers[] = {SIGHUP, SIGINT, SIGTERM, SIGQUIT};
+    sigemptyset(&ending);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        struct sigaction action;
+        if (sigaction(numbers[i], NULL, &action) == 0 && action.sa_handler == SIG_DFL) sigaddset(&ending, numbers[i]);
+    }
+}
 
-static void end_by(int signal_number)
+/* Under the lock. */
+static void clean(void)
 {
     if (*doomed) unlink(doomed);
-    raise(signal_number); /* its default action is back: SA_RESETHAND */
+    *doomed = 0;
 }
 
-void signals_hold(bool hold)
+/* Wait for a signal, clean up, and let it do to the program what it does by default. */
+static void *wait_for_signal(void *unused)
 {
-    sigset_t set;
-    sigemptyset(&set);
-    for (int i = 0; i < ENDING_COUNT; i++) sigaddset(&set, ending[i]);
-    sigprocmask(hold ? SIG_BLOCK : SIG_UNBLOCK, &set, NULL);
+    int number;
+    (void)unused;
+    if (sigwait(&ending, &number) != 0) return NULL;
+    pthread_mutex_lock(&lock);
+    clean();
+    pthread_sigmask(SIG_UNBLOCK, &ending, NULL);
+    raise(number);
+    return NULL;
 }
 
-/* A signal that is ignored, as under nohup, stays ignored. */
-static void catch_signals(void)
+void signals_begin(void)
 {
-    for (int i = 0; i < ENDING_COUNT; i++) {
-        struct sigaction old, action = {.sa_handler = end_by, .sa_flags = (int)SA_RESETHAND};
-        sigemptyset(&action.sa_mask);
-        if (sigaction(ending[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL) sigaction(ending[i], &action, NULL);
-    }
+    pthread_t thread;
+    sigset_t before;
+    collect_signals();
+    if (pthread_sigmask(SIG_BLOCK, &ending, &before) != 0) return; /* every later thread inherits it */
+    if (pthread_create(&thread, NULL, wait_for_signal, NULL) == 0)
+        pthread_detach(thread);
+    else
+        pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
 void signals_remove(const char *temporary)
 {
-    signals_hold(true);
+    pthread_mutex_lock(&lock);
     if (!temporary || snprintf(doomed, sizeof doomed, "%s", temporary) >= (int)sizeof doomed) *doomed = 0;
-    if (*doomed) catch_signals();
-    signals_hold(false);
+    pthread_mutex_unlock(&lock);
+}
+
+void signals_clean(void)
+{
+    pthread_mutex_lock(&lock);
+    clean();
+    pthread_mutex_unlock(&lock);
+}
+
+void signals_hold(bool hold)
+{
+    if (hold)
+        pthread_mutex_lock(&lock);
+    else
+        pthread_mutex_unlock(&lock);
 }
