@@ -53,9 +53,14 @@ MW_API mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file);
  *   "csv"         a table for other programs: a row for each corner of each triangle, with the columns
  *                 triangle,corner,vertex,x,y,z and the fields; not read as a mesh
  * Vertices, triangles, z and fields keep their order and every bit (the sign of a NaN apart), but for the vertices of
- * STL and csv, which have corners only; names of fields become single words. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names a
- * vertex that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left. */
+ * STL and csv, which have corners only; names of fields become single words. Of "node" both files are complete before
+ * .ele and then .node get their names; who interrupts the program between these two steps finds a new .ele beside no
+ * .node or an old one. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names
+ * a vertex that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left (but for that .ele, if
+ * only .node cannot get its name). */
 MW_API mw_status mw_write_mesh(const char *path, const char *format, const mw_mesh_file *file, mw_error *error);
+/* Names of the formats that mw_write_mesh takes, i from 0; NULL beyond the last. */
+MW_API const char *mw_format_name(size_t i);
 
 /* All zero = take everything, as the file has it. */
 typedef struct mw_points_options {

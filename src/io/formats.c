@@ -52,6 +52,13 @@ const mw_mesh_format *mw__format_by_name(const char *name)
     return NULL;
 }
 
+const char *mw_format_name(size_t i)
+{
+    for (size_t k = 0; k < FORMAT_COUNT; k++)
+        if (formats[k].write && i-- == 0) return formats[k].name;
+    return NULL;
+}
+
 bool mw__path_ends(const char *path, const char *ending)
 {
     size_t length = strlen(path), wanted = strlen(ending);
