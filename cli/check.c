@@ -6,6 +6,7 @@
 #include "report.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 typedef struct check_settings {
     common_settings common;
@@ -51,11 +52,36 @@ static void defect_as_json(text *t, const mw_defect *d)
     text_string(t, "}");
 }
 
-static void as_json(text *t, const char *path, const mw_check *check)
+/* What a check comes to. */
+typedef struct outcome {
+    char words[128];
+    bool good; /* points can be located, and every promise holds */
+} outcome;
+
+static outcome outcome_of(const mw_check *check, const mw_mesh_file *file)
+{
+    outcome o = {.good = check->embedding && files_has_area(file)};
+    size_t flat = 0;
+    for (size_t i = 0; i < check->defect_count; i++) flat += check->defects[i].kind == MW_DEFECT_FLAT;
+    size_t defects = check->defect_count - flat;
+    char remark[48] = "";
+    if (flat) snprintf(remark, sizeof remark, "; %zu flat triangle%s", flat, flat == 1 ? "" : "s");
+    if (!check->embedding)
+        snprintf(o.words, sizeof o.words, "no embedding: %zu defect%s%s", defects, defects == 1 ? "" : "s", remark);
+    else
+        snprintf(o.words, sizeof o.words, "%s%s",
+                 o.good ? "an embedding: every promise holds" : "no triangle with an area: nothing to locate in",
+                 remark);
+    return o;
+}
+
+static void as_json(text *t, const char *path, const mw_check *check, const outcome *o)
 {
     text_string(t, "{\n \"file\": ");
     report_quote(t, path);
-    text_printf(t, ",\n \"embedding\": %s,\n \"defects\": [", check->embedding ? "true" : "false");
+    text_printf(t, ",\n \"embedding\": %s,\n \"verdict\": ", check->embedding ? "true" : "false");
+    report_quote(t, o->words);
+    text_string(t, ",\n \"defects\": [");
     for (size_t i = 0; i < check->defect_count; i++) {
         text_string(t, i ? ",\n" : "\n");
         defect_as_json(t, &check->defects[i]);
@@ -63,23 +89,14 @@ static void as_json(text *t, const char *path, const mw_check *check)
     text_string(t, check->defect_count ? "\n ]\n}\n" : "]\n}\n");
 }
 
-static void as_text(text *t, const char *path, const mw_check *check)
+static void as_text(text *t, const char *path, const mw_check *check, const outcome *o)
 {
-    size_t flat = 0;
     for (size_t i = 0; i < check->defect_count; i++) {
         char words[256];
         mw_defect_describe(&check->defects[i], words, sizeof words);
         text_printf(t, "%s\n", words);
-        flat += check->defects[i].kind == MW_DEFECT_FLAT;
     }
-    text_printf(t, "%s: ", path);
-    size_t defects = check->defect_count - flat;
-    if (check->embedding)
-        text_string(t, "an embedding: every promise holds");
-    else
-        text_printf(t, "no embedding: %zu defect%s", defects, defects == 1 ? "" : "s");
-    if (flat) text_printf(t, "; %zu flat triangle%s", flat, flat == 1 ? "" : "s");
-    text_string(t, "\n");
+    text_printf(t, "%s: %s\n", path, o->words);
 }
 
 static int check_file(const check_settings *s, const char *path, const mw_mesh_file *file)
@@ -90,12 +107,13 @@ static int check_file(const check_settings *s, const char *path, const mw_mesh_f
     mw_arrays arrays = mw_mesh_file_arrays(file);
     progress_phase("checking", path);
     if (mw_check_arrays(&arrays, &check, &error) != MW_OK) return fail_mesh(path, &error);
+    outcome o = outcome_of(&check, file);
     if (s->json)
-        as_json(&t, path, &check);
+        as_json(&t, path, &check, &o);
     else
-        as_text(&t, path, &check);
+        as_text(&t, path, &check, &o);
     int end = files_write_text(s->common.output, &t);
-    if (end == 0 && !check.embedding) end = END_INPUT;
+    if (end == 0 && !o.good) end = END_INPUT;
     mw_check_release(&check);
     return end;
 }
@@ -118,9 +136,11 @@ const command check_command = {
     .operands = "MESH",
     .operand_count = 1,
     .summary = "list the defects of a mesh",
-    .description = "Prints every defect of MESH with its place, one on a line, and then whether the mesh is an "
-                   "embedding: whether its triangles cover the plane without folds and overlaps. Exits with 0 if it "
-                   "is one and with 3 if not. Flat triangles are listed, but do no harm. '-' is standard input.",
+    .description =
+        "Prints every defect of MESH with its place, one on a line, and then whether the mesh is an "
+        "embedding: whether its triangles cover the plane without folds and overlaps. Exits with 0 if it "
+        "is one and with 3 if not, or if no triangle has an area. Flat triangles beside others are listed, but do "
+        "no harm. '-' is standard input.",
     .options = tables,
     .settings_size = sizeof(check_settings),
     .run = run,

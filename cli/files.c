@@ -3,6 +3,7 @@
 #include "progress.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,6 +89,20 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
     if (status == MW_ERROR_INPUT && !files_is_stream(path) && holds_points(path))
         complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh of them", path, path);
     return end;
+}
+
+bool files_has_area(const mw_mesh_file *file)
+{
+    for (size_t t = 0; t < file->triangle_count; t++) {
+        const double *p[3];
+        bool finite = true;
+        for (size_t k = 0; k < 3; k++) {
+            p[k] = file->points + 3 * (size_t)file->triangles[3 * t + k];
+            finite = finite && isfinite(p[k][0]) && isfinite(p[k][1]);
+        }
+        if (finite && mw_orient2d(p[0], p[1], p[2]) != 0) return true;
+    }
+    return false;
 }
 
 int files_write_text(const char *output, text *t)

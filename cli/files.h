@@ -16,6 +16,9 @@ int files_check(const char *output, const char *const *inputs, int count);
 /* Read a mesh, complaining about what is wrong with it. Returns 0 or an exit code. */
 int files_read_mesh(const char *path, mw_mesh_file *file);
 
+/* Is there a triangle with an area? Without one no point can be located. */
+bool files_has_area(const mw_mesh_file *file);
+
 /* Write a text as a whole; output NULL is standard output. The text is released. Returns 0 or an exit code. */
 int files_write_text(const char *output, text *t);
 

@@ -51,10 +51,27 @@ void options_wrap(text *t, const char *words, size_t indent)
     wrap_from(t, words, 0, indent);
 }
 
+static void row_of_choices(text *t, const choices *c)
+{
+    text row = {0};
+    for (int i = 0; c->name(i); i++) text_printf(&row, "%s%s", i ? ", " : "", c->name(i));
+    text_bytes(&row, "", 1);
+    if (row.failed)
+        t->failed = true;
+    else
+        wrap_from(t, row.bytes, 0, HELP_COLUMN + 2);
+    text_release(&row);
+}
+
 static void help_of_choices(text *t, const choices *c)
 {
-    for (int i = 0; i < c->count; i++) {
-        const char *name = c->name(i), *help = c->help ? c->help(i) : NULL;
+    if (!c->help) {
+        row_of_choices(t, c);
+        return;
+    }
+    const char *name;
+    for (int i = 0; (name = c->name(i)); i++) {
+        const char *help = c->help(i);
         if (!help) continue;
         blanks(t, HELP_COLUMN + 2);
         text_string(t, name);

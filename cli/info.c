@@ -17,18 +17,28 @@ static const option info_options[] = {
     {0},
 };
 
+/* A pair that may not be known: NaN. */
+static void report_range(report *r, const char *name, const double pair[2], const char *missing)
+{
+    if (isnan(pair[0]) || isnan(pair[1]))
+        report_missing(r, name, missing);
+    else
+        report_pair(r, name, pair);
+}
+
 static void report_file(report *r, const char *path, const mw_mesh_file *file)
 {
     report_string(r, "file", path);
-    report_flag(r, "heights", file->has_z != 0);
-    if (file->has_z) {
+    bool heights = file->has_z && file->point_count > 0;
+    report_flag(r, "heights", heights);
+    if (heights) {
         double range[2] = {NAN, NAN};
         for (size_t i = 0; i < file->point_count; i++) {
             double z = file->points[3 * i + 2];
             if (!(z >= range[0])) range[0] = isnan(z) ? range[0] : z;
             if (!(z <= range[1])) range[1] = isnan(z) ? range[1] : z;
         }
-        report_pair(r, "height_range", range);
+        report_range(r, "height_range", range, "none");
     }
     report_strings(r, "fields", file->field_names, file->field_count);
     report_count(r, "welded_vertices", file->welded);
@@ -50,8 +60,8 @@ static void report_mesh(report *r, const mw_mesh_info *info)
         report_count(r, "holes", info->holes);
     else
         report_missing(r, "holes", "not known: no embedding");
-    report_pair(r, "low", info->low);
-    report_pair(r, "high", info->high);
+    report_range(r, "low", info->low, "none");
+    report_range(r, "high", info->high, "none");
     report_number(r, "area", info->area);
     report_flag(r, "embedding", info->embedding);
     report_flag(r, "convex", info->convex);

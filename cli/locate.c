@@ -75,7 +75,7 @@ static int run(const void *settings, const char *const *operands)
 {
     const locate_settings *s = settings;
     query q;
-    int end = query_open(&q, &s->query, operands, s->details);
+    int end = query_open(&q, &s->query, operands, s->details, NULL, NULL);
     if (end == 0)
         end = query_run(&q, operands[1],
                         s->details ? "x,y,status,triangle,w0,w1,w2,local,border_triangle,border_edge,distance,hole\n"

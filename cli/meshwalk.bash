@@ -20,7 +20,7 @@ _meshwalk_names() {
         --arithmetic) echo 'exact double' ;;
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay' ;;
-        --format) echo 'auto off ply ply-ascii node csv vtk obj stl' ;;
+        --format) echo 'auto off ply ply-ascii node obj stl csv vtk' ;;
         --class)
             echo 'never-classified unclassified ground low-vegetation medium-vegetation high-vegetation building'
             echo 'low-noise water rail road wire-guard conductor tower connector bridge-deck high-noise'

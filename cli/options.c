@@ -72,8 +72,8 @@ static bool parse_length(const char *value, double *number)
 static int parse_choice(const option *o, const char *value, int *number)
 {
     spelling s = spelling_of(value);
-    for (int i = 0; i < o->choices->count; i++) {
-        const char *name = o->choices->name(i);
+    const char *name;
+    for (int i = 0; (name = o->choices->name(i)); i++) {
         if (strcmp(name, value) == 0) {
             *number = i;
             return 0;

@@ -18,10 +18,9 @@ typedef enum option_kind {
 
 /* The names an OPTION_CHOICE accepts. */
 typedef struct choices {
-    const char *noun; /* "walk" */
-    int count;
-    const char *(*name)(int);
-    const char *(*help)(int); /* a line for --help; NULL: the names alone are listed */
+    const char *noun;         /* "walk" */
+    const char *(*name)(int); /* from 0; NULL beyond the last */
+    const char *(*help)(int); /* a line for --help, or NULL: not listed. No function: the names are listed in a row */
 } choices;
 
 typedef struct option {

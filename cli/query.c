@@ -30,12 +30,12 @@ static const char *start_help(int i)
 }
 static const char *arithmetic_name(int i)
 {
-    return i == MW_EXACT ? "exact" : "double";
+    return i == MW_EXACT ? "exact" : i == MW_DOUBLE ? "double" : NULL;
 }
 
-static const choices walks = {"walk", MW_WALK_COUNT, walk_name, walk_help};
-static const choices starts = {"start", MW_START_COUNT, start_name, start_help};
-static const choices arithmetics = {"arithmetic", 2, arithmetic_name, NULL};
+static const choices walks = {"walk", walk_name, walk_help};
+static const choices starts = {"start", start_name, start_help};
+static const choices arithmetics = {"arithmetic", arithmetic_name, NULL};
 
 const option query_options[] = {
     {"walk", 0, OPTION_CHOICE, offsetof(query_settings, walk), "NAME",
@@ -43,14 +43,12 @@ const option query_options[] = {
     {"start", 0, OPTION_CHOICE, offsetof(query_settings, start), "NAME",
      "how to choose the first triangle (default: auto):", &starts},
     {"arithmetic", 0, OPTION_CHOICE, offsetof(query_settings, arithmetic), "NAME",
-     "how walks decide their turns, exact or double (default: exact); the triangle found is exact in either case",
-     &arithmetics},
+     "how walks decide their turns (default: exact); the triangle found is exact in either case:", &arithmetics},
     {"tolerance", 0, OPTION_LENGTH, offsetof(query_settings, tolerance), "D",
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(query_settings, columns), "LIST",
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
-     "calls x and y, lon and lat, "
-     "..., else the first two)",
+     "calls x and y, lon and lat, ..., else the first two)",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(query_settings, any), NULL,
      "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
@@ -67,38 +65,54 @@ static void warn_if_void(const query *q, const char *path)
     if (promise && !q->settings->common.quiet) complain("%s: warning: %s", path, promise);
 }
 
-int query_open(query *q, const query_settings *settings, const char *const *operands, bool border)
+/* With `area`, a triangle that has one, a mesh is refused for its defects only, and --any helps. */
+static int fail_defect(const query *q, const char *path, bool area, const mw_error *error)
 {
-    mw_error error;
-    *q = (query){.settings = settings, .begin = tally_clock()};
-    int end = files_check(settings->common.output, operands, 2);
-    if (end) return end;
-    const char *path = operands[0];
-    end = files_read_mesh(path, &q->file);
-    if (end) return end;
-    progress_phase("preparing", path);
-    mw_arrays arrays = mw_mesh_file_arrays(&q->file);
-    mw_mesh_options mesh_options = {.tolerant = settings->any};
-    if (mw_mesh_create(&arrays, &mesh_options, &q->mesh, &error) != MW_OK) {
-        end = fail_mesh(path, &error);
-    } else {
-        mw_locator_options options = {.any = settings->any, .border = border || settings->tolerance > 0};
-        if (mw_locator_create(q->mesh, &options, &q->locator, &error) == MW_OK) {
-            warn_if_void(q, path);
-            return 0;
-        }
-        end = fail_mesh(path, &error);
-    }
-    if (end == END_INPUT && !settings->any && q->file.triangle_count > 0)
+    int end = fail_mesh(path, error);
+    if (end == END_INPUT && !q->settings->any && area)
         complain("'meshwalk check %s' lists every defect; --any locates points all the same", path);
     return end;
+}
+
+static int make_mesh(query *q, const char *path, const mw_mesh_file *file, bool area)
+{
+    mw_error error;
+    mw_arrays arrays = mw_mesh_file_arrays(file);
+    mw_mesh_options options = {.tolerant = q->settings->any};
+    progress_phase("preparing", path);
+    return mw_mesh_create(&arrays, &options, &q->mesh, &error) == MW_OK ? 0 : fail_defect(q, path, area, &error);
+}
+
+static int make_locator(query *q, const char *path, bool border, bool area)
+{
+    mw_error error;
+    const query_settings *settings = q->settings;
+    mw_locator_options options = {.any = settings->any, .border = border || settings->tolerance > 0};
+    if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK) return fail_defect(q, path, area, &error);
+    warn_if_void(q, path);
+    return 0;
+}
+
+int query_open(query *q, const query_settings *settings, const char *const *operands, bool border, query_keep *keep,
+               const void *self)
+{
+    const char *path = operands[0];
+    mw_mesh_file file;
+    *q = (query){.settings = settings, .begin = tally_clock()};
+    int end = files_check(settings->common.output, operands, 2);
+    if (end == 0) end = files_read_mesh(path, &file);
+    if (end) return end;
+    bool area = files_has_area(&file);
+    end = make_mesh(q, path, &file, area);
+    if (end == 0 && keep) end = keep(q->mesh, path, &file, self);
+    mw_mesh_file_release(&file);
+    return end ? end : make_locator(q, path, border, area);
 }
 
 void query_release(query *q)
 {
     mw_locator_destroy(q->locator);
     mw_mesh_destroy(q->mesh);
-    mw_mesh_file_release(&q->file);
 }
 
 /* The stream of points, a block of it, and its rows. */
@@ -125,14 +139,14 @@ static void format_chunk(stream *s, size_t k, size_t count)
         s->unanswered[k] += !s->row(s->query, s->self, s->values + i * s->width, &s->locations[i], &s->chunk[k]);
 }
 
-/* Rows are made by several threads, and written in order. */
+/* Rows are made by several threads, none of them without work, and written in order. */
 static int write_block(stream *s, size_t count)
 {
     long chunks = (long)((count + CHUNK - 1) / CHUNK);
+    long threads = tally_threads(s->query->settings->common.threads);
+    if (threads > chunks) threads = chunks;
 #ifdef _OPENMP
-    int threads = (int)s->query->settings->common.threads;
-    if (threads <= 0) threads = tally_threads(0);
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
+#pragma omp parallel for num_threads((int)threads) if (threads > 1) schedule(dynamic)
 #endif
     for (long k = 0; k < chunks; k++) format_chunk(s, (size_t)k, count);
     for (long k = 0; k < chunks; k++) {

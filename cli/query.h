@@ -19,7 +19,6 @@ extern const option query_options[];
 /* A mesh ready to be asked. */
 typedef struct query {
     const query_settings *settings;
-    mw_mesh_file file;
     mw_mesh *mesh;
     mw_locator *locator;
     double begin; /* seconds, tally_clock */
@@ -29,9 +28,14 @@ typedef struct query {
  * several threads at a time. */
 typedef bool query_row(const query *q, const void *self, const double point[2], const mw_location *where, text *out);
 
-/* Read the mesh and prepare it; `border`: rows will ask for the nearest border. Returns 0 or an exit code after a
- * complaint. Release it in either case. */
-int query_open(query *q, const query_settings *settings, const char *const *operands, bool border);
+/* Take from the file of the mesh what the rows will need: the file is released before the queries begin. Returns 0 or an
+ * exit code after a complaint. */
+typedef int query_keep(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self);
+
+/* Read the mesh and prepare it; `border`: rows will ask for the nearest border; `keep` may be NULL. Returns 0 or an exit
+ * code after a complaint. Release it in either case. */
+int query_open(query *q, const query_settings *settings, const char *const *operands, bool border, query_keep *keep,
+               const void *self);
 void query_release(query *q);
 
 /* Write `header`, then the row of every point, in order, in blocks of a fixed size. Returns the exit code. */

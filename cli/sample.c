@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OUTSIDE_EMPTY = 0, OUTSIDE_NEAREST, OUTSIDE_LINEAR, OUTSIDE_COUNT };
+enum { OUTSIDE_EMPTY = 0, OUTSIDE_NEAREST, OUTSIDE_LINEAR };
 
 typedef struct sample_settings {
     query_settings query;
@@ -18,14 +18,14 @@ typedef struct sample_settings {
 
 static const char *outside_name(int i)
 {
-    return (const char *[]){"empty", "nearest", "linear"}[i];
+    return (const char *[]){"empty", "nearest", "linear", NULL}[i];
 }
 static const char *outside_help(int i)
 {
     return (const char *[]){"no value", "the value at the nearest point of the border",
                             "the plane of the nearest border triangle, continued"}[i];
 }
-static const choices outsides = {"way of --outside", OUTSIDE_COUNT, outside_name, outside_help};
+static const choices outsides = {"way of --outside", outside_name, outside_help};
 
 static const option sample_options[] = {
     {"field", 0, OPTION_TEXT, offsetof(sample_settings, field), "NAME",
@@ -95,11 +95,11 @@ static bool sample_row(const query *q, const void *self, const double point[2], 
     return !isnan(value);
 }
 
-static int no_such_field(const query *q, const char *path, const char *field)
+static int no_such_field(const char *path, const mw_mesh_file *file, const char *field)
 {
     text names = {0};
-    if (q->file.has_z) text_string(&names, " z");
-    for (size_t i = 0; i < q->file.field_count; i++) text_printf(&names, " %s", q->file.field_names[i]);
+    if (file->has_z) text_string(&names, " z");
+    for (size_t i = 0; i < file->field_count; i++) text_printf(&names, " %s", file->field_names[i]);
     int end = END_INPUT;
     if (names.failed)
         end = fail_memory();
@@ -111,20 +111,21 @@ static int no_such_field(const query *q, const char *path, const char *field)
     return end;
 }
 
-/* The values to sample, one per vertex. They belong to the mesh or to the file. */
-static int find_values(query *q, const char *path, const char *field, const double **values)
+/* Give the mesh the field to sample. */
+static int keep_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
 {
     mw_error error;
-    const mw_mesh_file *file = &q->file;
-    for (size_t i = 0; i < file->field_count; i++)
-        if (strcmp(file->field_names[i], field) == 0) {
-            *values = file->fields[i];
-            return 0;
-        }
-    if (!file->has_z || strcmp(field, "z") != 0) return no_such_field(q, path, field);
-    if (mw_mesh_set_field(q->mesh, "z", file->points + 2, 3, &error) != MW_OK) return fail_mesh(path, &error);
-    *values = mw_mesh_field(q->mesh, "z");
-    return 0;
+    const char *field = self;
+    const double *values = NULL;
+    size_t stride = 1;
+    for (size_t i = 0; i < file->field_count && !values; i++)
+        if (strcmp(file->field_names[i], field) == 0) values = file->fields[i];
+    if (!values && file->has_z && strcmp(field, "z") == 0) {
+        values = file->points + 2;
+        stride = 3;
+    }
+    if (!values) return no_such_field(path, file, field);
+    return mw_mesh_set_field(mesh, field, values, stride, &error) == MW_OK ? 0 : fail_mesh(path, &error);
 }
 
 /* A name as one cell of CSV: quoted where it would be read as something else. */
@@ -148,9 +149,9 @@ static int run(const void *settings, const char *const *operands)
     query q;
     text header = {0};
     sampling rows = {.outside = s->outside};
-    int end = query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY);
-    if (end == 0) end = find_values(&q, operands[0], field, &rows.values);
+    int end = query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, keep_field, field);
     if (end == 0) {
+        rows.values = mw_mesh_field(q.mesh, field);
         header_of(&header, field);
         end = header.failed ? fail_memory() : query_run(&q, operands[1], header.bytes, sample_row, &rows);
     }

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-char *text_room(text *t, size_t size)
+/* Room for `size` more bytes; NULL when out of memory. */
+static char *text_room(text *t, size_t size)
 {
     if (t->failed) return NULL;
     if (t->capacity - t->size >= size) return t->bytes + t->size;

@@ -14,13 +14,6 @@ typedef struct text {
     bool failed;
 } text;
 
-/* Room for `size` more bytes; NULL when out of memory. Fill it, then say how much was used with text_used. */
-char *text_room(text *t, size_t size);
-static inline void text_used(text *t, size_t size)
-{
-    t->size += size;
-}
-
 void text_bytes(text *t, const char *bytes, size_t size);
 void text_string(text *t, const char *string);
 void text_printf(text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -15,9 +15,7 @@
 #include <strings.h>
 
 enum { FORMAT_BY_ENDING = 0 };
-static const char *const formats[] = {"auto", "off", "ply", "ply-ascii", "node", "csv", "vtk", "obj", "stl"};
-static const char *const kinds[] = {"delaunay", "greedy", "min-weight", "min-max-angle"};
-enum { FORMAT_COUNT = sizeof formats / sizeof *formats, KIND_COUNT = sizeof kinds / sizeof *kinds };
+static const char *const kinds[] = {"delaunay", "greedy", "min-weight", "min-max-angle", NULL};
 
 typedef struct triangulate_settings {
     common_settings common;
@@ -28,21 +26,24 @@ typedef struct triangulate_settings {
 
 static const char *format_name(int i)
 {
-    return formats[i];
+    return i == FORMAT_BY_ENDING ? "auto" : mw_format_name((size_t)i - 1);
 }
 static const char *kind_name(int i)
 {
     return kinds[i];
 }
-static const choices format_choices = {"format", FORMAT_COUNT, format_name, NULL};
-static const choices kind_choices = {"kind of triangulation", KIND_COUNT, kind_name, NULL};
+static const char *kind_help(int i)
+{
+    return i == 0 ? "no point inside the circle of a triangle" : NULL;
+}
+static const choices format_choices = {"format", format_name, NULL};
+static const choices kind_choices = {"kind of triangulation", kind_name, kind_help};
 
 static const option triangulate_options[] = {
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
-     "kind of triangulation: delaunay, the only one so far", &kind_choices},
+     "kind of triangulation (default: delaunay, the only one so far):", &kind_choices},
     {"format", 0, OPTION_CHOICE, offsetof(triangulate_settings, format), "NAME",
-     "format of MESH: off, ply, ply-ascii, node (with .ele), csv, vtk, obj or stl (default: auto, by its ending)",
-     &format_choices},
+     "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &format_choices},
     {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
      "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first two are x and y, the "
      "third is z, further ones become fields (default: all, with x, y and z first where a header names them)",
@@ -210,7 +211,7 @@ static int try_output(const char *output, bool *named)
 static int write_mesh(const triangulate_settings *s, const work *w, bool named)
 {
     mw_error error;
-    const char *format = s->format == FORMAT_BY_ENDING ? NULL : formats[s->format];
+    const char *format = s->format == FORMAT_BY_ENDING ? NULL : format_name(s->format);
     progress_phase("writing", NULL);
     if (named) signals_hold(true);
     mw_status status = mw_write_mesh(s->common.output, format, &w->file, &error);
@@ -223,8 +224,9 @@ static bool ending_is_known(const char *path)
 {
     const char *ending = strrchr(path, '.');
     if (!ending) return false;
-    for (int i = FORMAT_BY_ENDING + 1; i < FORMAT_COUNT; i++)
-        if (strcasecmp(ending + 1, formats[i]) == 0) return true;
+    const char *name;
+    for (size_t i = 0; (name = mw_format_name(i)); i++)
+        if (strcasecmp(ending + 1, name) == 0) return true;
     return strcasecmp(ending, ".ele") == 0;
 }
 

@@ -49,17 +49,32 @@ only_files q.xyz
 printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' >none.off
 run info none.off; exits 0; prints_line '^triangles +0$'
 run info --json none.off; exits 0; holds "it is JSON" is_json "$logs/out"
-run check none.off; holds "check ends well" test $code == 0 -o $code == 3
-run locate none.off q.xyz -o out.csv; refused 3 'none\.off'; absent out.csv
-run locate --any none.off q.xyz -o out.csv; refused 3 'none\.off'; absent out.csv
+printf 'OFF\n0 0 0\n' >void.off
+run info void.off; exits 0; prints_line '^heights +no$'; prints_line '^low +none$'
+holds "no number is printed that is none" test -z "$(grep -w nan "$logs/out")"
+run info --json void.off; exits 0; holds "it is JSON" is_json "$logs/out"; prints_line '"low": null'
 # Flat triangles only.
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n' >line.off
 run info line.off; exits 0; prints_line '^flat triangles +1$'
-run locate line.off q.xyz -o out.csv; refused 3 'line\.off'; absent out.csv
 # All vertices equal.
 printf 'OFF\n3 1 0\n1 1 0\n1 1 0\n1 1 0\n3 0 1 2\n' >equal.off
-run check equal.off; exits 0; prints_line 'flat'
-run locate equal.off q.xyz -o out.csv; refused 3 'equal\.off'; absent out.csv
+# What check says is what locate does; --any is proposed only where it helps.
+for mesh in none void line equal; do
+    run check $mesh.off; exits 3; says_nothing
+    prints_line "^$mesh\.off: no triangle with an area: nothing to locate in"
+    run check --json $mesh.off; exits 3; holds "it is JSON" is_json "$logs/out"
+    prints_line '"verdict": "no triangle with an area'
+    for any in '' --any; do
+        # shellcheck disable=SC2086 # no word or one
+        run locate $any $mesh.off q.xyz -o out.csv; refused 3 "$mesh\.off: .*no triangle"; absent out.csv
+        holds "--any is not proposed" test -z "$(grep -e --any "$logs/err")"
+    done
+done
+run check line.off; prints_line '; 1 flat triangle$'
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n' >nan.off
+run check nan.off; exits 3; prints_line 'no embedding: 1 defect'
+run locate nan.off q.xyz; refused 3 'nan\.off: '
+holds "--any is not proposed" test -z "$(grep -e --any "$logs/err")"
 rm -f ./*.off
 only_files q.xyz
 

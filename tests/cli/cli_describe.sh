@@ -38,7 +38,7 @@ defect() { # defect KIND OFF-TEXT
     run check "$1.off"; exits 3; prints_line "^$1\.off: no embedding"
     run info "$1.off"; holds "info copes with $1" test $code == 0 -o $code == 3
     printf '0.3 0.3\n' >one.xyz
-    run locate "$1.off" one.xyz -o "$1.csv"; refused 3 "$1\.off"; absent "$1.csv"
+    run locate "$1.off" one.xyz -o "$1.csv"; refused 3 "$1\.off"; says '; --any locates'; absent "$1.csv"
 }
 defect repeated-vertex 'OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1'
 defect edge-shared 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n1 1 0\n3 0 1 2\n3 1 0 3\n3 0 1 4'

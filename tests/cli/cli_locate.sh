@@ -144,4 +144,21 @@ holds "one thread and two print the same" same_text one.csv two.csv
 holds "there is a row for each point" test "$(wc -l <two.csv)" == 300001
 paste -d, many.csv <(tail -n +2 two.csv) | awk -F, '$1 != $3 || $2 != $4 { exit 1 }'
 holds "the rows are in the order of the points" test "${PIPESTATUS[*]}" == "0 0"
+
+# Threads: no more than there is work for; a system that refuses them is not mistaken for points without an answer.
+# (A sanitizer takes so much address space that nothing runs below such limits.)
+if (ulimit -v 250000; "$meshwalk" --version) >/dev/null 2>&1; then
+    last='meshwalk locate --threads 256, one point, with little memory'
+    echo '0.5 0.25' | (ulimit -v 200000; exec "$meshwalk" locate --threads 256 square.off -) >"$logs/out" 2>"$logs/err"
+    code=${PIPESTATUS[1]}
+    exits 0; says_nothing; prints_line '^0\.5,0\.25,inside,0,'
+    for kilobytes in 60000 200000 1000000; do
+        last="meshwalk locate --threads 256, many points, with $kilobytes kB of memory"
+        (ulimit -v $kilobytes; exec "$meshwalk" locate --threads 256 ring.off many.csv -o few.csv) >"$logs/out" 2>"$logs/err"
+        code=$?
+        holds "all is done, or the code is 4 and no file is left" \
+            test "$code $(cat few.csv 2>/dev/null | wc -l)" == '0 300001' -o "$code $(ls few.csv 2>/dev/null)" == '4 '
+        rm -f few.csv
+    done
+fi
 finish

@@ -53,7 +53,7 @@ done
 for value in '' x 1.5 -1 +1 ' 1' 1e3 0x10 4294967296 99999999999999999999; do
     run locate --threads "$value" a b; refused 2 "'--threads' wants"
 done
-run locate --threads 1025 a b; refused 2 "at most 1024"
+run locate --threads 257 a b; refused 2 "at most 256"
 for value in '' x -1 1.0 18446744073709551616; do
     run locate --seed "$value" a b; refused 2 "'--seed' wants"
 done
@@ -101,6 +101,9 @@ for c in "${commands[@]}"; do
     holds "help and completion of $c differ: $(diff "$logs/help" "$logs/completion")" \
         same_text "$logs/help" "$logs/completion"
 done
+row() { # row OPTION: the names that the help lists below an option in a row
+    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' | tr -s ', ' '\n' | grep . | sort
+}
 listed() { # listed OPTION: the names that the help lists below an option
     sed -nE "/ --$1 NAME/,/^ {0,6}-/p" "$logs/out" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p' | sort
 }
@@ -110,6 +113,12 @@ for option in walk start; do
         test "$(complete_words meshwalk locate --$option '')" == "$(listed $option)"
     holds "the help lists names of --$option" test -n "$(listed $option)"
 done
+holds "help and completion of --arithmetic differ" \
+    test "$(complete_words meshwalk locate --arithmetic '')" == "$(row arithmetic)"
+run triangulate --help
+holds "help and completion of --format differ" \
+    test "$(complete_words meshwalk triangulate --format '')" == "$(row format)"
+holds "help and completion of --kind differ" test "$(complete_words meshwalk triangulate --kind '')" == "$(listed kind)"
 run sample --help
 holds "help and completion of --outside differ" \
     test "$(complete_words meshwalk sample --outside '')" == "$(listed outside)"
