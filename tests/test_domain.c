@@ -10,6 +10,8 @@
 
 #include "domain_oracle.h"
 
+#include "domain/survey.h"
+
 /* --- small meshes of every kind --- */
 
 typedef struct maker {
@@ -62,8 +64,8 @@ static void split_vertices(maker *m)
     }
 }
 
-/* Put `count` vertices inside an edge, in a random triangle only, as a fan from its apex. With `flat`, fill the gap with
- * flat triangles; else the triangle beyond has vertices inside its edge. */
+/* Put `count` vertices inside an edge, in a random triangle only, as a fan from its apex. With `flat`, fill the gap
+ * with flat triangles; else the triangle beyond has vertices inside its edge. */
 static void break_edge(maker *m, bool flat)
 {
     arrays *a = &m->a;
@@ -292,6 +294,99 @@ static void test_large(void **state)
     if (!getenv("MW_TEST_SEED")) assert_true(tally.embeddings > 12 && tally.cut > 8 && tally.holes > 200);
 }
 
+/* --- long thin triangles: the outline crosses nearly all cells, unless it is forced in with care --- */
+
+enum { SLIVERS = 20000 };
+
+static void sliver(arrays *a, double x0, double y0, double x1, double y1, double x2, double y2)
+{
+    uint32_t v = arrays_point(a, x0, y0);
+    arrays_point(a, x1, y1);
+    arrays_point(a, x2, y2);
+    arrays_triangle(a, v, v + 1, v + 2);
+}
+
+/* Side by side and slanted, numbered from left to right. */
+static void add_parallel(arrays *a)
+{
+    for (int i = 0; i < SLIVERS; i++) sliver(a, i, 0, i + 0.5, 0, i + 0.25 + SLIVERS, SLIVERS);
+}
+
+/* Half of them from left to right, above each other; small triangles in two rows above and below all of them. */
+static void add_rails(arrays *a)
+{
+    for (int i = 0; i < SLIVERS; i++) {
+        double y = i % 4 == 1 ? -1 : SLIVERS + 1, tip = i % 4 == 1 ? -1.5 : SLIVERS + 1.5;
+        if (i % 2 == 0)
+            sliver(a, -1, i, SLIVERS + 1, i + 0.25, -1, i + 0.5);
+        else
+            sliver(a, i, y, i + 0.5, y, i + 0.25, tip);
+    }
+}
+
+/* Each crosses all others. */
+static void add_bundle(arrays *a)
+{
+    for (int i = 0; i < SLIVERS; i++) sliver(a, i, 0, i + 0.5, 0, SLIVERS - i, SLIVERS);
+}
+
+static mw_survey survey_of(const arrays *a, mw_mesh **mesh)
+{
+    mw_arrays view = arrays_view(a);
+    mw_survey survey;
+    assert_int_equal(mw_mesh_create(&view, NULL, mesh, NULL), MW_OK);
+    assert_int_equal(mw__survey_create(&survey, *mesh, NULL), MW_OK);
+    return survey;
+}
+
+/* Time grew as the square of the slivers where edges were forced in in the order of the mesh: half a minute for these. */
+static void test_slivers(void **state)
+{
+    (void)state;
+    void (*const adds[])(arrays *) = {add_parallel, add_rails};
+    for (int i = 0; i < 2; i++) {
+        arrays a = arrays_make(3 * SLIVERS, SLIVERS);
+        adds[i](&a);
+        mw_mesh *mesh;
+        mw_survey survey = survey_of(&a, &mesh);
+        assert_true(survey.embedding && !survey.convex && survey.defects.count == 0);
+        assert_int_equal(survey.regions.hole_count, 0);
+        assert_int_equal(survey.cover.net.wasted, 0);
+        mw__survey_release(&survey);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
+/* Where all edges cross, looking for crossings ends early; a defect elsewhere is still found. */
+static void test_bundle(void **state)
+{
+    (void)state;
+    arrays a = arrays_make(3 * SLIVERS + 6, SLIVERS + 2);
+    sliver(&a, -90, 0, -60, 0, -75, 30);
+    sliver(&a, -80, 5, -70, 5, -75, 15); /* inside that one */
+    add_bundle(&a);
+    mw_mesh *mesh;
+    mw_survey survey = survey_of(&a, &mesh);
+    assert_false(survey.embedding);
+    size_t count = survey.defects.count, crossings = 0;
+    for (size_t i = 0; i < count; i++) {
+        const mw_defect *d = &survey.defects.list[i], *next = d + 1;
+        crossings += d->kind == MW_DEFECT_CROSSING && d->triangle >= 2 && d->other >= 2 && d->triangle != d->other;
+        bool again = i + 1 < count && next->triangle == d->triangle && next->edge == d->edge;
+        assert_false(again); /* each edge tells of one crossing at most */
+    }
+    assert_in_range(crossings, 100, 2 * SLIVERS);
+    assert_int_equal(crossings, count - 1);
+    assert_int_equal(survey.defects.list[count - 1].kind, MW_DEFECT_OVERLAP);
+    assert_int_equal(survey.defects.list[count - 1].triangle, 1);
+    size_t cells = survey.cover.cell_count, edges = survey.outline.half_count;
+    assert_true(survey.cover.net.wasted <= 65 * cells + 64 * edges);
+    mw__survey_release(&survey);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
 /* --- single cases --- */
 
 static mw_tiling tile(const arrays *a, mw_mesh **mesh)
@@ -369,6 +464,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_borrowed), cmocka_unit_test(test_nothing_to_tile), cmocka_unit_test(test_hole_numbers),
         cmocka_unit_test(test_small),    cmocka_unit_test(test_extreme),         cmocka_unit_test(test_large),
+        cmocka_unit_test(test_slivers),  cmocka_unit_test(test_bundle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

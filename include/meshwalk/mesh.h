@@ -65,10 +65,12 @@ MW_API const char *mw_defect_text(mw_defect_kind kind);
 /* Write "triangle 17: ..." for one defect into text[size], always terminated. */
 MW_API void mw_defect_describe(const mw_defect *defect, char *text, size_t size);
 
-/* Find every defect of the mesh in `arrays`, and decide whether it is an embedding. A border edge that crosses others is
- * listed with one of them only, so the list stays linear in the mesh; and where borders cross, what else is wrong in the
- * parts of the mesh that they bound may show only when that is mended. O(n) for the local defects plus O(b log b) for b
- * border edges. MW_OK also when defects were found. Thread-safe. */
+/* Find every defect of the mesh in `arrays`, and decide whether it is an embedding. Of two border edges that cross, or
+ * run along each other on the same side, at least one is listed, with one of those in its way, so the list stays linear
+ * in the mesh; where thousands of long edges cross, some are not listed. And where borders cross, what else is wrong in
+ * the parts of the mesh that they bound may show only when that is mended. The same arrays give the same list. Time:
+ * O(n) for the local defects; for b border edges O(b log^2 b) is to be expected, whether they cross or not (see
+ * docs/guarantees.md). MW_OK also when defects were found. Thread-safe. */
 MW_API mw_status mw_check_arrays(const mw_arrays *arrays, mw_check *check, mw_error *error);
 MW_API void mw_check_release(mw_check *check);
 

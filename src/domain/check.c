@@ -34,7 +34,8 @@ static bool repair_triangles(repair *r, const mw_arrays *arrays, mw_defects *def
     return true;
 }
 
-/* Survey a mesh, and append what it finds to `defects`, but for what concerns replaced triangles (NULL: there are none). */
+/* Survey a mesh, and append what it finds to `defects`, but for what concerns replaced triangles (NULL: there are
+ * none). */
 static mw_status survey_mesh(const mw_mesh *mesh, const uint8_t *replaced, mw_defects *defects, mw_error *error)
 {
     mw_survey survey;

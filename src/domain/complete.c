@@ -59,7 +59,8 @@ static void add_cut(maker *m, uint32_t user, const uint32_t v[3], const splits i
     m->tiling->cut = true;
 }
 
-/* The tiles of the user's triangle t; triangles are taken in increasing order, as outline edges and splits are sorted. */
+/* The tiles of the user's triangle t; triangles are taken in increasing order, as outline edges and splits are
+ * sorted. */
 static void add_user(maker *m, uint32_t t)
 {
     const mw_triangle *tri = &m->outline->mesh->tri[t];

@@ -1,6 +1,7 @@
 /* cover.c - force the outline of a mesh into cells, and count the triangles over each cell. */
 #include "domain/cover.h"
 
+#include "base/random.h"
 #include "triangulate/delaunay.h"
 
 #include <stdlib.h>
@@ -56,8 +57,8 @@ static bool leave_out(mw_cover *c, uint32_t edge)
     return c->left_out;
 }
 
-/* Leave out all triangles with an area that those left out so far are linked to. What remains are whole parts of the mesh,
- * all of whose outline edges are in the cells, so that its degrees make sense. */
+/* Leave out all triangles with an area that those left out so far are linked to. What remains are whole parts of the
+ * mesh, all of whose outline edges are in the cells, so that its degrees make sense. */
 static bool spread_left_out(mw_cover *c)
 {
     const mw_mesh *mesh = c->outline->mesh;
@@ -79,8 +80,8 @@ static bool spread_left_out(mw_cover *c)
     return true;
 }
 
-/* Force one outline edge in. No two edges may run along a piece in the same direction, as their triangles would overlap;
- * this also bounds the pieces of all edges together. Returns false when out of memory. */
+/* Force one outline edge in. No two edges may run along a piece in the same direction, as their triangles would
+ * overlap; this also bounds the pieces of all edges together. Returns false when out of memory. */
 static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
 {
     uint32_t from = mw__outline_from(c->outline, c->outline->half[edge]);
@@ -90,6 +91,7 @@ static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
         mw_piece piece;
         mw_constrain_result result = mw__constrain(&c->net, &from, &to, &piece);
         if (result == MW_CONSTRAIN_MEMORY) return false;
+        if (result == MW_CONSTRAIN_FAR) return leave_out(c, edge);
         uint32_t *runs = &c->runs[2 * (size_t)piece.number];
         if (result == MW_CONSTRAIN_CROSSES)
             return leave_out(c, edge) &&
@@ -103,15 +105,50 @@ static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
     return true;
 }
 
+enum { ROUNDS = 32 };
+
+/* The round of an edge: the last with probability 1/2, the one before with probability 1/4, and so on. */
+static uint32_t random_round(uint64_t *random)
+{
+    uint32_t round = ROUNDS - 1;
+    for (uint64_t coins = mw__random(random); (coins & 1) && round > 0; coins >>= 1) round--;
+    return round;
+}
+
+/* The edges in random rounds, each in the order of the mesh [Amenta, Choi, Rote 2003], the same in every run. In the
+ * order of the mesh alone, each might cross about all cells: so do the edges of parallel slivers that are numbered from
+ * one side to the other. In random order alone, all memory would be far. NULL when out of memory. */
+static uint32_t *order_edges(uint32_t count)
+{
+    const uint64_t seed = 1;
+    uint32_t first[ROUNDS + 1] = {0}, *order = mw__alloc(count, sizeof *order);
+    if (!order) return NULL;
+    uint64_t random = seed;
+    for (uint32_t i = 0; i < count; i++) first[random_round(&random) + 1]++;
+    for (uint32_t round = 1; round < ROUNDS; round++) first[round] += first[round - 1];
+    random = seed;
+    for (uint32_t i = 0; i < count; i++) order[first[random_round(&random)]++] = i;
+    return order;
+}
+
+/* An edge that crosses another makes no piece, and does not spare those after it the way it looked through. So once the
+ * edges that cross have looked through all cells many times, the mesh being no embedding anyway, each edge that remains
+ * looks only at what is near; what is not near either end is left out, and not told. */
 static bool force_all(mw_cover *c, mw_defects *defects)
 {
+    enum { PATIENCE = 64, NEAR = 64 };                                   /* times all cells; cells */
     size_t most = 2 * ((size_t)c->cell_count + c->outline->place_count); /* pieces are edges of the cells */
     c->runs = mw__alloc(most, sizeof *c->runs);
     if (!c->runs) return false;
     for (size_t i = 0; i < most; i++) c->runs[i] = MW_NONE;
-    for (uint32_t edge = 0; edge < c->outline->half_count; edge++)
-        if (!force_edge(c, edge, defects)) return false;
-    return true;
+    uint32_t *order = order_edges(c->outline->half_count);
+    bool done = order;
+    for (uint32_t i = 0; i < c->outline->half_count && done; i++) {
+        done = force_edge(c, order[i], defects);
+        if (c->net.wasted / PATIENCE > c->cell_count) c->net.reach = NEAR;
+    }
+    free(order);
+    return done;
 }
 
 /* --- order of the splits --- */

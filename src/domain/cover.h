@@ -12,8 +12,8 @@
 
 /* A place inside an outline edge. */
 typedef struct mw_split {
-    uint32_t edge;  /* index of the outline edge */
-    uint32_t place; /*                           */
+    uint32_t edge; /* index of the outline edge */
+    uint32_t place;
 } mw_split;
 
 typedef struct mw_cover {
@@ -25,10 +25,9 @@ typedef struct mw_cover {
                            one that comes back, as indices; MW_NONE if there is none */
     mw_split *split;    /* by outline edge, then along it */
     size_t split_count, split_capacity;
-    uint8_t
-        *left_out; /* per triangle: not counted, as an outline edge of its part of the mesh crosses or overlaps another
-                          one; NULL if all are counted */
-    int32_t *degree; /* triangles over each cell, those left out not counted */
+    uint8_t *left_out; /* per triangle: not counted, as an outline edge of its part of the mesh crosses or
+                           overlaps another one; NULL if all are counted */
+    int32_t *degree;   /* triangles over each cell, those left out not counted */
 } mw_cover;
 
 /* Cover the plane with the triangles of an outline that has edges; adds what is wrong to `defects`: crossings,

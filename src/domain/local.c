@@ -5,18 +5,13 @@
 
 /* --- triangles --- */
 
-static bool is_finite(mw_point p)
-{
-    return isfinite(p.x) && isfinite(p.y);
-}
-
 /* What makes triangle t unusable; *usable tells whether nothing does. */
 static bool check_triangle(const mw_mesh *mesh, uint32_t t, mw_defects *defects, bool *usable)
 {
     const uint32_t *v = mesh->tri[t].v;
     *usable = true;
     for (uint32_t k = 0; k < 3; k++) {
-        bool finite = is_finite(mesh->point[v[k]]);
+        bool finite = mw__is_finite(mesh->point[v[k]]);
         int before = (k > 0 && v[0] == v[k]) + (k > 1 && v[1] == v[k]); /* a vertex three times is one defect */
         mw_defect defect = mw__defect(before > 0 ? MW_DEFECT_REPEATED_VERTEX : MW_DEFECT_NOT_FINITE, t);
         defect.vertex = v[k];
@@ -58,11 +53,6 @@ static int compare_sides(const void *left, const void *right)
     return 0;
 }
 
-static bool is_usable(const mw_triangle *t)
-{
-    return t->v[0] != t->v[1] && t->v[1] != t->v[2] && t->v[2] != t->v[0];
-}
-
 /* All edges without neighbour, sorted: *sides and *count. */
 static bool gather_unlinked(const mw_mesh *mesh, side **sides, size_t *count)
 {
@@ -70,7 +60,7 @@ static bool gather_unlinked(const mw_mesh *mesh, side **sides, size_t *count)
     for (int pass = 0; pass < 2; pass++) {
         *count = 0;
         for (uint32_t t = 0; t < mesh->tri_count; t++)
-            for (uint32_t k = 0; k < 3 && is_usable(&mesh->tri[t]); k++) {
+            for (uint32_t k = 0; k < 3 && mw__has_three_vertices(&mesh->tri[t]); k++) {
                 if (mesh->tri[t].link[k] != MW_NONE) continue;
                 if (pass == 1) (*sides)[*count] = side_of(mesh, mw__link(t, k));
                 (*count)++;
@@ -133,8 +123,8 @@ bool mw__find_local_defects(const mw_outline *outline, mw_defects *defects)
 
 /* --- vertices --- */
 
-/* Does the angle of a triangle at its corner k hold the direction +x? Of its two rays, the first counts as in the angle. A
- * counter-clockwise triangle with an area needs no predicate for this. */
+/* Does the angle of a triangle at its corner k hold the direction +x? Of its two rays, the first counts as in the
+ * angle. A counter-clockwise triangle with an area needs no predicate for this. */
 static bool holds_x(const mw_point *point, const mw_triangle *t, uint32_t k)
 {
     mw_point v = point[t->v[k]], a = point[t->v[k + 1]], b = point[t->v[mw__prev(k)]];

@@ -56,11 +56,6 @@ static int compare_spots(const void *left, const void *right)
     return a->vertex < b->vertex ? -1 : 1;
 }
 
-static bool is_finite(mw_point p)
-{
-    return isfinite(p.x) && isfinite(p.y);
-}
-
 /* Mark the vertices of the outline, and the finite ones of flat triangles. Returns their number. */
 static uint32_t mark_vertices(mw_outline *o)
 {
@@ -76,7 +71,7 @@ static uint32_t mark_vertices(mw_outline *o)
     for (uint32_t t = 0; o->flat && t < mesh->tri_count; t++)
         for (uint32_t k = 0; k < 3 && o->flat[t]; k++) {
             uint32_t v = mesh->tri[t].v[k];
-            if (o->place[v] != MW_NONE || !is_finite(mesh->point[v])) continue;
+            if (o->place[v] != MW_NONE || !mw__is_finite(mesh->point[v])) continue;
             o->place[v] = ON_FLAT;
             count++;
         }

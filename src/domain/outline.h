@@ -1,8 +1,8 @@
 /* outline.h - the outline of the triangles that have an area: where they end, or do not go on as a plane does. Private.
  *
- * An outline edge is an edge of a triangle with an area whose mesh neighbour there does not continue the plane: there is
- * none, or a flat one, or one folded back. Of a fold only the lower triangle's edge is listed, and counts double. The
- * place of a vertex is its pair of coordinates: vertices at one place are one vertex of the outline. */
+ * An outline edge is an edge of a triangle with an area whose mesh neighbour there does not continue the plane: there
+ * is none, or a flat one, or one folded back. Of a fold only the lower triangle's edge is listed, and counts double.
+ * The place of a vertex is its pair of coordinates: vertices at one place are one vertex of the outline. */
 #ifndef MW_SRC_OUTLINE_H
 #define MW_SRC_OUTLINE_H
 

@@ -5,7 +5,8 @@
  * degree of a cell is the number of triangles of T over its points. Vertices inside edges: let the insides be disjoint
  * and let vertex v lie inside an edge e of a triangle t. If the triangles at the place of v closed round it, they would
  * overlap t; so v is on the outline, and so is e, since the triangle beyond e would overlap those at v. So v is found
- * when e is forced in. Two inner vertices at one place overlap, too; so vertices at one place are all on the outline. */
+ * when e is forced in. Two inner vertices at one place overlap, too; so vertices at one place are all on the
+ * outline. */
 #include "domain/survey.h"
 
 #include "domain/convex.h"

@@ -14,24 +14,19 @@ static uint32_t upper(const mw_triangle *t, uint32_t e)
     return t->v[e] < t->v[e + 1] ? t->v[e + 1] : t->v[e];
 }
 
-/* A triangle that has a vertex twice has no edges to speak of: it stays without neighbours. */
-static bool linkable(const mw_triangle *t)
-{
-    return t->v[0] != t->v[1] && t->v[1] != t->v[2] && t->v[2] != t->v[0];
-}
-
 /* first[u] .. first[u + 1] delimit, in `half`, the half-edges whose lower vertex is u. */
 static void gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *first, uint32_t *half)
 {
     for (uint32_t t = 0; t < n; t++)
-        for (uint32_t e = 0; e < 3 && linkable(&tri[t]); e++) first[lower(&tri[t], e)]++;
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++) first[lower(&tri[t], e)]++;
     uint32_t sum = 0;
     for (uint32_t u = 0; u <= vertex_count; u++) {
         sum += u < vertex_count ? first[u] : 0;
         first[u] = sum;
     }
     for (uint32_t t = n; t-- > 0;) /* backwards, so that the lists end up in order of triangles */
-        for (uint32_t e = 3; e-- > 0 && linkable(&tri[t]);) half[--first[lower(&tri[t], e)]] = mw__link(t, e);
+        for (uint32_t e = 3; e-- > 0 && mw__has_three_vertices(&tri[t]);)
+            half[--first[lower(&tri[t], e)]] = mw__link(t, e);
 }
 
 /* Link the half-edges of one lower vertex u. slot[w] is the last half-edge towards w; it counts if seen[w] is u. */

@@ -35,11 +35,6 @@ static void copy_points(mw_mesh *mesh, const mw_arrays *arrays)
         mesh->point[i] = (mw_point){arrays->points[i * stride], arrays->points[i * stride + 1]};
 }
 
-static bool is_finite(mw_point p)
-{
-    return isfinite(p.x) && isfinite(p.y);
-}
-
 /* Copy the vertices of triangle t; the error names what makes them unusable, unless the mesh tolerates it. */
 static mw_status copy_triangle(mw_mesh *mesh, const mw_arrays *arrays, uint32_t t, mw_error *error)
 {
@@ -49,7 +44,7 @@ static mw_status copy_triangle(mw_mesh *mesh, const mw_arrays *arrays, uint32_t 
         if (v >= mesh->point_count)
             return mw__fail_at(error, t, -1, "triangle %" PRIu32 ": corner %zu is no vertex; there are %" PRIu32, t, k,
                                mesh->point_count);
-        if (!mesh->tolerant && !is_finite(mesh->point[v]))
+        if (!mesh->tolerant && !mw__is_finite(mesh->point[v]))
             return mw__fail_at(error, t, v, "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);
         tri->v[k] = v;
         tri->link[k] = MW_NONE;
@@ -67,7 +62,7 @@ static mw_status copy_triangle(mw_mesh *mesh, const mw_arrays *arrays, uint32_t 
 static void orient(mw_mesh *mesh, mw_triangle *t)
 {
     mw_point a = mesh->point[t->v[0]], b = mesh->point[t->v[1]], c = mesh->point[t->v[2]];
-    double area = is_finite(a) && is_finite(b) && is_finite(c) ? mw__orient2d(a, b, c) : 0;
+    double area = mw__is_finite(a) && mw__is_finite(b) && mw__is_finite(c) ? mw__orient2d(a, b, c) : 0;
     if (area == 0) mesh->flat_count++;
     if (area >= 0) return;
     uint32_t v = t->v[1];

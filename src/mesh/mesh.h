@@ -14,7 +14,8 @@
 
 #include <meshwalk/mesh.h>
 
-/* 32 bytes, two to a cache line (mw__alloc_lines). v[3] repeats v[0], so that edge k is v[k], v[k + 1] without a modulo. */
+/* 32 bytes, two to a cache line (mw__alloc_lines). v[3] repeats v[0], so that edge k is v[k], v[k + 1] without a
+ * modulo. */
 typedef struct mw_triangle {
     uint32_t v[4];
     uint32_t link[3];
@@ -69,7 +70,7 @@ struct mw_mesh {
     uint32_t flat_count, flipped_count;
     mw_field *field;
     size_t field_count;
-    bool tolerant; /* may hold triangles that are not usable: see mw__usable */
+    bool tolerant; /* may hold triangles that are not usable: see mw_mesh_options */
 };
 
 /* Number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
@@ -77,10 +78,22 @@ uint32_t mw__index_at(const mw_arrays *arrays, size_t i);
 
 /* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). An edge of more than two
  * triangles links the first two; *extra (may be NULL) is set to a link to a further one, MW_NONE if there is none.
- * Links two triangles whatever their orientation. Returns false when out of memory. */
+ * Links two triangles whatever their orientation, but none that names a vertex twice. Returns false when out of
+ * memory. */
 bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *extra);
 
-/* Sign of the area of a triangle as stored: 0 for flat ones and those with vertices that are not finite. */
+static MW_INLINE bool mw__is_finite(mw_point p)
+{
+    return isfinite(p.x) && isfinite(p.y);
+}
+
+/* One that names a vertex twice has no edges to speak of. */
+static MW_INLINE bool mw__has_three_vertices(const mw_triangle *t)
+{
+    return t->v[0] != t->v[1] && t->v[1] != t->v[2] && t->v[2] != t->v[0];
+}
+
+/* Has a triangle, as stored, an area? Flat ones have none, nor have those with a vertex that is not finite. */
 static MW_INLINE bool mw__has_area(const mw_point *point, const mw_triangle *t)
 {
     return mw__orient2d(point[t->v[0]], point[t->v[1]], point[t->v[2]]) > 0;

@@ -17,12 +17,15 @@ typedef struct mw_constrained {
     const mw_point *point;
     mw_triangle *tri; /* changed in place; `user` is used as scratch */
     uint32_t point_count, tri_count;
-    uint32_t *piece;              /* per edge, at 3 * triangle + edge: the number of the piece that it is, or MW_NONE */
-    uint32_t piece_count;         /* never more than the edges of the triangulation: tri_count + point_count - 1      */
-    uint32_t *at;                 /* per vertex: a triangle that has it                                               */
-    mw_rim *right, *left, *stack; /* scratch */
-    uint32_t *channel, *flip;
+    uint32_t *piece;             /* per edge, at 3 * triangle + edge: the number of the piece that it is, or MW_NONE */
+    uint32_t piece_count;        /* never more than the edges of the triangulation: tri_count + point_count - 1      */
+    uint32_t *at;                /* per vertex: a triangle that has it                                               */
+    mw_rim *right, *left, *ring; /* scratch */
+    uint32_t *channel, *ear, *flip;
+    uint32_t ear_count;
     size_t rim_capacity, flip_capacity;
+    size_t reach;  /* a segment may look through this many triangles for the end of a piece: SIZE_MAX unless changed */
+    size_t wasted; /* triangles that segments have looked through without making a piece                             */
 } mw_constrained;
 
 /* Prepare; `point` and `tri` stay the caller's and must outlive *c. Returns false when out of memory. Release *c in
@@ -34,6 +37,7 @@ void mw__constrained_release(mw_constrained *c);
 typedef enum mw_constrain_result {
     MW_CONSTRAIN_DONE,    /* the piece is an edge now             */
     MW_CONSTRAIN_CROSSES, /* piece->number is a piece in its way  */
+    MW_CONSTRAIN_FAR,     /* neither is found within `reach`      */
     MW_CONSTRAIN_MEMORY,
 } mw_constrain_result;
 
@@ -42,8 +46,10 @@ typedef struct mw_piece {
 } mw_piece;
 
 /* Force in one piece at either end of the segment, and shorten the segment by it: the segment is in when *from and *to
- * have become equal. Time: about the lower degree of the two ends, plus the edges that the piece crosses, plus the flips
- * that restore the Delaunay property. */
+ * have become equal. Time: about the lower degree of the two ends, plus O(m log m) for the m edges that the piece
+ * crosses, plus the flips that restore the Delaunay property, in practice about m. A segment may cross as many edges as
+ * there are; but segments that do not cross each other, forced in in random rounds, are expected to cross
+ * O(n log n + b log^2 b) edges in all, for n vertices and b segments [Agarwal, Arge, Yi 2005; Shewchuk, Brown 2015]. */
 mw_constrain_result mw__constrain(mw_constrained *c, uint32_t *from, uint32_t *to, mw_piece *piece);
 
 #endif
