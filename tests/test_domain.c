@@ -339,7 +339,7 @@ static mw_survey survey_of(const arrays *a, mw_mesh **mesh)
     return survey;
 }
 
-/* Time grew as the square of the slivers where edges were forced in in the order of the mesh: half a minute for these. */
+/* Half a minute where edges are forced in in the order of the mesh: time grew as the square of the number. */
 static void test_slivers(void **state)
 {
     (void)state;
