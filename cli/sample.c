@@ -44,16 +44,10 @@ typedef struct sampling {
 /* Value at the point of the border that is nearest. */
 static double border_value(const query *q, const double *values, const mw_border_hit *hit)
 {
-    uint32_t v[3];
-    double a[2], b[2];
-    mw_mesh_triangle(q->mesh, hit->triangle, v);
-    uint32_t from = v[hit->edge], to = v[(hit->edge + 1) % 3];
-    mw_mesh_vertex(q->mesh, from, a);
-    mw_mesh_vertex(q->mesh, to, b);
-    double whole = hypot(b[0] - a[0], b[1] - a[1]);
-    double part = whole > 0 ? hypot(hit->point[0] - a[0], hit->point[1] - a[1]) / whole : 0;
-    part = part > 1 ? 1 : part;
-    return (1 - part) * values[from] + part * values[to];
+    mw_location at = {.weight = {hit->weight[0], hit->weight[1], hit->weight[2]}, .triangle = hit->triangle};
+    double value;
+    mw_interpolate(q->mesh, values, &at, 1, &value);
+    return value;
 }
 
 /* Value at p of the plane through the three corners; NaN where they span none. */

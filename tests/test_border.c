@@ -118,6 +118,43 @@ static bool foot_is_right(const mw_border_hit *hit, const double q[2], const dou
     return is;
 }
 
+/* r = (b - a) . (d - c), in rationals. */
+static void scalar_product(mpq_t r, const double a[2], const double b[2], const double c[2], const double d[2])
+{
+    mpq_t x, y, z;
+    mpq_inits(x, y, z, NULL);
+    mpq_set_ui(r, 0, 1);
+    for (int k = 0; k < 2; k++) {
+        mpq_set_d(x, b[k]);
+        mpq_set_d(z, a[k]);
+        mpq_sub(x, x, z);
+        mpq_set_d(y, d[k]);
+        mpq_set_d(z, c[k]);
+        mpq_sub(y, y, z);
+        mpq_mul(x, x, y);
+        mpq_add(r, r, x);
+    }
+    mpq_clears(x, y, z, NULL);
+}
+
+/* The weights divide edge uv as the projection of q does, up to rounding in proportion to how far off q is. */
+static bool weights_are_right(const mw_border_hit *hit, const double q[2], const double u[2], const double v[2])
+{
+    mpq_t along, length;
+    mpq_inits(along, length, NULL);
+    scalar_product(along, u, v, u, q);
+    scalar_product(length, u, v, u, v);
+    mpq_div(along, along, length);
+    double share = fmin(fmax(mpq_get_d(along), 0), 1);
+    scalar_product(along, u, q, u, q);
+    mpq_div(along, along, length);
+    double off = 0x1p-48 * (1 + sqrt(mpq_get_d(along)));
+    mpq_clears(along, length, NULL);
+    const double *w = hit->weight;
+    uint32_t next = (hit->edge + 1) % 3;
+    return fabs(w[next] - share) <= off && fabs(w[hit->edge] + w[next] - 1) <= 0x1p-50 && w[(hit->edge + 2) % 3] == 0;
+}
+
 static void compare(const arrays *a, const mw_mesh *mesh, const mw_locator *locator, const double q[2])
 {
     mpq_t least;
@@ -139,6 +176,8 @@ static void compare(const arrays *a, const mw_mesh *mesh, const mw_locator *loca
     const uint32_t *v = a->triangles + 3 * (size_t)triangle;
     if (!foot_is_right(&hit, q, a->points + 2 * (size_t)v[edge], a->points + 2 * (size_t)v[(edge + 1) % 3], want))
         fail_msg("(%.17g, %.17g): nearest is (%.17g, %.17g)?", q[0], q[1], hit.point[0], hit.point[1]);
+    if (!weights_are_right(&hit, q, a->points + 2 * (size_t)v[edge], a->points + 2 * (size_t)v[(edge + 1) % 3]))
+        fail_msg("(%.17g, %.17g): weights %.17g %.17g %.17g?", q[0], q[1], hit.weight[0], hit.weight[1], hit.weight[2]);
     mpf_clears(want, tolerance, NULL);
     mpq_clear(least);
 }

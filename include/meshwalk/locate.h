@@ -174,6 +174,7 @@ typedef struct mw_border_hit {
     uint32_t edge;     /* local edge */
     double distance;   /* mesh units, rounded; 0 for a point on the border; infinite beyond the largest double */
     double point[2];   /* nearest point of that edge, rounded */
+    double weight[3];  /* the same point as weights of the triangle's vertices, 0 for the one off the edge */
 } mw_border_hit;
 
 /* Logarithmic in the border edges where few of them are about equally near; linear at worst, in the middle of a round

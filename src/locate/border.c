@@ -321,6 +321,20 @@ static mw_point foot(const mw_border_edge *e, mw_point q)
     return (mw_point){mix(e->a.x, e->b.x, s), mix(e->a.y, e->b.y, s)};
 }
 
+/* Weights, in the user's triangle, of the point of the border edge nearest to q. The border edge may be a part only of the
+ * triangle's edge; q is asked for, not the nearest point as rounded, which far from the origin is coarse. */
+static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point q, double weight[3])
+{
+    uint32_t v[3], next = mw__next(e->edge);
+    mw_mesh_triangle(mesh, e->triangle, v);
+    mw_border_edge whole = {mesh->point[v[e->edge]], mesh->point[v[next]], e->triangle, e->edge};
+    double one = share(&whole, e->a), two = share(&whole, e->b);
+    double s = fmin(fmax(share(&whole, q), fmin(one, two)), fmax(one, two));
+    weight[e->edge] = 1 - s;
+    weight[next] = s;
+    weight[mw__prev(e->edge)] = 0;
+}
+
 mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_border_hit *hit, mw_error *error)
 {
     if (!locator || !hit || !isfinite(x) || !isfinite(y))
@@ -330,20 +344,9 @@ mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_bo
     const mw_border_edge *e = nearest(&locator->border, q);
     if (!e) return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border"); /* only a mesh that is no embedding */
     mw_point at = foot(e, q);
-    *hit = (mw_border_hit){e->triangle, e->edge, distance(e, q), {at.x, at.y}};
+    *hit = (mw_border_hit){e->triangle, e->edge, distance(e, q), {at.x, at.y}, {0}};
+    edge_weights(locator->mesh, e, q, hit->weight);
     return MW_OK;
-}
-
-/* Weights of a point on edge `edge` of the user's triangle. */
-static void edge_weights(const mw_mesh *mesh, uint32_t triangle, uint32_t edge, mw_point at, double weight[3])
-{
-    uint32_t v[3];
-    mw_mesh_triangle(mesh, triangle, v);
-    mw_border_edge whole = {mesh->point[v[edge]], mesh->point[v[mw__next(edge)]], triangle, edge};
-    double s = share(&whole, at);
-    weight[edge] = 1 - s;
-    weight[mw__next(edge)] = s;
-    weight[mw__prev(edge)] = 0;
 }
 
 void mw__border_near(const mw_border *border, const mw_mesh *mesh, mw_point q, double tolerance, mw_location *location)
@@ -353,5 +356,5 @@ void mw__border_near(const mw_border *border, const mw_mesh *mesh, mw_point q, d
     location->where = MW_NEAR;
     location->triangle = e->triangle;
     location->local = (uint8_t)e->edge;
-    edge_weights(mesh, e->triangle, e->edge, foot(e, q), location->weight);
+    edge_weights(mesh, e, q, location->weight);
 }
