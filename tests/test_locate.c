@@ -268,6 +268,9 @@ static void test_weights_at_any_scale(void **state)
     assert_true(at.weight[0] == 0.25 && at.weight[1] == 0.25 && at.weight[2] == 0.5);
     at = locate_in(large, 0, 0);
     assert_true(at.weight[0] == 0.25 && at.weight[1] == 0.25 && at.weight[2] == 0.5);
+    const double needle[6] = {-1, nextafter(1, 2), 0, -5e-324, 0, 5e-324};
+    at = locate_in(needle, -0.5, nextafter(0.5, 1));
+    assert_true(at.weight[0] == 0.5 && at.weight[1] == 0.25 && at.weight[2] == 0.25);
     at = locate_in(mixed, -3.406e-320, 7.314073710692654e306);
     assert_int_equal(at.where, MW_INSIDE);
     assert_true(fabs(at.weight[1] - 1) < 1e-12 && at.weight[0] > 0 && at.weight[2] > 0);

@@ -1,6 +1,9 @@
 /* place.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
 #include "locate/locator.h"
 
+#include <float.h>
+#include <limits.h>
+
 void mw__areas(const mw_point corner[3], mw_point q, double area[3])
 {
     double x[3], y[3], bound[3];
@@ -22,24 +25,16 @@ void mw__areas(const mw_point corner[3], mw_point q, double area[3])
     for (uint32_t k = 0; k < 3; k++) area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
 }
 
-/* The exponent of the largest of four magnitudes: v * 2^-exponent is below 1. */
-static int exponent_of(double a, double b, double c, double d)
-{
-    int exponent;
-    frexp(fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d))), &exponent);
-    return exponent;
-}
-
-/* Areas up to a common factor, for triangles so small, large or thin that their areas leave the range of doubles: each
- * axis is scaled to 1 by a power of two, which changes no weight. Signs stay those of the exact areas. */
+/* Areas up to a common factor, where they would leave the range of doubles: the largest becomes about 1. */
 static void rescale(const mw_point corner[3], mw_point q, double area[3])
 {
-    int ex = exponent_of(corner[0].x, corner[1].x, corner[2].x, q.x);
-    int ey = exponent_of(corner[0].y, corner[1].y, corner[2].y, q.y);
-    mw_point p[3], at = {ldexp(q.x, -ex), ldexp(q.y, -ey)};
-    for (uint32_t k = 0; k < 3; k++) p[k] = (mw_point){ldexp(corner[k].x, -ex), ldexp(corner[k].y, -ey)};
-    for (uint32_t k = 0; k < 3; k++)
-        if (area[k] != 0) area[k] = fmax(mw__orient2d_exact(p[mw__next(k)], p[mw__prev(k)], at), 0x1p-1020);
+    int exponent[3], most = INT_MIN;
+    for (uint32_t k = 0; k < 3; k++) {
+        area[k] = mw__orient2d_fraction(corner[mw__next(k)], corner[mw__prev(k)], q, &exponent[k]);
+        if (area[k] != 0 && exponent[k] > most) most = exponent[k];
+    }
+    for (uint32_t k = 0; k < 3; k++) /* none vanishes that is not 0 */
+        if (area[k] != 0) area[k] = fmax(ldexp(area[k], exponent[k] - most), DBL_MIN);
 }
 
 mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, double area[3])

@@ -159,8 +159,9 @@ void mw__big_cross(mw_big *r, const mw_big *a, const mw_big *b, const mw_big *c,
     mw__big_subtract(r, &left, &right);
 }
 
-double mw__big_double(const mw_big *a, int exponent)
+double mw__big_fraction(const mw_big *a, int *exponent)
 {
+    *exponent = 0;
     if (a->sign == 0) return 0;
     uint64_t top = a->limb[a->n - 1];
     int zeros = __builtin_clzll(top);
@@ -168,6 +169,14 @@ double mw__big_double(const mw_big *a, int exponent)
         top <<= zeros;
         if (a->n > 1) top |= a->limb[a->n - 2] >> (64 - zeros);
     }
-    double magnitude = ldexp((double)top, 64 * (a->n - 1) - zeros + exponent);
-    return a->sign * fmin(fmax(magnitude, DBL_MIN), DBL_MAX);
+    double fraction = frexp((double)top, exponent);
+    *exponent += 64 * (a->n - 1) - zeros;
+    return a->sign * fraction;
+}
+
+double mw__big_double(const mw_big *a, int exponent)
+{
+    int own;
+    double fraction = mw__big_fraction(a, &own), magnitude = ldexp(fabs(fraction), own + exponent);
+    return a->sign * (a->sign ? fmin(fmax(magnitude, DBL_MIN), DBL_MAX) : 0);
 }

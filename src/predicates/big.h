@@ -34,6 +34,9 @@ void mw__big_multiply(mw_big *r, const mw_big *a, const mw_big *b);
 /* r = a*d - b*c. */
 void mw__big_cross(mw_big *r, const mw_big *a, const mw_big *b, const mw_big *c, const mw_big *d);
 
+/* a = fraction * 2^*exponent, rounded, with the fraction's magnitude from 1/2 to 1, or 0. */
+double mw__big_fraction(const mw_big *a, int *exponent);
+
 /* a * 2^exponent, rounded; where that is not 0 and no normal double, +-DBL_MAX or +-DBL_MIN. */
 double mw__big_double(const mw_big *a, int exponent);
 

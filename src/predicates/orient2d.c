@@ -19,24 +19,37 @@ static double with_expansions(const double v[8])
         mw__expansion_cross(&arena, difference[0], difference[2], difference[3], difference[1]));
 }
 
-static double with_integers(const double v[8])
+/* The same over 2^(2 base), returned. */
+static int with_integers(const double v[8], mw_big *result)
 {
-    mw_big difference[4], result;
+    mw_big difference[4];
     int base = mw__big_base(v, 8);
     for (int i = 0; i < 4; i++) mw__big_difference(&difference[i], v[2 * i], v[2 * i + 1], base);
-    mw__big_cross(&result, &difference[0], &difference[2], &difference[3], &difference[1]);
-    return mw__big_double(&result, 2 * base);
+    mw__big_cross(result, &difference[0], &difference[2], &difference[3], &difference[1]);
+    return base;
 }
 
 static double exact(const double v[8])
 {
     if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return with_expansions(v);
-    return mw__all_finite(v, 8) ? with_integers(v) : 0;
+    if (!mw__all_finite(v, 8)) return 0;
+    mw_big result;
+    int base = with_integers(v, &result);
+    return mw__big_double(&result, 2 * base);
 }
 
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c)
 {
     return exact((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x});
+}
+
+double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent)
+{
+    mw_big result;
+    int base = with_integers((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x}, &result);
+    double fraction = mw__big_fraction(&result, exponent);
+    *exponent += 2 * base;
+    return fraction;
 }
 
 double mw__dot2d_exact(mw_point a, mw_point b, mw_point c)

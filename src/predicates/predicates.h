@@ -30,6 +30,9 @@ typedef struct mw_point {
  * above the doubles gives +-DBL_MAX, one below the normal doubles something nonzero of its sign, at most DBL_MIN. */
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c);
 double mw__dot2d_exact(mw_point a, mw_point b, mw_point c);
+/* orient2d of finite points as fraction * 2^*exponent, which neither over- nor underflows: the fraction's magnitude is from
+ * 1/2 to 1, or 0. Slow. */
+double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent);
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d);
 double mw__orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3]);
 
