@@ -57,4 +57,8 @@ mw_status mw__write_csv(const char *path, const mw_mesh_file *file, mw_error *er
 typedef void mw_write_body(mw_output *output, const mw_mesh_file *file);
 mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_error *error);
 
+/* What several formats share: lines "x y z" of the vertices, and lines "3 a b c" of the triangles, numbered from 0. */
+void mw__output_points(mw_output *output, const mw_mesh_file *file);
+void mw__output_triangles(mw_output *output, const mw_mesh_file *file);
+
 #endif

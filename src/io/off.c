@@ -92,19 +92,8 @@ mw_status mw__read_off(mw_source *source, mw_builder *builder, mw_error *error)
 static void write_off(mw_output *output, const mw_mesh_file *file)
 {
     mw_output_printf(output, "OFF\n%zu %zu 0\n", file->point_count, file->triangle_count);
-    for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++)
-        for (size_t k = 0; k < 3; k++) {
-            mw_output_double(output, file->points[3 * v + k]);
-            mw__output_char(output, k < 2 ? ' ' : '\n');
-        }
-    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) {
-        mw__output_char(output, '3');
-        for (size_t k = 0; k < 3; k++) {
-            mw__output_char(output, ' ');
-            mw__output_integer(output, file->triangles[3 * t + k]);
-        }
-        mw__output_char(output, '\n');
-    }
+    mw__output_points(output, file);
+    mw__output_triangles(output, file);
 }
 
 mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_error *error)

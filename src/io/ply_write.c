@@ -54,14 +54,7 @@ static void write_ascii(mw_output *output, const mw_mesh_file *file)
         }
         mw__output_char(output, '\n');
     }
-    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) {
-        mw__output_char(output, '3');
-        for (size_t k = 0; k < 3; k++) {
-            mw__output_char(output, ' ');
-            mw__output_integer(output, file->triangles[3 * t + k]);
-        }
-        mw__output_char(output, '\n');
-    }
+    mw__output_triangles(output, file);
 }
 
 mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_error *error)

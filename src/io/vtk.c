@@ -16,20 +16,9 @@ static void write_vtk(mw_output *output, const mw_mesh_file *file)
     mw_output_printf(output,
                      "# vtk DataFile Version 3.0\nmeshwalk\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS %zu double\n",
                      file->point_count);
-    for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++)
-        for (size_t k = 0; k < 3; k++) {
-            mw_output_double(output, file->points[3 * v + k]);
-            mw__output_char(output, k < 2 ? ' ' : '\n');
-        }
+    mw__output_points(output, file);
     mw_output_printf(output, "CELLS %zu %zu\n", file->triangle_count, 4 * file->triangle_count);
-    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) {
-        mw__output_char(output, '3');
-        for (size_t k = 0; k < 3; k++) {
-            mw__output_char(output, ' ');
-            mw__output_integer(output, file->triangles[3 * t + k]);
-        }
-        mw__output_char(output, '\n');
-    }
+    mw__output_triangles(output, file);
     mw_output_printf(output, "CELL_TYPES %zu\n", file->triangle_count);
     for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) mw__output_text(output, "5\n");
     if (file->field_count > 0) mw_output_printf(output, "POINT_DATA %zu\n", file->point_count);
