@@ -149,8 +149,8 @@ void print_lines(const std::string &name, const Scene &scene, const std::vector<
         };
         table.row({name, std::to_string(scene.points.size() / 2), line.walk, line.start, line.way,
                    number(1e9 * median / queries, 1), number(1e9 * contest.least(line.competitor) / queries, 1),
-                   number(median / base, 3), each(line.counters.triangles_init + line.counters.triangles),
-                   each(line.counters.tests_init + line.counters.tests)});
+                   number(median / base, 3), each(line.counters.triangles_visited),
+                   each(line.counters.orient_init + line.counters.orient + line.counters.orient_final)});
     }
 }
 

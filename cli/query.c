@@ -192,7 +192,7 @@ static int run_blocks(stream *s)
         int end = locate_block(s, count);
         if (end == 0) end = write_block(s, count);
         if (end) return end;
-        progress_points(s->tally.counters.queries);
+        progress_points(s->tally.points);
     }
     return 0; /* closing the output reports what failed */
 }

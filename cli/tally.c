@@ -33,15 +33,9 @@ void tally_begin(tally *t)
 
 void tally_block(tally *t, const mw_location *locations, size_t count, const mw_counters *counters, double seconds)
 {
-    mw_counters *sum = &t->counters;
     for (size_t i = 0; i < count; i++) t->where[locations[i].where]++;
-    sum->queries += count;
-    sum->triangles_init += counters->triangles_init;
-    sum->triangles += counters->triangles;
-    sum->tests_init += counters->tests_init;
-    sum->tests += counters->tests;
-    sum->handovers += counters->handovers;
-    if (sum->triangles_max < counters->triangles_max) sum->triangles_max = counters->triangles_max;
+    mw_counters_add(&t->counters, counters);
+    t->points += count;
     t->locating += seconds;
     t->blocks++;
 }
@@ -60,9 +54,19 @@ static double rounded(double value)
 static void report_walks(report *r, const tally *t)
 {
     const mw_counters *c = &t->counters;
-    report_number(r, "triangles_per_query", rounded(per(c->triangles_init + c->triangles, c->queries)));
+    report_number(r, "triangles_per_query", rounded(per(c->triangles_visited, c->queries)));
     report_count(r, "triangles_max", c->triangles_max);
-    report_number(r, "tests_per_query", rounded(per(c->tests_init + c->tests, c->queries)));
+    report_number(r, "triangles_init", rounded(per(c->triangles_init, c->queries)));
+    report_number(r, "triangles", rounded(per(c->triangles, c->queries)));
+    report_number(r, "triangles_final", rounded(per(c->triangles_final, c->queries)));
+    report_count(r, "triangles_final_max", c->triangles_final_max);
+    report_number(r, "tests_per_query", rounded(per(c->orient_init + c->orient + c->orient_final, c->queries)));
+    report_number(r, "orient_init", rounded(per(c->orient_init, c->queries)));
+    report_number(r, "orient", rounded(per(c->orient, c->queries)));
+    report_number(r, "orient_final", rounded(per(c->orient_final, c->queries)));
+    report_number(r, "implicit", rounded(per(c->implicit, c->queries)));
+    report_number(r, "comparisons", rounded(per(c->comparisons, c->queries)));
+    report_count(r, "cycles", c->cycles);
     report_count(r, "handovers", c->handovers);
 }
 
@@ -72,7 +76,7 @@ static void report_times(report *r, const tally *t, const query *q)
     report_number(r, "seconds", rounded(tally_clock() - q->begin));
     report_number(r, "preparing_seconds", rounded(t->begin - q->begin));
     report_number(r, "locating_seconds", rounded(t->locating));
-    double rate = t->locating > 0 ? (double)t->counters.queries / t->locating : 0;
+    double rate = t->locating > 0 ? (double)t->points / t->locating : 0;
     report_count(r, "queries_per_second", (uint64_t)rate);
 }
 
@@ -83,7 +87,7 @@ int tally_print(const tally *t, const query *q)
     report r;
     mw_locator_describe(q->locator, &info);
     report_begin(&r, settings->json);
-    report_count(&r, "points", t->counters.queries);
+    report_count(&r, "points", t->points);
     for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(&r, mw_where_name((mw_where)i), t->where[i]);
     report_string(&r, "walk", mw_walk_name((mw_walk_kind)settings->walk));
     report_string(&r, "start", mw_start_name((mw_start_kind)settings->start));

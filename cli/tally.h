@@ -7,7 +7,7 @@
 typedef struct tally {
     uint64_t where[MW_WHERE_COUNT];
     uint64_t unanswered; /* rows without an answer */
-    uint64_t blocks;
+    uint64_t blocks, points;
     mw_counters counters;
     double begin, locating; /* seconds: when the mesh was ready; the locating alone */
 } tally;

@@ -57,7 +57,7 @@ int main(void)
     }
     const mw_counters *c = &cursor.counters;
     printf("%llu searches, %u changes of triangle, %.2f triangles visited per search\n", (unsigned long long)c->queries,
-           entered, (double)(c->triangles_init + c->triangles) / (double)c->queries);
+           entered, (double)c->triangles_visited / (double)c->queries);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return 0;

@@ -345,7 +345,7 @@ static void test_auto_looks_at_the_mesh(void **state)
         mw_counters twice = as_auto;
         mw_counters_add(&twice, &as_named);
         assert_int_equal(twice.queries, 200);
-        assert_int_equal(twice.tests, 2 * as_auto.tests);
+        assert_int_equal(twice.orient, 2 * as_auto.orient);
         assert_int_equal(twice.triangles_max, as_auto.triangles_max);
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);

@@ -57,7 +57,9 @@ static mw_status locator_job(const mw_arrays *view, mw_error *error)
     mw_status status;
     mw_mesh *mesh = make(view, &status, error);
     mw_locator *locator = NULL;
-    if (!status) status = mw_locator_create(mesh, &(mw_locator_options){1, 1, 1, {0}}, &locator, error);
+    if (!status)
+        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .border = 1, .layout = 1, .areas = 1},
+                                   &locator, error);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return status;

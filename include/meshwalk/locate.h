@@ -75,7 +75,8 @@ typedef struct mw_locator_options {
     int any;    /* 1: take also a mesh that is no embedding; see mw_locator_void_promise                      */
     int border; /* 1: build the index that nearest-border queries and a tolerance need                        */
     int layout; /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
-    uint32_t reserved[5];
+    int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
+    uint32_t reserved[4];
 } mw_locator_options;
 
 /* Prepare a mesh for queries.
@@ -91,6 +92,7 @@ MW_API void mw_locator_destroy(mw_locator *locator); /* NULL is allowed */
 typedef struct mw_locator_info {
     size_t bytes;             /* all memory of the locator, mesh not counted       */
     size_t border_bytes;      /* of it, the index of the border                    */
+    size_t area_bytes;        /* of it, the stored areas                           */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
     int copied;    /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
@@ -102,32 +104,83 @@ MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info
 /* For a mesh taken with options.any although it is no embedding: which promise is void, as a text; else NULL. */
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);
 
+/* What some starts build beside the mesh: a grid, or layers. It is only a guide to the first triangle, so it may serve any
+ * locator whatever its mesh, as one made after the mesh was edited: answers stay exact, walks get longer. Const while it
+ * is queried. */
+typedef struct mw_index mw_index;
+
+/* All zero = choose. */
+typedef struct mw_index_options {
+    uint32_t cells;  /* MW_START_GRID: about so many cells; 0 = by the number of vertices                        */
+    uint32_t layers; /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
+    double ratio;    /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
+    int descent;     /* MW_START_LAYERS: the vertex to go down at. 0: by the walk, 1: nearest, 2: largest orientation
+                        coordinate                                                                              */
+    uint64_t seed;   /* MW_START_LAYERS: of the random vertices                                                  */
+    uint32_t reserved[4];
+} mw_index_options;
+
+#define MW_MAX_LAYERS 8
+
+/* Build the index of a start that needs one: MW_START_GRID, MW_START_TWO_LEVEL_GRID or MW_START_LAYERS.
+ *   options  NULL = all zero
+ *   out      owned by the caller (mw_index_destroy); keeps nothing of the locator; NULL on failure
+ * MW_ERROR_ARGUMENT for another start or options out of range; MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
+MW_API mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const mw_index_options *options,
+                                 mw_index **out, mw_error *error);
+MW_API void mw_index_destroy(mw_index *index); /* NULL is allowed */
+
+typedef struct mw_index_info {
+    mw_start_kind start;
+    size_t bytes;                     /* all its memory                                        */
+    double seconds;                   /* it took to build                                      */
+    uint32_t cells;                   /* of a grid, those of both levels                       */
+    uint32_t layers;                  /* the mesh itself counted; 0 for a grid                 */
+    uint32_t vertices[MW_MAX_LAYERS]; /* of each layer, the mesh first                         */
+} mw_index_info;
+MW_API void mw_index_describe(const mw_index *index, mw_index_info *info);
+
 /* How to answer a query. All zero = choose what is fast. */
 typedef struct mw_query_options {
     mw_walk_kind walk;
     mw_start_kind start;
     mw_arithmetic arithmetic;
-    uint64_t seed;    /* for everything random; answers do not depend on it                                  */
-    uint32_t sample;  /* MW_START_SAMPLE: number of triangles looked at; 0 = cube root of their number        */
-    uint32_t threads; /* batches: 0 = what OpenMP gives                                                      */
-    double tolerance; /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
-    int count;        /* 1: fill the counters                                                                */
-    uint32_t lanes;   /* batches: walks in flight at a time; 0 = choose, at most MW_MAX_LANES                 */
+    mw_walk_kind finish;   /* the final location of the walks whose own tests are only a guide: MW_WALK_REMEMBERING or
+                            MW_WALK_STOCHASTIC; 0 = remembering where a look at edges finds the mesh Delaunay            */
+    uint64_t seed;         /* for everything random; answers do not depend on it                                  */
+    uint32_t sample;       /* MW_START_SAMPLE: number of triangles looked at, or one of the rules below           */
+    uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: steps with one test; 0 = estimate by distance and density  */
+    uint32_t threads;      /* batches: 0 = what OpenMP gives                                                      */
+    double tolerance;      /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
+    int count;             /* 1: fill the counters                                                                */
+    uint32_t lanes;        /* batches: walks in flight at a time; 0 = choose, at most MW_MAX_LANES                 */
+    const mw_index *index; /* for the starts that have one (mw_index_create), NULL else; must outlive the cursor */
     uint32_t reserved[4];
 } mw_query_options;
 
 #define MW_MAX_LANES 64
+#define MW_SAMPLE_CUBE_ROOT 0u           /* cube root of the number of triangles [Devroye, Muecke, Zhu 1998]        */
+#define MW_SAMPLE_FOURTH_ROOT UINT32_MAX /* 2 times the fourth root of it                                         */
 
-/* What the walks did, summed over queries; filled where options.count says so. `init` is the turning round the first
- * vertex of the straight walk. Independent of threads; where queries begin at the one before (last, sorted, auto), they
- * depend on lanes. */
+/* What the walks did, summed over queries; filled where options.count says so. A search has up to three stages:
+ * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks. Each stage
+ * counts the triangle it begins in, so the sum of the three counts that one twice; triangles_visited counts it once.
+ * Layers (MW_START_LAYERS) are counted like the mesh itself. Independent of threads; where queries begin at the one
+ * before (last, sorted, auto), they depend on lanes. */
 typedef struct mw_counters {
     uint64_t queries;
-    uint64_t triangles_init, triangles; /* triangles visited, the first one included     */
-    uint64_t triangles_max;             /* most triangles visited by one query           */
-    uint64_t tests_init, tests;         /* orientation tests, the final answer's three not counted */
-    uint64_t handovers; /* walks that ran out of steps, or in doubles ended in a wrong triangle, and were
-                                           ended by the celestial walk in exact arithmetic */
+    uint64_t triangles_visited; /* triangles entered, the first one included   */
+    uint64_t triangles_max;     /* most of them by one query                   */
+    uint64_t triangles_init, triangles, triangles_final;
+    uint64_t triangles_final_max; /* most triangles_final of one query                                     */
+    uint64_t orient_init, orient, orient_final; /* orientation tests (and dot products of the celestial walk); the final
+                                                   answer's three are not counted                                      */
+    uint64_t implicit;    /* positions of a point by the equation of a line                                  */
+    uint64_t comparisons; /* comparisons of coordinates                                                      */
+    uint64_t cycles;      /* walks that ran out of steps                                                     */
+    uint64_t
+        handovers; /* walks that did, or in doubles ended in a wrong triangle: the celestial walk ended them in exact
+                             arithmetic                                                                      */
 } mw_counters;
 
 /* Add `more` to `sum`: for the cursors of several threads. */
@@ -137,17 +190,20 @@ MW_API void mw_counters_add(mw_counters *sum, const mw_counters *more);
  * the locator it was initialised with. */
 typedef struct mw_cursor {
     mw_counters counters;
-    uint64_t random;                        /* state of the random numbers                 */
-    double tolerance;                       /* as in the options                           */
-    uint32_t last;                          /* triangle of the query before (internal number) */
-    uint32_t sample;                        /* resolved number of samples                  */
-    uint32_t fuel;                          /* steps after which a walk hands over         */
-    uint8_t walk, start, arithmetic, count; /* resolved options          */
-    uint32_t reserved[2];
+    const mw_index *index;
+    uint64_t random;                                /* state of the random numbers                 */
+    double tolerance;                               /* as in the options                           */
+    uint32_t last;                                  /* triangle of the query before (internal number) */
+    uint32_t sample;                                /* resolved number of samples                  */
+    uint32_t steps;                                 /* as in the options                           */
+    uint32_t fuel;                                  /* steps after which a walk hands over         */
+    uint8_t walk, start, finish, arithmetic, count; /* resolved options          */
+    uint8_t reserved[7];
 } mw_cursor;
 
-/* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a tolerance that is negative, NaN or
- * infinite, or one without the border index. MW_START_SORTED in single queries means MW_START_LAST. */
+/* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a finish that is neither remembering nor
+ * stochastic, a start without its index, an index of another start, a tolerance that is negative, NaN or infinite, or
+ * one without the border index. With an index and MW_START_AUTO the start is the index's. MW_START_SORTED in single queries means MW_START_LAST. */
 MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options,
                                 mw_error *error);
 

@@ -76,12 +76,14 @@ void mw__tiling_release(mw_tiling *tiling)
 {
     release_arrays(tiling);
     free(tiling->owner);
+    free(tiling->area);
     *tiling = (mw_tiling){0};
 }
 
 size_t mw__tiling_bytes(const mw_tiling *tiling)
 {
     size_t bytes = tiling->point_count * sizeof *tiling->owner;
+    if (tiling->area) bytes += tiling->tri_count * sizeof *tiling->area;
     if (tiling->borrowed) return bytes;
     return bytes + tiling->point_count * sizeof *tiling->point + tiling->tri_count * sizeof *tiling->tri;
 }
@@ -141,6 +143,18 @@ static void fill(layout *to, const mw_tiling *from)
         to->point[i] = from->point[to->vertex_order[i]];
         to->owner[i] = from->owner[to->vertex_order[i]];
     }
+}
+
+mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error)
+{
+    const mw_point *p = tiling->point;
+    tiling->area = mw__alloc(tiling->tri_count, sizeof *tiling->area);
+    if (!tiling->area) return mw__fail_memory(error);
+    for (uint32_t t = 0; t < tiling->tri_count; t++) {
+        const uint32_t *v = tiling->tri[t].v;
+        tiling->area[t] = mw__orient2d(p[v[0]], p[v[1]], p[v[2]]);
+    }
+    return MW_OK;
 }
 
 mw_status mw__tiling_order(mw_tiling *tiling, mw_error *error)

@@ -17,6 +17,7 @@
 typedef struct mw_tiling {
     mw_point *point;
     mw_triangle *tri;
+    double *area;    /* per tile, twice its area, rounded; NULL unless asked for (mw__tiling_areas); always owned */
     uint32_t *owner; /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned */
     uint32_t point_count, tri_count, ghost_count, hole_count;
     bool borrowed;    /* point and tri belong to the mesh               */
@@ -32,6 +33,9 @@ typedef struct mw_tiling {
 mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
 void mw__tiling_release(mw_tiling *tiling);
 size_t mw__tiling_bytes(const mw_tiling *tiling); /* what it owns */
+
+/* Compute the areas. MW_ERROR_MEMORY. Not before the tiles have their final order. */
+mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error);
 
 /* Lay out tiles and vertices along a Hilbert curve; a borrowed tiling becomes a copy. */
 mw_status mw__tiling_order(mw_tiling *tiling, mw_error *error);

@@ -96,7 +96,7 @@ static mw_counters answer(const batch *b, uint32_t first, uint32_t count)
         c.end[i] = first + (uint32_t)((uint64_t)count * (i + 1) / lanes);
         c.last[i] = b->chained ? MW_NONE : b->cursor.last;
     }
-    const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)b->cursor.walk);
+    const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)b->cursor.walk, &b->locator->tiling);
     bool exact = b->cursor.arithmetic == MW_EXACT;
     if (lanes == 1) {
         mw_walk walk;
@@ -111,11 +111,18 @@ static mw_counters answer(const batch *b, uint32_t first, uint32_t count)
 void mw_counters_add(mw_counters *sum, const mw_counters *more)
 {
     sum->queries += more->queries;
+    sum->triangles_visited += more->triangles_visited;
+    if (more->triangles_max > sum->triangles_max) sum->triangles_max = more->triangles_max;
     sum->triangles_init += more->triangles_init;
     sum->triangles += more->triangles;
-    if (more->triangles_max > sum->triangles_max) sum->triangles_max = more->triangles_max;
-    sum->tests_init += more->tests_init;
-    sum->tests += more->tests;
+    sum->triangles_final += more->triangles_final;
+    if (more->triangles_final_max > sum->triangles_final_max) sum->triangles_final_max = more->triangles_final_max;
+    sum->orient_init += more->orient_init;
+    sum->orient += more->orient;
+    sum->orient_final += more->orient_final;
+    sum->implicit += more->implicit;
+    sum->comparisons += more->comparisons;
+    sum->cycles += more->cycles;
     sum->handovers += more->handovers;
 }
 

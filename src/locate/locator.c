@@ -56,6 +56,7 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
     mw_status status = mw__tiling_create(locator->mesh, options->any, tiling, error);
     if (status) return status;
     if (options->layout == 1 || (options->layout == 0 && scattered(tiling))) status = mw__tiling_order(tiling, error);
+    if (status == MW_OK && options->areas) status = mw__tiling_areas(tiling, error);
     if (status) return status;
     if (!tiling->embedding) {
         char first[200];
@@ -71,9 +72,10 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
     }
     mw__extent(tiling->point, tiling->tri, tiling->tri_count, locator->low, locator->high);
     locator->auto_walk = choose_walk(tiling);
+    locator->finish = locator->auto_walk == MW_WALK_REMEMBERING ? MW_WALK_REMEMBERING : MW_WALK_STOCHASTIC;
     locator->centre = mw__start_centre(tiling, locator->low, locator->high);
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
-    locator->near2 = width / mw__sample_count(tiling) * height;
+    locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
     return MW_OK;
 }
 
@@ -112,6 +114,7 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
     *info = (mw_locator_info){
         .bytes = sizeof *locator + mw__tiling_bytes(&locator->tiling) + border,
         .border_bytes = border,
+        .area_bytes = locator->tiling.area ? locator->tiling.tri_count * sizeof(double) : 0,
         .ghost_triangles = locator->tiling.ghost_count,
         .holes = locator->tiling.hole_count,
         .copied = !locator->tiling.borrowed,

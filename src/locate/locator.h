@@ -15,6 +15,7 @@ struct mw_locator {
     double low[2], high[2]; /* extent of the tiling                                                    */
     double near2;           /* a tile within this squared distance beats a sample, by expectation      */
     mw_walk_kind auto_walk; /* what MW_WALK_AUTO means here */
+    mw_walk_kind finish;    /* what ends the cheap walks    */
     uint32_t centre;        /* tile in the middle                                                       */
     bool has_border;
     char promise[640]; /* which promise is void; empty for an embedding                            */

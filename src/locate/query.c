@@ -58,15 +58,24 @@ static mw_location settle(const mw_locator *locator, uint32_t t, mw_point q, dou
     return triangle == MW_NONE ? outside(locator, tile->user, q, tolerance) : mw__place_in(locator->mesh, triangle, q);
 }
 
-static void count(mw_counters *counters, const mw_walk *walk, bool handover)
+static void count(mw_counters *counters, const mw_work *work, bool cycle, bool handover)
 {
-    counters->queries++;
-    counters->triangles_init += walk->visited_init;
-    counters->triangles += walk->visited - walk->visited_init;
-    if (walk->visited > counters->triangles_max) counters->triangles_max = walk->visited;
-    counters->tests_init += walk->tests_init;
-    counters->tests += walk->tests - walk->tests_init;
-    counters->handovers += handover;
+    mw_counters_add(counters, &(mw_counters){
+                                  .queries = 1,
+                                  .triangles_visited = work->visited,
+                                  .triangles_max = work->visited,
+                                  .triangles_init = work->triangles[MW_STAGE_INIT],
+                                  .triangles = work->triangles[MW_STAGE_WALK],
+                                  .triangles_final = work->triangles[MW_STAGE_FINAL],
+                                  .triangles_final_max = work->triangles[MW_STAGE_FINAL],
+                                  .orient_init = work->orient[MW_STAGE_INIT],
+                                  .orient = work->orient[MW_STAGE_WALK],
+                                  .orient_final = work->orient[MW_STAGE_FINAL],
+                                  .implicit = work->implicit,
+                                  .comparisons = work->comparisons,
+                                  .cycles = cycle,
+                                  .handovers = handover,
+                              });
 }
 
 /* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was right costs no step
@@ -78,8 +87,9 @@ static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, bool counted
     mw_verdict verdict = mw__celestial.run[true][counted](&end);
     *moved = end.t != walk->t;
     if (*moved) {
-        walk->visited += end.visited - 1;
-        walk->tests += end.tests;
+        walk->work.visited += end.work.visited - 1;
+        walk->work.triangles[MW_STAGE_FINAL] += end.work.triangles[MW_STAGE_WALK];
+        walk->work.orient[MW_STAGE_FINAL] += end.work.orient[MW_STAGE_WALK];
         walk->t = end.t;
     }
     return verdict;
@@ -88,10 +98,13 @@ static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, bool counted
 mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
                          mw_counters *counters)
 {
+    const mw_tiling *tiling = &locator->tiling;
+    bool exact = cursor->arithmetic == MW_EXACT;
+    if (verdict == MW_CLOSE)
+        verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact, cursor->count);
     bool dry = verdict == MW_DRY, moved = false;
-    if (MW_UNLIKELY(dry || cursor->arithmetic != MW_EXACT))
-        verdict = hand_over(&locator->tiling, walk, cursor->count, &moved);
-    if (cursor->count) count(counters, walk, dry || moved);
+    if (MW_UNLIKELY(dry || !exact)) verdict = hand_over(tiling, walk, cursor->count, &moved);
+    if (cursor->count) count(counters, &walk->work, dry, dry || moved);
     if (MW_UNLIKELY(verdict != MW_FOUND)) return outside(locator, 0, walk->q, cursor->tolerance);
     return settle(locator, walk->t, walk->q, cursor->tolerance);
 }
@@ -131,6 +144,8 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
     if (!options) options = &defaults;
     if ((unsigned)options->walk >= MW_WALK_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
     if ((unsigned)options->start >= MW_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    if (options->finish && options->finish != MW_WALK_REMEMBERING && options->finish != MW_WALK_STOCHASTIC)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by remembering or stochastic");
     if ((unsigned)options->arithmetic > MW_DOUBLE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown arithmetic");
     if (!(options->tolerance >= 0) || isinf(options->tolerance))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the tolerance is not a length");
@@ -141,10 +156,12 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         .random = mw__random_seed(options->seed, 0),
         .tolerance = options->tolerance,
         .last = locator->centre,
-        .sample = options->sample ? options->sample : mw__sample_count(&locator->tiling),
+        .sample = mw__sample_count(&locator->tiling, options->sample),
+        .steps = options->steps,
         .fuel = mw__walk_fuel(walk, options->arithmetic, &locator->tiling),
         .walk = (uint8_t)walk,
         .start = (uint8_t)options->start,
+        .finish = (uint8_t)(options->finish ? options->finish : locator->finish),
         .arithmetic = (uint8_t)options->arithmetic,
         .count = options->count != 0,
     };
@@ -155,7 +172,7 @@ mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, do
 {
     if (MW_UNLIKELY(!isfinite(x) || !isfinite(y))) return mw__nowhere(MW_BAD);
     mw_walk walk = mw__depart(locator, cursor, (mw_point){x, y}, &cursor->random);
-    const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk);
+    const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
     mw_location location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
     cursor->last = walk.t;

@@ -18,7 +18,9 @@ uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, u
     return best;
 }
 
-uint32_t mw__sample_count(const mw_tiling *tiling)
+uint32_t mw__sample_count(const mw_tiling *tiling, uint32_t sample)
 {
-    return (uint32_t)ceil(cbrt(tiling->tri_count));
+    if (sample == MW_SAMPLE_CUBE_ROOT) return (uint32_t)ceil(cbrt(tiling->tri_count));
+    if (sample == MW_SAMPLE_FOURTH_ROOT) return (uint32_t)ceil(2 * sqrt(sqrt(tiling->tri_count)));
+    return sample;
 }

@@ -6,14 +6,17 @@
 #include "base/hilbert.h"
 #include "domain/tiling.h"
 
+#include <meshwalk/locate.h>
+
 /* Any tile with the same chance. */
 uint32_t mw__start_random(const mw_tiling *tiling, uint64_t *random);
 
 /* The nearest to q, by its vertex 0, of `count` random tiles, and of `rival` unless that is MW_NONE. */
 uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, uint32_t rival, uint64_t *random);
 
-/* Cube root of the number of tiles: what balances sampling and walking [Devroye, Muecke, Zhu 1998]. */
-uint32_t mw__sample_count(const mw_tiling *tiling);
+/* How many to sample: `sample` itself, or by its rule. The cube root of the number of tiles balances sampling and
+ * walking [Devroye, Muecke, Zhu 1998]. */
+uint32_t mw__sample_count(const mw_tiling *tiling, uint32_t sample);
 
 /* The tile that holds the middle of the extent low..high; found by walking, so it is looked for once. */
 uint32_t mw__start_centre(const mw_tiling *tiling, const double low[2], const double high[2]);

@@ -29,16 +29,14 @@ static MW_INLINE double side(mw_walk *w, mw_point s, mw_policy P)
 static MW_INLINE mw_verdict follow(mw_walk *w, uint32_t e, mw_policy P)
 {
     w->phase = FOLLOW;
-    if (P.count) {
-        w->visited_init = w->visited - 1;
-        w->tests_init = w->tests;
-    }
+    begin_stage(w, MW_STAGE_WALK, P);
     return leave(w, e, P);
 }
 
 /* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
 static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
 {
+    initialise(w, P);
     w->p = corner(w, 0);
     if (side(w, corner(w, 1), P) > 0) {
         w->phase = TURN_RIGHT;

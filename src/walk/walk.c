@@ -46,9 +46,20 @@ mw_walk_kind mw_walk_by_name(const char *name)
     return walk;
 }
 
-const mw_kernels *mw__walk_kernels(mw_walk_kind kind)
+const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling)
 {
+    (void)tiling;
     return kernels[kind];
+}
+
+mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
+                           bool count)
+{
+    walk->e = MW_NO_EDGE; /* the cheap walk was not sure of the edge it came by */
+    walk->fuel = fuel;
+    walk->stage = MW_STAGE_FINAL;
+    walk->work.triangles[MW_STAGE_FINAL] += count;
+    return mw__walk_kernels(finish, tiling)->run[exact][count](walk);
 }
 
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling)

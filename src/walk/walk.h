@@ -14,22 +14,38 @@ typedef enum mw_verdict {
     MW_GO,    /* crossed into another tile            */
     MW_FOUND, /* q is in tile t                       */
     MW_LEFT,  /* q lies beyond a hull edge of tile t  */
+    MW_CLOSE, /* a cheap walk, whose tests are only a guide, ended in tile t: q is here or near, an exact walk ends it */
     MW_DRY    /* out of fuel in tile t                */
 } mw_verdict;
 
 #define MW_NO_EDGE 3u
 
+/* The stages of a search, counted apart: turning round the first vertex, the walk, and the final location that ends the
+ * cheap walks. Each counts the tile it begins in. */
+enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGES };
+
+/* What a search did; counted only by counting kernels. */
+typedef struct mw_work {
+    uint32_t visited; /* tiles entered, the first one included */
+    uint32_t triangles[MW_STAGES], orient[MW_STAGES];
+    uint32_t implicit, comparisons;
+} mw_work;
+
 /* Everything one walk remembers. */
 typedef struct mw_walk {
     const mw_point *point;
     const mw_triangle *tri;
-    mw_point q;      /* the point looked for                                                   */
-    mw_point p;      /* straight: where the line to q begins                                   */
-    uint32_t t, e;   /* current tile, and its edge by which it was entered; MW_NO_EDGE at first */
-    uint32_t phase;  /* straight: see there                                                    */
-    uint32_t fuel;   /* steps left                                                             */
-    uint64_t random; /* stochastic                                                             */
-    uint32_t visited, visited_init, tests, tests_init; /* counted only by counting kernels      */
+    mw_point q;         /* the point looked for                                                   */
+    mw_point p, d;      /* where the line to q begins, and its direction; see the walks that have one */
+    uint32_t t, e;      /* current tile, and its edge by which it was entered; MW_NO_EDGE at first */
+    uint32_t phase;     /* of the walks that have some; 0 at first                                */
+    uint32_t fuel;      /* steps left                                                             */
+    uint64_t random;    /* of the stochastic walks                                                */
+    const double *area; /* direct: twice the area of each tile, or NULL                        */
+    double c;           /* direct: orientation coordinate of the edge just crossed                */
+    uint32_t steps;     /* fast stochastic: with one test each, that are left                     */
+    uint32_t stage;     /* that counts                                                            */
+    mw_work work;
 } mw_walk;
 
 /* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict MW_GO: there is none
@@ -48,13 +64,17 @@ typedef struct mw_kernels {
 #define MW_WALK_ENTRY(id, symbol, name, source, help) extern const mw_kernels mw__##symbol;
 #include <meshwalk/walks.def>
 
-/* The kernels of a walk; not for MW_WALK_AUTO. */
-const mw_kernels *mw__walk_kernels(mw_walk_kind kind);
+/* The kernels of a walk on this tiling; not for MW_WALK_AUTO. */
+const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling);
 
 /* Steps after which a walk hands over. Walks that end get what they can need at most; the others about 45 times the
  * square root of the number of tiles, far above the length of any walk on Delaunay meshes of spread points, plus a
  * constant for small meshes. */
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling);
+
+/* End with an exact walk (of kind `finish`) what a cheap one left at MW_CLOSE. */
+mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
+                           bool count);
 
 /* A walk to q from tile t. Touches no mesh memory. */
 static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uint32_t t, uint32_t fuel, uint64_t random)
@@ -66,7 +86,9 @@ static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uin
                      .e = MW_NO_EDGE,
                      .fuel = fuel,
                      .random = random,
-                     .visited = 1};
+                     .area = tiling->area,
+                     .stage = MW_STAGE_WALK,
+                     .work = {.visited = 1, .triangles = {[MW_STAGE_WALK] = 1}}};
 }
 
 #endif
