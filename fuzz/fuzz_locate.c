@@ -70,7 +70,7 @@ static mw_mesh *damaged(input *in, const mw_mesh *whole)
     return mesh;
 }
 
-static void query(const mw_mesh *mesh, const mw_locator *locator, const double q[2], int layout)
+static void query(const mw_mesh *mesh, const mw_locator *locator, mw_index *const *index, const double q[2], int layout)
 {
     uint32_t want = by_force(mesh, q);
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
@@ -78,7 +78,8 @@ static void query(const mw_mesh *mesh, const mw_locator *locator, const double q
             mw_query_options options = {.walk = (mw_walk_kind)walk,
                                         .start = (mw_start_kind)start,
                                         .arithmetic = (mw_arithmetic)((walk ^ start ^ layout) & 1),
-                                        .seed = 7};
+                                        .seed = 7,
+                                        .index = index[start]};
             mw_cursor cursor;
             if (mw_cursor_init(&cursor, locator, &options, NULL)) abort();
             mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
@@ -101,10 +102,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_locator_options prepare = {.layout = 1 + (next(&in) & 1)};
     mw_locator *locator;
     if (mw_locator_create(mesh, &prepare, &locator, NULL)) abort(); /* a part of an embedding is one */
+    mw_index *index[MW_START_COUNT];
+    for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) /* NULL for starts that have none */
+        mw_index_create(locator, (mw_start_kind)start, NULL, &index[start], NULL);
     for (int i = 0; i < 8; i++) {
         const double q[2] = {(coordinate(&in, 1) + offset) * scale, (coordinate(&in, 1) + offset) * scale};
-        query(mesh, locator, q, prepare.layout);
+        query(mesh, locator, index, q, prepare.layout);
     }
+    for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) mw_index_destroy(index[start]);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     mw_mesh_destroy(whole);

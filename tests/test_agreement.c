@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "meshes.h"
+#include "starts.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -65,19 +66,23 @@ static void try_combinations(const mw_mesh *mesh, const double *q, size_t n, con
         mw_locator *locator;
         mw_locator_options prepare = {.layout = layout};
         assert_int_equal(mw_locator_create(mesh, &prepare, &locator, NULL), MW_OK);
+        mw_index *index[MW_START_COUNT];
+        starts_open(locator, index);
         for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
             for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
                 mw_query_options options = {.walk = (mw_walk_kind)walk,
                                             .start = (mw_start_kind)start,
                                             .arithmetic = (mw_arithmetic)((walk + start + layout) % 2),
                                             .threads = 1 + (uint32_t)start % 3,
-                                            .lanes = (uint32_t)(walk * 7 + start)};
+                                            .lanes = (uint32_t)(walk * 7 + start),
+                                            .index = index[start]};
                 char how[96];
                 snprintf(how, sizeof how, "%s from %s, arithmetic %d, layout %d", mw_walk_name(options.walk),
                          mw_start_name(options.start), options.arithmetic, layout);
                 assert_int_equal(mw_locate_batch(locator, q, n, 2, &options, at, NULL, NULL), MW_OK);
                 expect_same(want, at, n, how);
             }
+        starts_close(index);
         mw_locator_destroy(locator);
     }
     free(at);

@@ -7,6 +7,7 @@
 
 #include "meshes.h"
 #include "oracle.h"
+#include "starts.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -102,6 +103,8 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
     mw_mesh *mesh = mesh_of(a);
     for (int layout = 1; layout <= 2; layout++) {
         mw_locator *locator = locator_of(mesh, layout, 0);
+        mw_index *index[MW_START_COUNT];
+        starts_open(locator, index);
         for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
             for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)
                 for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
@@ -112,12 +115,14 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
                                                 .start = (mw_start_kind)start,
                                                 .arithmetic = (mw_arithmetic)arithmetic,
                                                 .seed = mw__random(random),
-                                                .count = walk % 2};
+                                                .count = walk % 2,
+                                                .index = index[start]};
                     try_singles(a, locator, &options, q, want, n, how);
                     options.lanes = 1 + mw__random_below(random, 40);
                     options.threads = 1 + mw__random_below(random, 3);
                     try_batch(locator, &options, q, want, n, how);
                 }
+        starts_close(index);
         mw_locator_destroy(locator);
     }
     mw_mesh_destroy(mesh);
@@ -224,8 +229,10 @@ static void test_bad_points(void **state)
     mw_locator *locator = locator_of(mesh, 0, 0);
     const double q[] = {NAN, 1, 1, INFINITY, -INFINITY, NAN, 1.5, 1.5, 1e308, -1e308, 5e-324, 5e-324, -5e-324, 1};
     mw_location at[7];
+    mw_index *index[MW_START_COUNT];
+    starts_open(locator, index);
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
-        mw_query_options options = {.start = (mw_start_kind)start};
+        mw_query_options options = {.start = (mw_start_kind)start, .index = index[start]};
         assert_int_equal(mw_locate_batch(locator, q, 7, 0, &options, at, NULL, NULL), MW_OK);
         for (int i = 0; i < 7; i++) {
             oracle_answer want = oracle_locate(a.points, a.triangles, a.triangle_count, q + 2 * i);
@@ -367,10 +374,13 @@ static void test_determinism(void **state)
     for (int i = 0; i < 2 * N; i++) q[i] = 160 * random_unit(&random) - 5;
     mw_location *first = malloc(N * sizeof *first), *again = malloc(N * sizeof *again);
     assert_int_equal(mw_locate_batch(locator, q, N, 2, NULL, first, NULL, NULL), MW_OK);
+    mw_index *index[MW_START_COUNT];
+    starts_open(locator, index);
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
         mw_counters one = {0};
         for (uint32_t threads = 1; threads <= 5; threads += 2) {
-            mw_query_options options = {.start = (mw_start_kind)start, .threads = threads, .count = 1, .seed = 5};
+            mw_query_options options = {
+                .start = (mw_start_kind)start, .threads = threads, .count = 1, .seed = 5, .index = index[start]};
             mw_counters counters;
             assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, again, &counters, NULL), MW_OK);
             for (int i = 0; i < N; i++)
@@ -383,6 +393,7 @@ static void test_determinism(void **state)
             assert_int_equal(counters.queries, N);
         }
     }
+    starts_close(index);
     free(q);
     free(first);
     free(again);

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "meshes.h"
+#include "starts.h"
 
 #include <pthread.h>
 
@@ -16,6 +17,7 @@ enum { POINTS = 3000, QUERIES = 40000, THREADS = 4 };
 typedef struct world {
     mw_mesh *mesh;
     mw_locator *locator;
+    mw_index *index[MW_START_COUNT];
     double *value, *query;
     mw_location *answer;
 } world;
@@ -66,6 +68,7 @@ static int make_world(void **state)
     w.value = random_numbers(POINTS, 0, 100, 3);
     mw_locator_options options = {.border = 1, .layout = 1};
     assert_int_equal(mw_locator_create(w.mesh, &options, &w.locator, NULL), MW_OK);
+    starts_open(w.locator, w.index);
     w.answer = malloc(QUERIES * sizeof *w.answer);
     assert_non_null(w.answer);
     mw_cursor cursor;
@@ -79,6 +82,7 @@ static int make_world(void **state)
 static int destroy_world(void **state)
 {
     world *w = *state;
+    starts_close(w->index);
     mw_locator_destroy(w->locator);
     mw_mesh_destroy(w->mesh);
     free(w->answer);
@@ -119,6 +123,7 @@ static void *single_queries(void *argument)
                                 .start = (mw_start_kind)(j->number % MW_START_COUNT),
                                 .seed = j->number,
                                 .count = 1};
+    options.index = w->index[options.start];
     mw_cursor cursor;
     if (mw_cursor_init(&cursor, w->locator, &options, NULL)) return "no cursor";
     for (size_t i = 0; i < QUERIES; i++) {

@@ -180,7 +180,7 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
     if (status) return status;
     if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
     if (b.stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
-    if (options->start == MW_START_AUTO && n >= SORT_WORTHWHILE) b.cursor.start = MW_START_SORTED;
+    if (b.cursor.start == MW_START_AUTO && n >= SORT_WORTHWHILE) b.cursor.start = MW_START_SORTED;
     bool sorted = b.cursor.start == MW_START_SORTED;
     b.chained = sorted || b.cursor.start == MW_START_LAST || b.cursor.start == MW_START_AUTO;
     b.lanes = choose_lanes(locator, options, b.chained);

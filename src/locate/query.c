@@ -1,5 +1,6 @@
 /* query.c - one query: first tile, walk, exact conclusion. */
 #include "base/random.h"
+#include "locate/index.h"
 #include "locate/locator.h"
 #include "start/start.h"
 
@@ -122,6 +123,7 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, m
         if (mw__distance2(tiling->point[tiling->tri[cursor->last].v[0]], q) > locator->near2)
             return mw__start_sample(tiling, q, cursor->sample, cursor->last, random);
         break;
+    case MW_START_GRID: /* mw__index_first */
     case MW_START_LAST:
     case MW_START_SORTED:
     case MW_START_COUNT: break;
@@ -129,13 +131,50 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, m
     return cursor->last;
 }
 
+/* Add what the index did to what the walk will do. */
+static void add_work(mw_work *sum, const mw_work *more)
+{
+    sum->visited += more->visited;
+    for (int stage = 0; stage < MW_STAGES; stage++) {
+        sum->triangles[stage] += more->triangles[stage];
+        sum->orient[stage] += more->orient[stage];
+    }
+    sum->implicit += more->implicit;
+    sum->comparisons += more->comparisons;
+}
+
 mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
 {
-    uint32_t t = first_tile(locator, cursor, q, random);
-    return mw__walk_begin(&locator->tiling, q, t, cursor->fuel, mw__random(random));
+    const mw_tiling *tiling = &locator->tiling;
+    if (!cursor->index) {
+        uint32_t t = first_tile(locator, cursor, q, random);
+        return mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random));
+    }
+    mw_work work = {0};
+    uint32_t t = mw__index_first(tiling, cursor, q, random, &work);
+    mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random));
+    if (cursor->count) add_work(&walk.work, &work);
+    return walk;
 }
 
 /* --- the public query -------------------------------------------------------------------------------------------- */
+
+/* Which start do the options mean? With an index, its own; MW_START_AUTO is decided by the query. */
+static mw_status resolve_start(const mw_query_options *options, mw_start_kind *start, mw_error *error)
+{
+    *start = options->start;
+    if ((unsigned)*start >= MW_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    if (!options->index) {
+        if (mw__index_serves(*start))
+            return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index", mw_start_name(*start));
+        return MW_OK;
+    }
+    if (*start == MW_START_AUTO) *start = options->index->start;
+    if (*start != options->index->start)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the index is of the start %s, not %s",
+                        mw_start_name(options->index->start), mw_start_name(*start));
+    return MW_OK;
+}
 
 mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options, mw_error *error)
 {
@@ -143,7 +182,9 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
     if (!cursor || !locator) return mw__fail(error, MW_ERROR_ARGUMENT, "a cursor needs a locator");
     if (!options) options = &defaults;
     if ((unsigned)options->walk >= MW_WALK_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
-    if ((unsigned)options->start >= MW_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    mw_start_kind start;
+    mw_status status = resolve_start(options, &start, error);
+    if (status) return status;
     if (options->finish && options->finish != MW_WALK_REMEMBERING && options->finish != MW_WALK_STOCHASTIC)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by remembering or stochastic");
     if ((unsigned)options->arithmetic > MW_DOUBLE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown arithmetic");
@@ -153,6 +194,7 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         return mw__fail(error, MW_ERROR_ARGUMENT, "a tolerance needs a locator with options.border");
     mw_walk_kind walk = options->walk ? options->walk : locator->auto_walk;
     *cursor = (mw_cursor){
+        .index = options->index,
         .random = mw__random_seed(options->seed, 0),
         .tolerance = options->tolerance,
         .last = locator->centre,
@@ -160,7 +202,7 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         .steps = options->steps,
         .fuel = mw__walk_fuel(walk, options->arithmetic, &locator->tiling),
         .walk = (uint8_t)walk,
-        .start = (uint8_t)options->start,
+        .start = (uint8_t)start,
         .finish = (uint8_t)(options->finish ? options->finish : locator->finish),
         .arithmetic = (uint8_t)options->arithmetic,
         .count = options->count != 0,

@@ -1,0 +1,66 @@
+/* index.c - building, describing and asking the index of a start. */
+#include "locate/index.h"
+
+#include "locate/locator.h"
+
+#include <stdlib.h>
+#include <time.h>
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static mw_status build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    if (options->cells > MW_MAX_CELLS) return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
+    bool done = mw__grid_create(&index->grid, tiling, locator->low, locator->high, options->cells);
+    return done ? MW_OK : mw__fail_memory(error);
+}
+
+mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const mw_index_options *options,
+                          mw_index **out, mw_error *error)
+{
+    static const mw_index_options defaults;
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the index");
+    *out = NULL;
+    if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a locator");
+    if (!mw__index_serves(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
+    mw_index *index = mw__calloc(1, sizeof *index);
+    if (!index) return mw__fail_memory(error);
+    index->start = start;
+    double begin = seconds();
+    mw_status status = build(index, locator, options ? options : &defaults, error);
+    index->seconds = seconds() - begin;
+    if (status)
+        mw_index_destroy(index);
+    else
+        *out = index;
+    return status;
+}
+
+void mw_index_destroy(mw_index *index)
+{
+    if (!index) return;
+    mw__grid_release(&index->grid);
+    free(index);
+}
+
+void mw_index_describe(const mw_index *index, mw_index_info *info)
+{
+    *info = (mw_index_info){.start = index->start, .bytes = sizeof *index, .seconds = index->seconds};
+    info->bytes += mw__grid_bytes(&index->grid);
+    info->cells = mw__lattice_cells(&index->grid.lattice);
+}
+
+uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
+{
+    const mw_index *index = cursor->index;
+    (void)random;
+    (void)work;
+    uint32_t t = mw__grid_first(&index->grid, q);
+    return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count; /* of another mesh */
+}

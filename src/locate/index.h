@@ -1,0 +1,28 @@
+/* index.h - what a start has built beside the mesh. Private. */
+#ifndef MW_SRC_INDEX_H
+#define MW_SRC_INDEX_H
+
+#include "start/grid.h"
+#include "walk/walk.h"
+
+#include <meshwalk/locate.h>
+
+struct mw_index {
+    mw_start_kind start; /* says which member of the union is there */
+    double seconds;      /* it took to build                        */
+    union {
+        mw_grid grid;
+    };
+};
+
+/* Does a start need an index? */
+static MW_INLINE bool mw__index_serves(mw_start_kind start)
+{
+    return start == MW_START_GRID;
+}
+
+/* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking
+ * through the index did is added to *work, if the cursor counts. */
+uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work);
+
+#endif

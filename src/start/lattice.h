@@ -1,0 +1,51 @@
+/* lattice.h - columns and rows of equal cells over an extent: what the grids are made of. Private. */
+#ifndef MW_SRC_LATTICE_H
+#define MW_SRC_LATTICE_H
+
+#include "domain/tiling.h"
+
+typedef struct mw_lattice {
+    double middle[2], scale[2], half[2]; /* cell of x: (x - middle) * scale + half, half the number of columns */
+    uint32_t columns, rows;
+} mw_lattice;
+
+/* At most `cells` (1 to MW_MAX_CELLS) about square ones over the extent low..high, which may be flat. */
+mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells);
+
+/* As many as there may be tiles. */
+#define MW_MAX_CELLS (UINT32_C(1) << 30)
+
+static MW_INLINE uint32_t mw__lattice_cells(const mw_lattice *lattice)
+{
+    return lattice->columns * lattice->rows;
+}
+
+static MW_INLINE uint32_t mw__lattice_line(double position, uint32_t lines)
+{
+    /* written so that NaN goes to 0 */
+    return position > 0 ? position < lines - 1 ? (uint32_t)position : lines - 1 : 0;
+}
+
+/* The cell of p, row by row. Points outside the extent belong to the cells at its rim. Distances from the middle do not
+ * overflow within any extent. */
+static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p)
+{
+    double x = (p.x - lattice->middle[0]) * lattice->scale[0] + lattice->half[0];
+    double y = (p.y - lattice->middle[1]) * lattice->scale[1] + lattice->half[1];
+    return mw__lattice_line(y, lattice->rows) * lattice->columns + mw__lattice_line(x, lattice->columns);
+}
+
+/* Give each entry that is MW_NONE, one for each cell, that of a cell in the first ring of cells round it that has an
+ * entry; not all are MW_NONE. queue: room for as many numbers as there are cells. */
+void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);
+
+/* For each vertex a tile that has it, MW_NONE for those of no tile. NULL when out of memory. Release with free(). */
+uint32_t *mw__tile_of_vertices(const mw_tiling *tiling);
+
+/* The vertices of a tiling, about: half its tiles. Vertices of no tile do not count. */
+static MW_INLINE uint32_t mw__vertex_estimate(const mw_tiling *tiling)
+{
+    return tiling->tri_count / 2 + 1;
+}
+
+#endif
