@@ -16,8 +16,16 @@ static double seconds(void)
 static mw_status build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error)
 {
     const mw_tiling *tiling = &locator->tiling;
+    const double *low = locator->low, *high = locator->high;
     if (options->cells > MW_MAX_CELLS) return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
-    bool done = mw__grid_create(&index->grid, tiling, locator->low, locator->high, options->cells);
+    bool done = false;
+    switch (index->start) {
+    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, options->cells); break;
+    case MW_START_TWO_LEVEL_GRID:
+        done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, options->cells);
+        break;
+    default: break;
+    }
     return done ? MW_OK : mw__fail_memory(error);
 }
 
@@ -45,22 +53,40 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const 
 void mw_index_destroy(mw_index *index)
 {
     if (!index) return;
-    mw__grid_release(&index->grid);
+    switch (index->start) {
+    case MW_START_GRID: mw__grid_release(&index->grid); break;
+    case MW_START_TWO_LEVEL_GRID: mw__two_level_grid_release(&index->two_level_grid); break;
+    default: break;
+    }
     free(index);
 }
 
 void mw_index_describe(const mw_index *index, mw_index_info *info)
 {
     *info = (mw_index_info){.start = index->start, .bytes = sizeof *index, .seconds = index->seconds};
-    info->bytes += mw__grid_bytes(&index->grid);
-    info->cells = mw__lattice_cells(&index->grid.lattice);
+    switch (index->start) {
+    case MW_START_GRID:
+        info->bytes += mw__grid_bytes(&index->grid);
+        info->cells = mw__lattice_cells(&index->grid.lattice);
+        break;
+    case MW_START_TWO_LEVEL_GRID:
+        info->bytes += mw__two_level_grid_bytes(&index->two_level_grid);
+        info->cells = mw__lattice_cells(&index->two_level_grid.lattice) + index->two_level_grid.fine_count;
+        break;
+    default: break;
+    }
 }
 
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
 {
     const mw_index *index = cursor->index;
+    uint32_t t = 0;
     (void)random;
     (void)work;
-    uint32_t t = mw__grid_first(&index->grid, q);
+    switch (index->start) {
+    case MW_START_GRID: t = mw__grid_first(&index->grid, q); break;
+    case MW_START_TWO_LEVEL_GRID: t = mw__two_level_grid_first(&index->two_level_grid, q); break;
+    default: break;
+    }
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count; /* of another mesh */
 }

@@ -3,6 +3,7 @@
 #define MW_SRC_INDEX_H
 
 #include "start/grid.h"
+#include "start/two_level_grid.h"
 #include "walk/walk.h"
 
 #include <meshwalk/locate.h>
@@ -12,13 +13,14 @@ struct mw_index {
     double seconds;      /* it took to build                        */
     union {
         mw_grid grid;
+        mw_two_level_grid two_level_grid;
     };
 };
 
 /* Does a start need an index? */
 static MW_INLINE bool mw__index_serves(mw_start_kind start)
 {
-    return start == MW_START_GRID;
+    return start == MW_START_GRID || start == MW_START_TWO_LEVEL_GRID;
 }
 
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking

@@ -123,7 +123,8 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, m
         if (mw__distance2(tiling->point[tiling->tri[cursor->last].v[0]], q) > locator->near2)
             return mw__start_sample(tiling, q, cursor->sample, cursor->last, random);
         break;
-    case MW_START_GRID: /* mw__index_first */
+    case MW_START_GRID: /* for these, mw__index_first */
+    case MW_START_TWO_LEVEL_GRID:
     case MW_START_LAST:
     case MW_START_SORTED:
     case MW_START_COUNT: break;

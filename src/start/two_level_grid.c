@@ -1,0 +1,124 @@
+/* two_level_grid.c - a grid of two levels, adaptive to the density, after the one that finds the nearest point in
+ * [Zalik, Kolingerova 2003].
+ *
+ * A coarse uniform grid; a cell with more than CROWDED vertices is a grid itself, with a cell for each of its vertices.
+ * Here that grid spans the extent of those vertices rather than the cell, so that a cluster is resolved however small it
+ * is, and empty cells have an entry as in the uniform grid: where the nearest cell is crowded its grid, of which a query
+ * from outside gets a cell at the rim. */
+#include "start/two_level_grid.h"
+
+#include <stdlib.h>
+
+enum { CROWDED = 4 };
+
+/* What only the building needs. */
+typedef struct yard {
+    const mw_tiling *tiling;
+    uint32_t *tile;      /* of each vertex, or MW_NONE */
+    uint32_t *vertices;  /* in each coarse cell        */
+    double (*extent)[4]; /* of each fine grid: low x, y, then minus high x, y */
+    uint32_t *queue;
+} yard;
+
+static uint32_t coarse_cell(const mw_two_level_grid *grid, const yard *y, uint32_t v)
+{
+    return mw__lattice_cell(&grid->lattice, y->tiling->point[v]);
+}
+
+/* Count the vertices of each cell, and number the crowded ones. */
+static bool find_crowded(mw_two_level_grid *grid, yard *y)
+{
+    uint32_t cells = mw__lattice_cells(&grid->lattice);
+    y->tile = mw__tile_of_vertices(y->tiling);
+    y->vertices = mw__calloc(cells, sizeof *y->vertices);
+    grid->coarse = mw__alloc(cells, sizeof *grid->coarse);
+    if (!y->tile || !y->vertices || !grid->coarse) return false;
+    for (uint32_t v = 0; v < y->tiling->point_count; v++)
+        if (y->tile[v] != MW_NONE) y->vertices[coarse_cell(grid, y, v)]++;
+    for (uint32_t c = 0; c < cells; c++)
+        grid->coarse[c] = y->vertices[c] > CROWDED ? MW_FINE + grid->grid_count++ : MW_NONE;
+    return true;
+}
+
+/* Find the extent of the vertices of each crowded cell. */
+static bool find_extents(const mw_two_level_grid *grid, yard *y)
+{
+    y->extent = mw__alloc(grid->grid_count, sizeof *y->extent);
+    if (!y->extent) return false;
+    for (uint32_t i = 0; i < grid->grid_count; i++)
+        for (int k = 0; k < 4; k++) y->extent[i][k] = INFINITY;
+    for (uint32_t v = 0; v < y->tiling->point_count; v++) {
+        if (y->tile[v] == MW_NONE) continue;
+        uint32_t entry = grid->coarse[coarse_cell(grid, y, v)];
+        if (entry == MW_NONE) continue;
+        mw_point p = y->tiling->point[v];
+        double *extent = y->extent[entry - MW_FINE], bound[4] = {p.x, p.y, -p.x, -p.y};
+        for (int k = 0; k < 4; k++)
+            if (bound[k] < extent[k]) extent[k] = bound[k];
+    }
+    return true;
+}
+
+/* Lay out a fine grid for each crowded cell. */
+static bool lay_out(mw_two_level_grid *grid, const yard *y)
+{
+    grid->grid = mw__alloc(grid->grid_count, sizeof *grid->grid);
+    if (!grid->grid) return false;
+    for (uint32_t c = 0; c < mw__lattice_cells(&grid->lattice); c++) {
+        if (grid->coarse[c] == MW_NONE) continue;
+        uint32_t i = grid->coarse[c] - MW_FINE;
+        const double *extent = y->extent[i], high[2] = {-extent[2], -extent[3]};
+        grid->grid[i] = (mw_fine_grid){mw__lattice(extent, high, y->vertices[c]), grid->fine_count};
+        grid->fine_count += mw__lattice_cells(&grid->grid[i].lattice);
+    }
+    grid->fine = mw__alloc(grid->fine_count, sizeof *grid->fine);
+    return grid->fine != NULL;
+}
+
+/* Give every cell its tile. */
+static bool fill(mw_two_level_grid *grid, yard *y)
+{
+    uint32_t cells = mw__lattice_cells(&grid->lattice);
+    y->queue = mw__alloc(cells > grid->fine_count ? cells : grid->fine_count, sizeof *y->queue);
+    if (!y->queue) return false;
+    for (uint32_t c = 0; c < grid->fine_count; c++) grid->fine[c] = MW_NONE;
+    for (uint32_t v = 0; v < y->tiling->point_count; v++) {
+        if (y->tile[v] == MW_NONE) continue;
+        uint32_t *entry = &grid->coarse[coarse_cell(grid, y, v)];
+        if (*entry != MW_NONE && *entry & MW_FINE) {
+            const mw_fine_grid *fine = &grid->grid[*entry - MW_FINE];
+            entry = &grid->fine[fine->first + mw__lattice_cell(&fine->lattice, y->tiling->point[v])];
+        }
+        *entry = y->tile[v];
+    }
+    mw__lattice_fill(&grid->lattice, grid->coarse, y->queue);
+    for (uint32_t i = 0; i < grid->grid_count; i++)
+        mw__lattice_fill(&grid->grid[i].lattice, grid->fine + grid->grid[i].first, y->queue);
+    return true;
+}
+
+bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
+                               const double high[2], uint32_t cells)
+{
+    yard y = {.tiling = tiling};
+    *grid = (mw_two_level_grid){.lattice = mw__lattice(low, high, cells ? cells : mw__vertex_estimate(tiling))};
+    bool done = find_crowded(grid, &y) && find_extents(grid, &y) && lay_out(grid, &y) && fill(grid, &y);
+    free(y.tile);
+    free(y.vertices);
+    free(y.extent);
+    free(y.queue);
+    return done;
+}
+
+void mw__two_level_grid_release(mw_two_level_grid *grid)
+{
+    free(grid->coarse);
+    free(grid->grid);
+    free(grid->fine);
+}
+
+size_t mw__two_level_grid_bytes(const mw_two_level_grid *grid)
+{
+    return mw__lattice_cells(&grid->lattice) * sizeof *grid->coarse + grid->grid_count * sizeof *grid->grid +
+           grid->fine_count * sizeof *grid->fine;
+}
