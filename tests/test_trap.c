@@ -1,0 +1,230 @@
+/* test_trap.c - the mesh data/trap.off is what data/README.md says: for the queries of data/trap.csv Lawson's walk, the
+ * remembering walk and those that follow the least value cycle, in exact arithmetic, from the triangles named there.
+ * The walks are written here once more, from their definitions, as a choice of the edge to cross. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "oracle.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+enum { RING = 10, INSIDE_END = 17, TRIANGLES = 40, QUERIES = 16, NO_EDGE = 3 };
+
+typedef struct trap_data {
+    mw_mesh *mesh;
+    double query[QUERIES][2];
+} trap_data;
+
+static void read_queries(trap_data *trap)
+{
+    mw_point_reader *reader;
+    mw_error error;
+    size_t count;
+    double more[2];
+    if (mw_points_open(MW_TEST_SOURCE "/data/trap.csv", NULL, &reader, &error)) fail_msg("%s", error.message);
+    assert_int_equal(mw_points_width(reader), 2);
+    assert_int_equal(mw_points_read(reader, trap->query[0], QUERIES, &count, NULL), MW_OK);
+    assert_int_equal(count, QUERIES);
+    assert_int_equal(mw_points_read(reader, more, 1, &count, NULL), MW_OK);
+    assert_int_equal(count, 0);
+    mw_points_close(reader);
+}
+
+static int trap_read(void **state)
+{
+    static trap_data trap;
+    mw_mesh_file file;
+    mw_error error;
+    if (mw_read_mesh(MW_TEST_SOURCE "/data/trap.off", &file, &error)) fail_msg("%s", error.message);
+    mw_arrays view = mw_mesh_file_arrays(&file);
+    if (mw_mesh_create(&view, NULL, &trap.mesh, &error)) fail_msg("%s", error.message);
+    mw_mesh_file_release(&file);
+    read_queries(&trap);
+    *state = &trap;
+    return 0;
+}
+
+static int trap_release(void **state)
+{
+    trap_data *trap = *state;
+    mw_mesh_destroy(trap->mesh);
+    return 0;
+}
+
+/* The corners of triangle t. */
+static void corners_of(const mw_mesh *mesh, uint32_t t, double corner[3][2])
+{
+    uint32_t v[3];
+    mw_mesh_triangle(mesh, t, v);
+    for (int k = 0; k < 3; k++) mw_mesh_vertex(mesh, v[k], corner[k]);
+}
+
+/* Which edge does a walk cross that came to t by the edge `entry`? NO_EDGE: q is in t. */
+typedef int choice(const mw_mesh *mesh, uint32_t t, int entry, const double q[2]);
+
+static int first_beyond(const mw_mesh *mesh, uint32_t t, int from, int tests, const double q[2])
+{
+    double corner[3][2];
+    corners_of(mesh, t, corner);
+    for (int i = 0; i < tests; i++) {
+        int k = (from + i) % 3;
+        if (mw_orient2d(corner[k], corner[(k + 1) % 3], q) < 0) return k;
+    }
+    return NO_EDGE;
+}
+
+static int lawson(const mw_mesh *mesh, uint32_t t, int entry, const double q[2])
+{
+    (void)entry;
+    return first_beyond(mesh, t, 0, 3, q);
+}
+
+static int remembering(const mw_mesh *mesh, uint32_t t, int entry, const double q[2])
+{
+    return entry == NO_EDGE ? first_beyond(mesh, t, 0, 3, q) : first_beyond(mesh, t, entry + 1, 2, q);
+}
+
+/* Twice the signed area of abc, as a rational. */
+static void area(mpq_t twice, const double a[2], const double b[2], const double c[2])
+{
+    mpq_t v[6];
+    const double *from[6] = {&a[0], &a[1], &b[0], &b[1], &c[0], &c[1]};
+    for (int i = 0; i < 6; i++) {
+        mpq_init(v[i]);
+        mpq_set_d(v[i], *from[i]);
+    }
+    for (int i = 0; i < 4; i++) mpq_sub(v[i], v[i], v[4 + i % 2]);
+    mpq_mul(v[0], v[0], v[3]);
+    mpq_mul(v[1], v[1], v[2]);
+    mpq_sub(twice, v[0], v[1]);
+    for (int i = 0; i < 6; i++) mpq_clear(v[i]);
+}
+
+/* The edge with the least value, if that is negative: areas, or their shares in the triangle's. */
+static int least(const mw_mesh *mesh, uint32_t t, bool shares, const double q[2])
+{
+    double corner[3][2];
+    mpq_t value[3], whole;
+    corners_of(mesh, t, corner);
+    mpq_init(whole);
+    area(whole, corner[0], corner[1], corner[2]);
+    int best = 0;
+    for (int k = 0; k < 3; k++) {
+        mpq_init(value[k]);
+        area(value[k], corner[k], corner[(k + 1) % 3], q);
+        if (shares) mpq_div(value[k], value[k], whole);
+        if (mpq_cmp(value[k], value[best]) < 0) best = k;
+    }
+    if (mpq_sgn(value[best]) >= 0) best = NO_EDGE;
+    for (int k = 0; k < 3; k++) mpq_clear(value[k]);
+    mpq_clear(whole);
+    return best;
+}
+
+static int barycentric(const mw_mesh *mesh, uint32_t t, int entry, const double q[2])
+{
+    (void)entry;
+    return least(mesh, t, true, q);
+}
+
+static int direct(const mw_mesh *mesh, uint32_t t, int entry, const double q[2])
+{
+    (void)entry;
+    return least(mesh, t, false, q);
+}
+
+/* Walk until the walk ends or comes to a triangle by the same edge again. Returns whether it did the latter; *t is the
+ * last triangle. */
+static bool cycles(const mw_mesh *mesh, choice *choose, uint32_t *t, const double q[2])
+{
+    bool been[TRIANGLES][4] = {{false}};
+    int entry = NO_EDGE;
+    while (!been[*t][entry]) {
+        been[*t][entry] = true;
+        int k = choose(mesh, *t, entry, q);
+        if (k == NO_EDGE) return false;
+        unsigned there;
+        *t = mw_mesh_neighbour(mesh, *t, (unsigned)k, &there);
+        assert_true(*t != MW_NONE);
+        entry = (int)there;
+    }
+    return true;
+}
+
+static bool contains(const mw_mesh *mesh, uint32_t t, const double q[2])
+{
+    double corner[3][2];
+    oracle_answer answer;
+    corners_of(mesh, t, corner);
+    return oracle_contains(corner[0], (const uint32_t[3]){0, 1, 2}, q, &answer);
+}
+
+/* From every triangle but those inside the ring the walk goes round the ring; from there it ends at q. */
+static void expect_trapped(const trap_data *trap, choice *choose)
+{
+    for (int i = 0; i < QUERIES; i++)
+        for (uint32_t start = 0; start < TRIANGLES; start++) {
+            uint32_t t = start;
+            bool cycle = cycles(trap->mesh, choose, &t, trap->query[i]);
+            if (cycle != (start < RING || start >= INSIDE_END))
+                fail_msg("query %d from triangle %u: %s", i, start, cycle ? "cycles" : "ends");
+            assert_true(cycle ? t < RING : contains(trap->mesh, t, trap->query[i]));
+        }
+}
+
+static void test_mesh(void **state)
+{
+    trap_data *trap = *state;
+    mw_mesh_info info;
+    assert_int_equal(mw_mesh_describe(trap->mesh, &info, NULL), MW_OK);
+    assert_int_equal(info.triangles, TRIANGLES);
+    assert_true(info.convex && !info.delaunay);
+    assert_int_equal(info.flat_triangles + info.clockwise_triangles + info.unused_vertices, 0);
+}
+
+/* The queries lie inside the ring, and its triangles with an odd number have two edges that lie in q's way. */
+static void test_queries(void **state)
+{
+    trap_data *trap = *state;
+    for (int i = 0; i < QUERIES; i++)
+        for (uint32_t t = 0; t < TRIANGLES; t++) {
+            if (t < RING || t >= INSIDE_END) assert_false(contains(trap->mesh, t, trap->query[i]));
+            double corner[3][2];
+            corners_of(trap->mesh, t, corner);
+            int beyond = 0;
+            for (int k = 0; k < 3; k++) beyond += oracle_orient(corner[k], corner[(k + 1) % 3], trap->query[i]) < 0;
+            if (t < RING) assert_int_equal(beyond, 1 + t % 2);
+        }
+}
+
+static void test_lawson(void **state)
+{
+    expect_trapped(*state, lawson);
+}
+
+static void test_remembering(void **state)
+{
+    expect_trapped(*state, remembering);
+}
+
+static void test_barycentric(void **state)
+{
+    expect_trapped(*state, barycentric);
+}
+
+static void test_direct(void **state)
+{
+    expect_trapped(*state, direct);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_mesh),        cmocka_unit_test(test_queries),
+                                       cmocka_unit_test(test_lawson),      cmocka_unit_test(test_remembering),
+                                       cmocka_unit_test(test_barycentric), cmocka_unit_test(test_direct)};
+    return cmocka_run_group_tests(tests, trap_read, trap_release);
+}
