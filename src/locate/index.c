@@ -13,6 +13,14 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+static mw_status build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
+                              mw_error *error)
+{
+    mw_layers_options own = {
+        .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
+    return mw__layers_create(tiling, &own, layers, error);
+}
+
 static mw_status build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error)
 {
     const mw_tiling *tiling = &locator->tiling;
@@ -24,6 +32,7 @@ static mw_status build(mw_index *index, const mw_locator *locator, const mw_inde
     case MW_START_TWO_LEVEL_GRID:
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, options->cells);
         break;
+    case MW_START_LAYERS: return build_layers(&index->layers, tiling, options, error);
     default: break;
     }
     return done ? MW_OK : mw__fail_memory(error);
@@ -56,6 +65,7 @@ void mw_index_destroy(mw_index *index)
     switch (index->start) {
     case MW_START_GRID: mw__grid_release(&index->grid); break;
     case MW_START_TWO_LEVEL_GRID: mw__two_level_grid_release(&index->two_level_grid); break;
+    case MW_START_LAYERS: mw__layers_release(&index->layers); break;
     default: break;
     }
     free(index);
@@ -73,6 +83,11 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
         info->bytes += mw__two_level_grid_bytes(&index->two_level_grid);
         info->cells = mw__lattice_cells(&index->two_level_grid.lattice) + index->two_level_grid.fine_count;
         break;
+    case MW_START_LAYERS:
+        info->bytes += mw__layers_bytes(&index->layers);
+        info->layers = index->layers.count;
+        mw__layers_describe(&index->layers, info->vertices);
+        break;
     default: break;
     }
 }
@@ -81,11 +96,15 @@ uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_po
 {
     const mw_index *index = cursor->index;
     uint32_t t = 0;
-    (void)random;
-    (void)work;
     switch (index->start) {
     case MW_START_GRID: t = mw__grid_first(&index->grid, q); break;
     case MW_START_TWO_LEVEL_GRID: t = mw__two_level_grid_first(&index->two_level_grid, q); break;
+    case MW_START_LAYERS: {
+        mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish, cursor->arithmetic == MW_EXACT,
+                             cursor->count};
+        t = mw__layers_first(&index->layers, q, &how, random, work);
+        break;
+    }
     default: break;
     }
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count; /* of another mesh */

@@ -3,6 +3,7 @@
 #define MW_SRC_INDEX_H
 
 #include "start/grid.h"
+#include "start/layers.h"
 #include "start/two_level_grid.h"
 #include "walk/walk.h"
 
@@ -14,13 +15,14 @@ struct mw_index {
     union {
         mw_grid grid;
         mw_two_level_grid two_level_grid;
+        mw_layers layers;
     };
 };
 
 /* Does a start need an index? */
 static MW_INLINE bool mw__index_serves(mw_start_kind start)
 {
-    return start == MW_START_GRID || start == MW_START_TWO_LEVEL_GRID;
+    return start == MW_START_GRID || start == MW_START_TWO_LEVEL_GRID || start == MW_START_LAYERS;
 }
 
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking

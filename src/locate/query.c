@@ -125,6 +125,7 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, m
         break;
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
+    case MW_START_LAYERS:
     case MW_START_LAST:
     case MW_START_SORTED:
     case MW_START_COUNT: break;

@@ -1,0 +1,56 @@
+/* layers.h - the layered hierarchy: random vertices of the mesh, triangulated, above it, random ones of these above them,
+ * and so on [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis App. C, sec. 2 and 3]. Private. */
+#ifndef MW_SRC_LAYERS_H
+#define MW_SRC_LAYERS_H
+
+#include "walk/walk.h"
+
+/* At which vertex of the tile that holds q to go down. BY_WALK: the largest orientation coordinate for the walks that know
+ * it, the nearest for the others. */
+typedef enum mw_descent { MW_DESCENT_BY_WALK, MW_DESCENT_NEAREST, MW_DESCENT_COORDINATE, MW_DESCENTS } mw_descent;
+
+/* One layer above the mesh: the Delaunay triangulation of its vertices. Tiles lie along a Hilbert curve, vertices as the
+ * tiles use them; areas are stored. */
+typedef struct mw_layer {
+    mw_tiling tiling; /* without owners                                                          */
+    uint32_t *below;  /* per vertex: a tile that has it, in the layer below; at last, in the mesh */
+} mw_layer;
+
+/* Keeps nothing of the tiling it was made from but the numbers of tiles. */
+typedef struct mw_layers {
+    mw_layer layer[MW_MAX_LAYERS - 1]; /* the lowest first */
+    uint32_t count;                    /* the mesh itself counted */
+    uint32_t vertices, tiles;          /* of the mesh             */
+    mw_descent descent;
+} mw_layers;
+
+typedef struct mw_layers_options {
+    uint32_t layers; /* the mesh itself counted, at most MW_MAX_LAYERS; 0 = by its size       */
+    double ratio;    /* chance of a vertex to be in the next layer, between 0 and 1; 0 = 0.025 */
+    int descent;     /* mw_descent */
+    uint64_t seed;
+} mw_layers_options;
+
+/* Layers above the tiling. Each also takes the four corners of the one below, its vertices farthest along the diagonals,
+ * so that few points lie outside of it. There may be fewer than asked for: the hierarchy ends where a layer would be
+ * none, because its vertices lie on one line or are no fewer than those below.
+ * MW_ERROR_ARGUMENT for options out of range, MW_ERROR_MEMORY. *out may be released in either case. */
+mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_layers *out, mw_error *error);
+void mw__layers_release(mw_layers *layers);
+size_t mw__layers_bytes(const mw_layers *layers); /* what it owns, beside *layers */
+
+/* The vertices of each layer, the mesh first; 0 for those that are not there. */
+void mw__layers_describe(const mw_layers *layers, uint32_t vertices[MW_MAX_LAYERS]);
+
+/* How to walk in the layers: as in the mesh. */
+typedef struct mw_layer_walk {
+    mw_walk_kind walk, finish;
+    bool exact, count;
+} mw_layer_walk;
+
+/* The tile at which a walk to q begins in the mesh. With how->count, what the walks in the layers did is added to *work
+ * (else NULL will do). A layer in which a walk ran out of steps is left where it stopped. */
+uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
+                          mw_work *work);
+
+#endif
