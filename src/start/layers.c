@@ -1,15 +1,12 @@
 /* layers.c - the layered hierarchy [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis App. C, sec. 2, 3].
  *
- * Vertices of a layer are kept with a small probability for the next, which is triangulated. A search walks in the
- * highest layer from any tile to q, goes down at a vertex near q of the tile found, walks in the layer below from a tile
- * at that vertex, and so on to the mesh. Every walk but the first is expected to be short, whatever the distribution of
- * the vertices.
+ * A small share of the vertices of a layer, chosen at random, makes the next, which is triangulated. A search walks in
+ * the highest layer from any tile to q, goes down at a vertex near q of the tile found, walks in the layer below from a
+ * tile at that vertex, and so on to the mesh. Every walk but the first is expected to be short, whatever the
+ * distribution of the vertices.
  *
  * The vertex to go down at is the nearest one. Where the walk has the orientation coordinates of q, as the direct and the
- * barycentric walk have, it is the one with the largest, which costs no further test [thesis App. C, sec. 3].
- *
- * Beyond the papers, each layer also keeps the four corners of the one below, so that the smallest hold a triangle and
- * cover nearly all of the mesh, as in the thesis' measurements, where the corners of a rectangle do that. */
+ * barycentric walk have, it is the one with the largest, which costs no further test [thesis App. C, sec. 3]. */
 #include "start/layers.h"
 
 #include "base/random.h"
@@ -21,12 +18,11 @@
 
 #define RATIO 0.025 /* the best exchange of time for memory on random vertices [Devillers 2002] */
 
-/* By size: a mesh gets a layer where walks in it can be long, a layer another where walks in it are longer than what a
- * further layer costs, about 10 tiles. For a ratio of 0.025 these give the layers of the thesis' measurements: 2, 2, 3, 3,
- * 4, 4 for 10^2 to 10^7 vertices. */
+/* By size: a mesh gets a layer where walks in it can be long. A layer gets another where that is expected to save tiles,
+ * about 9 for the walk in it against 1.1 times the root of its vertices without (so from 100 on, with little gained up to
+ * 200); and 200, with a ratio of 0.025, gives the layers of the thesis' measurements: 2, 2, 3, 3, 4, 4 for 10^2 to 10^7
+ * vertices. */
 enum { LARGE_MESH = 64, LARGE_LAYER = 200 };
-
-enum { CORNERS = 4 };
 
 /* --- building ---------------------------------------------------------------------------------------------------- */
 
@@ -42,52 +38,27 @@ static uint32_t *tiles_at(const mw_tiling *tiling)
     return at;
 }
 
-/* The vertices to choose from, and how. */
-typedef struct choice {
-    const mw_tiling *tiling;
-    const uint32_t *at;
-    uint64_t seed;
-    double ratio;
-    uint32_t corner[CORNERS];
-} choice;
-
-/* Find the vertices farthest along the four diagonals: the corners, where the hull is a rectangle. */
-static void find_corners(choice *c)
+/* How many of `vertices` vertices the layer above has. */
+static uint32_t size_above(uint32_t vertices, double ratio)
 {
-    double far[CORNERS] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
-    for (uint32_t v = 0; v < c->tiling->point_count; v++) {
-        if (c->at[v] == MW_NONE) continue;
-        double x = c->tiling->point[v].x / 2, y = c->tiling->point[v].y / 2; /* halves: sums do not overflow */
-        double along[CORNERS] = {x + y, x - y, -x + y, -x - y};
-        for (int i = 0; i < CORNERS; i++)
-            if (along[i] > far[i]) {
-                far[i] = along[i];
-                c->corner[i] = v;
-            }
-    }
+    double size = round(ratio * vertices);
+    return size > 3 ? (uint32_t)size : 3;
 }
 
-static bool is_kept(const choice *c, uint32_t v)
+/* Fill point and below of *layer with `size` of the `vertices` vertices that have a tile, every set of them with the same
+ * chance [Fan, Muller, Rezucha 1962]. Returns false when out of memory. */
+static bool choose(const mw_tiling *tiling, const uint32_t *at, uint32_t vertices, uint32_t size, uint64_t random,
+                   mw_layer *layer)
 {
-    if (c->at[v] == MW_NONE) return false;
-    for (int i = 0; i < CORNERS; i++)
-        if (v == c->corner[i]) return true;
-    return (double)(mw__random_seed(c->seed, v) >> 11) * 0x1p-53 < c->ratio;
-}
-
-/* Fill point and below of *layer with the vertices kept. Returns false when out of memory. */
-static bool keep(const choice *c, mw_layer *layer)
-{
-    uint32_t n = 0;
-    for (uint32_t v = 0; v < c->tiling->point_count; v++) n += is_kept(c, v);
-    layer->tiling.point = mw__alloc_lines(n, sizeof *layer->tiling.point);
-    layer->below = mw__alloc(n, sizeof *layer->below);
+    layer->tiling.point = mw__alloc_lines(size, sizeof *layer->tiling.point);
+    layer->below = mw__alloc(size, sizeof *layer->below);
     if (!layer->tiling.point || !layer->below) return false;
-    for (uint32_t v = 0; v < c->tiling->point_count; v++) {
-        if (!is_kept(c, v)) continue;
-        layer->tiling.point[layer->tiling.point_count] = c->tiling->point[v];
-        layer->below[layer->tiling.point_count++] = c->at[v];
+    for (uint32_t v = 0, i = 0; i < size; v++) {
+        if (at[v] == MW_NONE || mw__random_below(&random, vertices--) >= size - i) continue;
+        layer->tiling.point[i] = tiling->point[v];
+        layer->below[i++] = at[v];
     }
+    layer->tiling.point_count = size;
     return true;
 }
 
@@ -124,13 +95,10 @@ static mw_status order_vertices(mw_layer *layer, mw_error *error)
     return MW_OK;
 }
 
-/* Fill in the layer above a tiling. MW_ERROR_INPUT where there is none. */
-static mw_status build(choice *c, uint32_t vertices, mw_layer *layer, mw_error *error)
+/* Triangulate the points of a layer. MW_ERROR_INPUT where they lie on one line. */
+static mw_status triangulate(mw_layer *layer, mw_error *error)
 {
     mw_tiling *tiling = &layer->tiling;
-    find_corners(c);
-    if (!keep(c, layer)) return mw__fail_memory(error);
-    if (tiling->point_count == vertices) return mw__fail(error, MW_ERROR_INPUT, "no fewer vertices than below");
     mw_status status =
         mw__delaunay_triangles(tiling->point, tiling->point_count, NULL, NULL, &tiling->tri, &tiling->tri_count, error);
     if (!status) status = order_vertices(layer, error);
@@ -151,35 +119,29 @@ static uint32_t vertex_count(const mw_layers *layers, uint32_t i)
     return i == 0 ? layers->vertices : layers->layer[i - 1].tiling.point_count;
 }
 
-/* Put a layer above the highest, `tiling`, of which `at` has the tiles; or lower *wanted where there is none. */
-static mw_status add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at, const mw_layers_options *options,
-                     uint32_t *wanted, mw_error *error)
+/* Put a layer of `size` vertices above the highest, `tiling`, of which `at` has the tiles. */
+static mw_status add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at, uint32_t size, uint64_t seed,
+                     mw_error *error)
 {
     mw_layer *layer = &layers->layer[layers->count - 1];
-    choice c = {.tiling = tiling,
-                .at = at,
-                .seed = mw__random_seed(options->seed, layers->count),
-                .ratio = options->ratio > 0 ? options->ratio : RATIO};
-    mw_error reason;
+    uint32_t vertices = vertex_count(layers, layers->count - 1);
     layer->tiling.embedding = true;
-    mw_status status = build(&c, vertex_count(layers, layers->count - 1), layer, &reason);
-    if (!status) {
+    bool chosen = choose(tiling, at, vertices, size, mw__random_seed(seed, layers->count), layer);
+    mw_status status = chosen ? triangulate(layer, error) : mw__fail_memory(error);
+    if (status)
+        release_layer(layer);
+    else
         layers->count++;
-        return MW_OK;
-    }
-    release_layer(layer);
-    *wanted = layers->count;
-    if (status == MW_ERROR_INPUT) return MW_OK;
-    if (error) *error = reason;
     return status;
 }
 
-/* How many layers by the size of the mesh: by its vertices, and what is expected of them in each layer. */
+/* How many layers for a mesh of that many vertices. */
 static uint32_t layers_by_size(uint32_t vertices, double ratio)
 {
     if (vertices <= LARGE_MESH) return 1;
     uint32_t layers = 2;
-    for (double size = ratio * vertices; size > LARGE_LAYER && layers < MW_MAX_LAYERS; size *= ratio) layers++;
+    for (uint32_t size = size_above(vertices, ratio); size > LARGE_LAYER && layers < MW_MAX_LAYERS; layers++)
+        size = size_above(size, ratio);
     return layers;
 }
 
@@ -206,17 +168,23 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
     *out = (mw_layers){.count = 1, .tiles = tiling->tri_count, .descent = (mw_descent)options->descent};
     mw_status status = check(options, error);
     if (status) return status;
-    uint32_t *at = tiles_at(tiling), wanted = options->layers;
-    if (at) out->vertices = count_used(at, tiling->point_count);
-    if (wanted == 0) wanted = layers_by_size(out->vertices, options->ratio > 0 ? options->ratio : RATIO);
-    while (at && !status && out->count < wanted) {
-        status = add(out, tiling, at, options, &wanted, error);
+    double ratio = options->ratio > 0 ? options->ratio : RATIO;
+    uint32_t *at = tiles_at(tiling), size = at ? count_used(at, tiling->point_count) : 0;
+    uint32_t wanted = options->layers ? options->layers : layers_by_size(size, ratio);
+    out->vertices = size;
+    mw_error reason;
+    while (at && !status && out->count < wanted && size_above(size, ratio) < size) {
+        status = add(out, tiling, at, size_above(size, ratio), options->seed, &reason);
+        if (status) break;
+        tiling = &out->layer[out->count - 2].tiling;
+        size = tiling->point_count;
         free(at);
-        if (out->count > 1) tiling = &out->layer[out->count - 2].tiling;
         at = tiles_at(tiling);
     }
-    if (!at && !status) status = mw__fail_memory(error);
+    if (!at) status = mw__fail_memory(&reason);
     free(at);
+    if (status == MW_ERROR_INPUT) return MW_OK; /* the vertices of a layer lie on one line */
+    if (status && error) *error = reason;
     return status;
 }
 

@@ -31,9 +31,8 @@ typedef struct mw_layers_options {
     uint64_t seed;
 } mw_layers_options;
 
-/* Layers above the tiling. Each also takes the four corners of the one below, its vertices farthest along the diagonals,
- * so that few points lie outside of it. There may be fewer than asked for: the hierarchy ends where a layer would be
- * none, because its vertices lie on one line or are no fewer than those below.
+/* Layers above the tiling: of the vertices of one, the share `ratio`, or 3, chosen at random, make the next. There may be
+ * fewer layers than asked for: they end where the vertices chosen would lie on one line or be no fewer than those below.
  * MW_ERROR_ARGUMENT for options out of range, MW_ERROR_MEMORY. *out may be released in either case. */
 mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_layers *out, mw_error *error);
 void mw__layers_release(mw_layers *layers);
