@@ -15,7 +15,7 @@ _meshwalk_options() {
 # Names that an option takes.
 _meshwalk_names() {
     case $1 in
-        --walk) echo 'auto lawson remembering stochastic straight celestial' ;;
+        --walk) echo 'auto lawson remembering stochastic straight normal-straight hybrid celestial' ;;
         --start) echo 'auto random sample centre last sorted' ;;
         --arithmetic) echo 'exact double' ;;
         --outside) echo 'empty nearest linear' ;;

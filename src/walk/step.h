@@ -48,6 +48,34 @@ static MW_INLINE mw_point apex(const mw_walk *w, uint32_t e)
     return corner(w, mw__prev(e));
 }
 
+/* The cheap walks that follow a line from p to q place vertices by its direction d, in plain doubles. Set it; a very long
+ * or short one is scaled by a power of two, so that products with it hardly over- or underflow. False where there is no
+ * line: q is at p, or d is too long for doubles. */
+static MW_INLINE bool set_direction(mw_walk *w, double x, double y)
+{
+    double length = fabs(x) + fabs(y);
+    if (MW_UNLIKELY(!(length > 0x1p-50 && length < 0x1p50))) {
+        if (!(length > 0 && length <= DBL_MAX)) return false;
+        int exponent;
+        frexp(length, &exponent);
+        x = ldexp(x, -exponent);
+        y = ldexp(y, -exponent);
+    }
+    w->d = (mw_point){x, y};
+    return true;
+}
+
+/* How far s lies ahead of the point o, in direction d, and how far to the left of the line through o: both times |d|. */
+static MW_INLINE double ahead(const mw_walk *w, mw_point o, mw_point s)
+{
+    return w->d.x * (s.x - o.x) + w->d.y * (s.y - o.y);
+}
+
+static MW_INLINE double leftward(const mw_walk *w, mw_point o, mw_point s)
+{
+    return w->d.x * (s.y - o.y) - w->d.y * (s.x - o.x);
+}
+
 /* Does q lie strictly to the right of edge e, so that the edge parts it from the tile? */
 static MW_INLINE bool beyond(mw_walk *w, uint32_t e, mw_policy P)
 {

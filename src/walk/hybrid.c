@@ -1,0 +1,75 @@
+/* hybrid.c - the hybrid walk [thesis App. B, Alg. 1].
+ *
+ *        l                 The straight walk in turned and scaled coordinates, in which the line from p to q is horizontal:
+ *       /|\                with a = q - p, x' = x a_x + y a_y and y' = -x a_y + y a_x. Turn round p, a vertex of the first
+ *    p /_|_\ s _ _ _ q     tile, to the tile at p that the line enters: one y' a tile. Then follow the line: with l and r
+ *      \ | /       .       the left and right ends of the edge just crossed and s the third vertex, the walk is close to q
+ *       \|/        .       and ends where x' of s is at least that of q. Otherwise the line leaves over rs where s lies
+ *        r                 above it, over sl where not. Then an exact walk goes the last steps.
+ *
+ * Departures from the printed pseudocode. The printed matrix turns by the wrong sign, so that p->q ends at twice its
+ * angle (slip 4). Coordinates are relative to p: q' = (|a|^2, 0), p' = 0, and nothing cancels far from the origin. The
+ * first tile is seen from its vertex 0; like the straight walk, and like the printed one, the turn takes the short way
+ * round. It ends at the tile that the line enters, whose last tested vertex is the first s: its x' belongs to the
+ * walk, its y' is not compared again. On the line counts as below it, everywhere; the printed loop has it the other
+ * way.
+ * Edge cases. q = p: an exact walk starts in the first tile. Where the turn or the walk meets the hull, q is outside
+ * or on the hull but for rounding: an exact walk goes on from there.
+ * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that rounding could do is
+ * lead it back to the edge it began with, or keep it turning round p: docs/guarantees.md. */
+#include "walk/drive.h"
+
+enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
+
+/* y'_s > y'_q = 0: s lies to the left of the line. */
+static MW_INLINE bool above(mw_walk *w, mw_point s, mw_policy P)
+{
+    if (P.count) w->work.comparisons++;
+    return leftward(w, w->p, s) > 0;
+}
+
+/* x'_s >= x'_q. Not a number counts as past it. */
+static MW_INLINE bool past(mw_walk *w, mw_point s, mw_policy P)
+{
+    if (P.count) w->work.comparisons++;
+    return !(ahead(w, w->p, s) < ahead(w, w->p, w->q));
+}
+
+/* The turn ends in this tile: the line leaves it through edge e, off p. Its vertex s was the last one tested. */
+static MW_INLINE mw_verdict follow(mw_walk *w, uint32_t e, mw_point s, mw_policy P)
+{
+    w->phase = FOLLOW;
+    begin_stage(w, MW_STAGE_WALK, P);
+    return past(w, s, P) ? MW_CLOSE : cross_unsure(w, e, P);
+}
+
+/* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
+static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
+{
+    initialise(w, P);
+    w->p = corner(w, 0);
+    if (MW_UNLIKELY(!set_direction(w, w->q.x - w->p.x, w->q.y - w->p.y))) return MW_CLOSE;
+    if (above(w, corner(w, 1), P)) {
+        w->phase = TURN_RIGHT;
+        return cross_unsure(w, 0, P);
+    }
+    if (!above(w, corner(w, 2), P)) {
+        w->phase = TURN_LEFT;
+        return cross_unsure(w, 2, P);
+    }
+    return follow(w, 1, corner(w, 2), P);
+}
+
+static MW_INLINE mw_verdict hybrid_step(mw_walk *w, mw_policy P)
+{
+    if (MW_UNLIKELY(w->phase == FIRST)) return aim(w, P);
+    uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
+    mw_point s = apex(w, w->e);
+    if (MW_LIKELY(w->phase == FOLLOW)) /* entered over edge e = lr */
+        return past(w, s, P) ? MW_CLOSE : cross_unsure(w, above(w, s, P) ? next : prev, P);
+    if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is s */
+        return above(w, s, P) ? cross_unsure(w, next, P) : follow(w, prev, s, P);
+    return above(w, s, P) ? follow(w, next, s, P) : cross_unsure(w, prev, P); /* entered over e = pr, the new l is s */
+}
+
+MW_STAMP_WALK(hybrid, false)
