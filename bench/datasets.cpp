@@ -2,9 +2,7 @@
 
 #include "harness.h"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
+#include "cli/datasets.h"
 
 #include <meshwalk/io.h>
 
@@ -13,46 +11,6 @@ namespace bench
 
 namespace
 {
-
-using Random = std::mt19937_64;
-
-Coordinates uniform(size_t n, Random &random)
-{
-    std::uniform_real_distribution<double> unit;
-    Coordinates points(2 * n);
-    for (double &value : points) value = unit(random);
-    return points;
-}
-
-Coordinates grid(size_t n)
-{
-    size_t width = std::max<size_t>(1, static_cast<size_t>(std::sqrt(static_cast<double>(n))));
-    Coordinates points;
-    for (size_t i = 0; i < n; i++) {
-        points.push_back(static_cast<double>(i % width));
-        points.push_back(static_cast<double>(i / width));
-    }
-    return points;
-}
-
-Coordinates gaussian(size_t n, Random &random)
-{
-    std::normal_distribution<double> normal;
-    Coordinates points(2 * n);
-    for (double &value : points) value = normal(random);
-    return points;
-}
-
-Coordinates clusters(size_t n, Random &random)
-{
-    Coordinates centres = uniform(100, random), points = gaussian(n, random);
-    std::uniform_int_distribution<size_t> which(0, 99);
-    for (size_t i = 0; i < n; i++) {
-        size_t c = which(random);
-        for (size_t k = 0; k < 2; k++) points[2 * i + k] = centres[2 * c + k] + 0.001 * points[2 * i + k];
-    }
-    return points;
-}
 
 Coordinates from_file(const std::string &path, size_t n)
 {
@@ -77,24 +35,26 @@ Coordinates from_file(const std::string &path, size_t n)
 
 Coordinates make_points(const std::string &name, size_t n, uint64_t seed)
 {
-    Random random(seed);
-    if (name == "uniform") return uniform(n, random);
-    if (name == "grid") return grid(n);
-    if (name == "gaussian") return gaussian(n, random);
-    if (name == "clusters") return clusters(n, random);
+    for (int kind = 0; kind < DATASET_KINDS; kind++) {
+        if (name != dataset_name(kind)) continue;
+        dataset made;
+        if (!dataset_make(&made, static_cast<dataset_kind>(kind), n, false, seed)) fail("out of memory");
+        Coordinates points(made.points, made.points + 2 * n);
+        dataset_release(&made);
+        return points;
+    }
     return from_file(name, n);
 }
 
 Coordinates make_queries(const Coordinates &points, size_t n, uint64_t seed)
 {
-    Random random(seed + 1);
-    double low[2] = {points[0], points[1]}, high[2] = {points[0], points[1]};
-    for (size_t i = 0; i < points.size(); i++) {
-        low[i % 2] = std::min(low[i % 2], points[i]);
-        high[i % 2] = std::max(high[i % 2], points[i]);
-    }
-    Coordinates queries = uniform(n, random);
-    for (size_t i = 0; i < queries.size(); i++) queries[i] = low[i % 2] + queries[i] * (high[i % 2] - low[i % 2]);
+    Coordinates copy = points, queries(2 * n);
+    dataset extent = {};
+    extent.points = copy.data();
+    extent.count = copy.size() / 2;
+    dataset_bound(&extent, extent.count);
+    uint64_t random = ~seed;
+    dataset_draw(&extent, queries.data(), n, &random);
     return queries;
 }
 

@@ -12,9 +12,8 @@ namespace bench
 
 using Coordinates = std::vector<double>; // x0 y0 x1 y1 ...
 
-// uniform: in the unit square; grid: the integers of a square, row by row; gaussian: normal in x and y; clusters: 100
-// normal clusters of deviation 0.001 in the unit square. Any other name is a file of points, and n its largest number.
-// Ends the program if there is no such file.
+// The sets of cli/datasets.h by name: uniform, grid, gaussian, clusters, arcs, rectangle. Any other name is a file of points,
+// and n its largest number. Ends the program if there is no such file.
 Coordinates make_points(const std::string &name, size_t n, uint64_t seed);
 
 // n points, uniform in the extent of others.

@@ -27,7 +27,7 @@ namespace
     std::fprintf(status ? stderr : stdout,
                  "%s: %s\n"
                  "  --sizes N,N,...     numbers of points\n"
-                 "  --data NAME,...     uniform grid gaussian clusters, or files of points\n"
+                 "  --data NAME,...     uniform grid gaussian clusters arcs rectangle, or files\n"
                  "  --rounds N          rounds that count\n"
                  "  --warmup N          rounds before them that do not\n"
                  "  --seed S            of all random numbers\n"
