@@ -323,7 +323,54 @@ static double distance2(mw_point a, mw_point b)
     return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/* One layer: the descent is one walk, and one vertex of its last tile. */
+/* The walks that know the orientation coordinates of q in the tile where they end. */
+static bool has_coordinates(int walk)
+{
+    const char *name = mw_walk_name((mw_walk_kind)walk);
+    return strcmp(name, "direct") == 0 || strcmp(name, "barycentric") == 0;
+}
+
+static uint32_t nearest(const mw_tiling *tiling, uint32_t t, mw_point q)
+{
+    const uint32_t *v = tiling->tri[t].v;
+    uint32_t best = 0;
+    for (uint32_t k = 1; k < 3; k++)
+        if (distance2(tiling->point[v[k]], q) < distance2(tiling->point[v[best]], q)) best = k;
+    return v[best];
+}
+
+static uint32_t heaviest(const mw_tiling *tiling, uint32_t t, mw_point q)
+{
+    const uint32_t *v = tiling->tri[t].v;
+    double weight[3];
+    for (uint32_t k = 0; k < 3; k++)
+        weight[k] = mw__orient2d(tiling->point[v[mw__next(k)]], tiling->point[v[mw__prev(k)]], q);
+    return v[weight[0] > weight[1] ? weight[0] > weight[2] ? 0 : 2 : weight[1] > weight[2] ? 1 : 2];
+}
+
+/* One layer above the mesh: the descent is one walk in it, counted as any other, then a vertex of its last tile. */
+static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_point q, uint64_t seed)
+{
+    const mw_tiling *top = &layers->layer[0].tiling;
+    uint64_t same = seed;
+    uint32_t t = mw__random_below(&seed, top->tri_count);
+    mw_walk w = mw__walk_begin(top, q, t, 100000, mw__random(&seed));
+    mw_verdict verdict = mw__walk_kernels((mw_walk_kind)walk, top)->run[true][true](&w);
+    if (verdict == MW_CLOSE && !has_coordinates(walk))
+        mw__walk_finish(&w, MW_WALK_REMEMBERING, 100000, top, true, true);
+    w.work.comparisons += 7;
+    if (descent == MW_DESCENT_COORDINATE && !has_coordinates(walk)) w.work.orient[MW_STAGE_WALK] += 2;
+    bool heavy = descent == MW_DESCENT_COORDINATE || (descent == MW_DESCENT_BY_WALK && has_coordinates(walk));
+
+    mw_work work = {.comparisons = 7};
+    mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, true, true};
+    layers->descent = descent;
+    uint32_t first = mw__layers_first(layers, q, &how, &same, &work);
+    assert_true(same == seed);
+    assert_int_equal(first, layers->layer[0].below[heavy ? heaviest(top, w.t, q) : nearest(top, w.t, q)]);
+    assert_memory_equal(&work, &w.work, sizeof work);
+}
+
 static void test_descent(void **state)
 {
     (void)state;
@@ -333,39 +380,12 @@ static void test_descent(void **state)
     assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
     mw_layers layers;
     assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 2}, &layers, NULL), MW_OK);
-    const mw_tiling *top = &layers.layer[0].tiling;
-    int differ = 0;
     for (int i = 0; i < 300; i++) {
-        mw_point q = {random_unit(&random), random_unit(&random)};
-        uint64_t seed[3] = {mw__random(&random)};
-        seed[1] = seed[2] = seed[0];
-        uint32_t t = mw__random_below(&seed[0], top->tri_count), first[2];
-        mw_walk walk = mw__walk_begin(top, q, t, 100000, mw__random(&seed[0]));
-        mw__stochastic.run[true][true](&walk);
-        const uint32_t *v = top->tri[walk.t].v;
-        for (int k = 0; k < 2; k++) {
-            mw_work work = {.comparisons = 7};
-            mw_layer_walk how = {MW_WALK_STOCHASTIC, MW_WALK_STOCHASTIC, true, true};
-            layers.descent = (mw_descent)(MW_DESCENT_NEAREST + k);
-            first[k] = mw__layers_first(&layers, q, &how, &seed[k + 1], &work);
-            assert_int_equal(seed[k + 1], seed[0]);
-            assert_int_equal(work.visited, walk.work.visited);
-            assert_int_equal(work.triangles[MW_STAGE_WALK], walk.work.triangles[MW_STAGE_WALK]);
-            assert_int_equal(work.orient[MW_STAGE_WALK], walk.work.orient[MW_STAGE_WALK] + 2 * (uint32_t)k);
-            assert_int_equal(work.comparisons, 7);
-        }
-        uint32_t near = 0, heavy = 0;
-        double weight[3];
-        for (uint32_t k = 0; k < 3; k++) {
-            weight[k] = mw__orient2d(top->point[v[mw__next(k)]], top->point[v[mw__prev(k)]], q);
-            if (distance2(top->point[v[k]], q) < distance2(top->point[v[near]], q)) near = k;
-            if (weight[k] > weight[heavy]) heavy = k;
-        }
-        assert_int_equal(first[0], layers.layer[0].below[v[near]]);
-        assert_int_equal(first[1], layers.layer[0].below[v[heavy]]);
-        differ += near != heavy;
+        mw_point q = {1.2 * random_unit(&random) - 0.1, 1.2 * random_unit(&random) - 0.1};
+        for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
+            for (int descent = MW_DESCENT_BY_WALK; descent < MW_DESCENTS; descent++)
+                try_descent(&layers, walk, (mw_descent)descent, q, mw__random(&random));
     }
-    assert_true(differ > 0);
     mw__layers_release(&layers);
     mw__tiling_release(&tiling);
     mw_mesh_destroy(mesh);
@@ -388,6 +408,29 @@ static void test_seed(void **state)
     assert_true(one->point_count != other->point_count ||
                 memcmp(one->point, other->point, one->point_count * sizeof *one->point) != 0);
     for (int i = 0; i < 3; i++) mw__layers_release(&layers[i]);
+    mw__tiling_release(&tiling);
+    mw_mesh_destroy(mesh);
+}
+
+/* Every vertex has the same chance to be in the next layer. */
+static void test_chance(void **state)
+{
+    (void)state;
+    enum { POINTS = 12, SEEDS = 4000 };
+    uint64_t random = 33;
+    mw_mesh *mesh = points_mesh(POINTS, random_unit, &random);
+    mw_tiling tiling;
+    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    int times[POINTS] = {0};
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        mw_layers layers;
+        mw_layers_options options = {.layers = 2, .ratio = 0.25, .seed = seed};
+        assert_int_equal(mw__layers_create(&tiling, &options, &layers, NULL), MW_OK);
+        assert_int_equal(layers.layer[0].tiling.point_count, POINTS / 4);
+        for (int v = 0; v < POINTS; v++) times[v] += has_point(&layers.layer[0].tiling, 0, tiling.point[v]);
+        mw__layers_release(&layers);
+    }
+    for (int v = 0; v < POINTS; v++) assert_in_range(times[v], SEEDS / 4 - 160, SEEDS / 4 + 160); /* 6 sigma */
     mw__tiling_release(&tiling);
     mw_mesh_destroy(mesh);
 }
@@ -543,6 +586,11 @@ static void test_counters(void **state)
         assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &threads, NULL), MW_OK);
         assert_memory_equal(&sum, &threads, sizeof sum);
         mw_index_destroy(index);
+        if (layers == 1) continue;
+        options.index = index = index_of(locator, &(mw_index_options){.layers = layers, .seed = 1});
+        assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &sum, NULL), MW_OK);
+        assert_int_not_equal(sum.orient, threads.orient); /* other vertices */
+        mw_index_destroy(index);
     }
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
@@ -576,10 +624,11 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure), cmocka_unit_test(test_sizes),    cmocka_unit_test(test_no_layer),
-        cmocka_unit_test(test_any),       cmocka_unit_test(test_near),     cmocka_unit_test(test_descent),
-        cmocka_unit_test(test_seed),      cmocka_unit_test(test_options),  cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_answers),   cmocka_unit_test(test_describe), cmocka_unit_test(test_counters),
+        cmocka_unit_test(test_structure), cmocka_unit_test(test_sizes),   cmocka_unit_test(test_no_layer),
+        cmocka_unit_test(test_any),       cmocka_unit_test(test_near),    cmocka_unit_test(test_descent),
+        cmocka_unit_test(test_seed),      cmocka_unit_test(test_chance),  cmocka_unit_test(test_options),
+        cmocka_unit_test(test_memory),    cmocka_unit_test(test_answers), cmocka_unit_test(test_describe),
+        cmocka_unit_test(test_counters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
