@@ -2,7 +2,8 @@
 
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
-    local query='--walk --start --arithmetic --tolerance --columns --any --strict --stats --json'
+    local query='--walk --start --arithmetic --finish --steps --areas --sample --cells --layers --tolerance --columns'
+    query="$query --any --strict --stats --json"
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
         info | check) echo "--json $common" ;;
@@ -16,8 +17,10 @@ _meshwalk_options() {
 _meshwalk_names() {
     case $1 in
         --walk) echo 'auto lawson remembering stochastic straight normal-straight hybrid celestial' ;;
-        --start) echo 'auto random sample centre last sorted' ;;
+        --start) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
         --arithmetic) echo 'exact double' ;;
+        --finish) echo 'auto remembering stochastic' ;;
+        --sample) echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay' ;;
         --format) echo 'auto off ply ply-ascii node obj stl csv vtk' ;;
@@ -47,7 +50,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --tolerance | --columns | --field) return ;;
+        --threads | --seed | --steps | --cells | --layers | --tolerance | --columns | --field) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

@@ -5,6 +5,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
+#include <meshwalk/locate.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,6 +70,21 @@ static bool parse_length(const char *value, double *number)
     return !*end && isfinite(*number) && *number >= 0;
 }
 
+/* How many to sample: a number or the name of a rule. */
+static bool parse_sample(const char *value, uint32_t *sample)
+{
+    uint64_t number = 0;
+    if (strcmp(value, "cube-root") == 0)
+        *sample = MW_SAMPLE_CUBE_ROOT;
+    else if (strcmp(value, "fourth-root") == 0)
+        *sample = MW_SAMPLE_FOURTH_ROOT;
+    else if (parse_natural(value, UINT32_MAX - 1, &number) && number > 0)
+        *sample = (uint32_t)number;
+    else
+        return false;
+    return true;
+}
+
 static int parse_choice(const option *o, const char *value, int *number)
 {
     spelling s = spelling_of(value);
@@ -95,6 +111,7 @@ static int take(const option *o, const char *value, void *settings)
     char *target = (char *)settings + o->offset;
     uint64_t natural = 0;
     double length = 0;
+    uint32_t sample = 0;
     int choice = 0, end;
     switch (o->kind) {
     case OPTION_FLAG: memcpy(target, &(bool){true}, sizeof(bool)); return 0;
@@ -109,6 +126,11 @@ static int take(const option *o, const char *value, void *settings)
     case OPTION_COUNT:
         if (!parse_natural(value, UINT32_MAX, &natural)) return bad_value(o, value, "a whole number below 2^32");
         memcpy(target, &(uint32_t){(uint32_t)natural}, sizeof(uint32_t));
+        return 0;
+    case OPTION_SAMPLE:
+        if (!parse_sample(value, &sample))
+            return bad_value(o, value, "a whole number from 1 to 2^32 - 2, cube-root or fourth-root");
+        memcpy(target, &sample, sizeof sample);
         return 0;
     case OPTION_SEED:
         if (!parse_natural(value, UINT64_MAX, &natural)) return bad_value(o, value, "a whole number below 2^64");

@@ -12,6 +12,7 @@ typedef enum option_kind {
     OPTION_TEXT,   /* const char *                               */
     OPTION_LENGTH, /* double: finite and not negative            */
     OPTION_COUNT,  /* uint32_t                                   */
+    OPTION_SAMPLE, /* uint32_t: a number, not 0, or MW_SAMPLE_.. */
     OPTION_SEED,   /* uint64_t                                   */
     OPTION_CHOICE, /* int: the number of a name, see choices     */
 } option_kind;

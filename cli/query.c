@@ -33,9 +33,17 @@ static const char *arithmetic_name(int i)
     return i == MW_EXACT ? "exact" : i == MW_DOUBLE ? "double" : NULL;
 }
 
+/* What may end the walks whose own tests are only a guide. */
+static const mw_walk_kind finishes[] = {MW_WALK_AUTO, MW_WALK_REMEMBERING, MW_WALK_STOCHASTIC};
+static const char *finish_name(int i)
+{
+    return i < (int)(sizeof finishes / sizeof *finishes) ? mw_walk_name(finishes[i]) : NULL;
+}
+
 static const choices walks = {"walk", walk_name, walk_help};
 static const choices starts = {"start", start_name, start_help};
 static const choices arithmetics = {"arithmetic", arithmetic_name, NULL};
+static const choices finish_choices = {"way to finish", finish_name, NULL};
 
 const option query_options[] = {
     {"walk", 0, OPTION_CHOICE, offsetof(query_settings, walk), "NAME",
@@ -44,6 +52,20 @@ const option query_options[] = {
      "how to choose the first triangle (default: auto):", &starts},
     {"arithmetic", 0, OPTION_CHOICE, offsetof(query_settings, arithmetic), "NAME",
      "how walks decide their turns (default: exact); the triangle found is exact in either case:", &arithmetics},
+    {"finish", 0, OPTION_CHOICE, offsetof(query_settings, finish), "NAME",
+     "the walk that ends those whose own tests are only a guide (default: auto, by the mesh):", &finish_choices},
+    {"steps", 0, OPTION_COUNT, offsetof(query_settings, steps), "K",
+     "--walk fast-stochastic: steps with one test (default: 0, estimated)", NULL},
+    {"areas", 0, OPTION_FLAG, offsetof(query_settings, areas), NULL,
+     "store the areas of the triangles, which saves tests with --walk direct", NULL},
+    {"sample", 0, OPTION_SAMPLE, offsetof(query_settings, sample), "K",
+     "--start sample: look at K random triangles; also cube-root (the default) or fourth-root, of the number of "
+     "triangles",
+     NULL},
+    {"cells", 0, OPTION_COUNT, offsetof(query_settings, cells), "N",
+     "--start grid, two-level-grid: about N cells, of the first level (default: 0, by the number of vertices)", NULL},
+    {"layers", 0, OPTION_COUNT, offsetof(query_settings, layers), "N",
+     "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
     {"tolerance", 0, OPTION_LENGTH, offsetof(query_settings, tolerance), "D",
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(query_settings, columns), "LIST",
@@ -87,10 +109,29 @@ static int make_locator(query *q, const char *path, bool border, bool area)
 {
     mw_error error;
     const query_settings *settings = q->settings;
-    mw_locator_options options = {.any = settings->any, .border = border || settings->tolerance > 0};
+    mw_locator_options options = {
+        .any = settings->any, .border = border || settings->tolerance > 0, .areas = settings->areas};
     if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK) return fail_defect(q, path, area, &error);
     warn_if_void(q, path);
     return 0;
+}
+
+/* The library refuses an option, or a limit is reached. */
+static int fail_query(const mw_error *error)
+{
+    complain("%s", error->message);
+    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
+}
+
+/* Build what the start needs, if it needs something. */
+static int make_index(query *q)
+{
+    mw_error error;
+    const query_settings *settings = q->settings;
+    mw_start_kind start = (mw_start_kind)settings->start;
+    if (start != MW_START_GRID && start != MW_START_TWO_LEVEL_GRID && start != MW_START_LAYERS) return 0;
+    mw_index_options options = {.cells = settings->cells, .layers = settings->layers, .seed = settings->common.seed};
+    return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
 int query_open(query *q, const query_settings *settings, const char *const *operands, bool border, query_keep *keep,
@@ -106,11 +147,13 @@ int query_open(query *q, const query_settings *settings, const char *const *oper
     end = make_mesh(q, path, &file, area);
     if (end == 0 && keep) end = keep(q->mesh, path, &file, self);
     mw_mesh_file_release(&file);
-    return end ? end : make_locator(q, path, border, area);
+    if (end == 0) end = make_locator(q, path, border, area);
+    return end ? end : make_index(q);
 }
 
 void query_release(query *q)
 {
+    mw_index_destroy(q->index);
     mw_locator_destroy(q->locator);
     mw_mesh_destroy(q->mesh);
 }
@@ -166,18 +209,19 @@ static int locate_block(stream *s, size_t count)
         .walk = (mw_walk_kind)settings->walk,
         .start = (mw_start_kind)settings->start,
         .arithmetic = (mw_arithmetic)settings->arithmetic,
+        .finish = finishes[settings->finish],
         .seed = settings->common.seed + s->tally.blocks, /* other random numbers in each block */
+        .sample = settings->sample,
+        .steps = settings->steps,
         .threads = settings->common.threads,
         .tolerance = settings->tolerance,
         .count = settings->stats,
+        .index = s->query->index,
     };
     double begin = tally_clock();
     mw_status status =
         mw_locate_batch(s->query->locator, s->values, count, s->width, &options, s->locations, &counters, &error);
-    if (status != MW_OK) {
-        complain("%s", error.message);
-        return status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
-    }
+    if (status != MW_OK) return fail_query(&error);
     tally_block(&s->tally, s->locations, count, &counters, tally_clock() - begin);
     return 0;
 }

@@ -10,8 +10,10 @@ typedef struct query_settings {
     common_settings common;
     const char *columns;
     double tolerance;
+    uint32_t sample, steps, cells, layers;
     int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
-    bool any, strict, stats, json;
+    int finish;                  /* number of a name of --finish */
+    bool areas, any, strict, stats, json;
 } query_settings;
 
 extern const option query_options[];
@@ -21,7 +23,8 @@ typedef struct query {
     const query_settings *settings;
     mw_mesh *mesh;
     mw_locator *locator;
-    double begin; /* seconds, tally_clock */
+    mw_index *index; /* NULL for starts that have none */
+    double begin;    /* seconds, tally_clock */
 } query;
 
 /* Write the row of one point, with its newline; false: the point has no answer. `self` is the command's own. Called by

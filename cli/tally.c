@@ -70,6 +70,20 @@ static void report_walks(report *r, const tally *t)
     report_count(r, "handovers", c->handovers);
 }
 
+static void report_memory(report *r, const query *q)
+{
+    mw_locator_info locator;
+    mw_index_info index = {0};
+    mw_locator_describe(q->locator, &locator);
+    if (q->index) mw_index_describe(q->index, &index);
+    report_count(r, "mesh_bytes", mw_mesh_bytes(q->mesh));
+    report_count(r, "locator_bytes", locator.bytes);
+    report_count(r, "area_bytes", locator.area_bytes);
+    report_count(r, "start_bytes", index.bytes);
+    report_number(r, "start_seconds", rounded(index.seconds));
+    report_count(r, "ghost_triangles", locator.ghost_triangles);
+}
+
 /* The whole, and of it reading and preparing the mesh, and locating; the rest is reading points and writing rows. */
 static void report_times(report *r, const tally *t, const query *q)
 {
@@ -83,9 +97,7 @@ static void report_times(report *r, const tally *t, const query *q)
 int tally_print(const tally *t, const query *q)
 {
     const query_settings *settings = q->settings;
-    mw_locator_info info;
     report r;
-    mw_locator_describe(q->locator, &info);
     report_begin(&r, settings->json);
     report_count(&r, "points", t->points);
     for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(&r, mw_where_name((mw_where)i), t->where[i]);
@@ -95,9 +107,7 @@ int tally_print(const tally *t, const query *q)
     report_count(&r, "seed", settings->common.seed);
     report_count(&r, "threads", (uint64_t)tally_threads(settings->common.threads));
     report_walks(&r, t);
-    report_count(&r, "mesh_bytes", mw_mesh_bytes(q->mesh));
-    report_count(&r, "locator_bytes", info.bytes);
-    report_count(&r, "ghost_triangles", info.ghost_triangles);
+    report_memory(&r, q);
     report_times(&r, t, q);
     report_end(&r);
     progress_end();

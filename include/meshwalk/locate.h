@@ -111,7 +111,8 @@ typedef struct mw_index mw_index;
 
 /* All zero = choose. */
 typedef struct mw_index_options {
-    uint32_t cells;  /* MW_START_GRID: about so many cells; 0 = by the number of vertices                        */
+    uint32_t cells;  /* MW_START_GRID: about so many cells, MW_START_TWO_LEVEL_GRID: of its first level; at most 2^30;
+                        0 = by the number of vertices                                                            */
     uint32_t layers; /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
     double ratio;    /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
     int descent;     /* MW_START_LAYERS: the vertex to go down at. 0: by the walk, 1: nearest, 2: largest orientation
@@ -125,7 +126,8 @@ typedef struct mw_index_options {
 /* Build the index of a start that needs one: MW_START_GRID, MW_START_TWO_LEVEL_GRID or MW_START_LAYERS.
  *   options  NULL = all zero
  *   out      owned by the caller (mw_index_destroy); keeps nothing of the locator; NULL on failure
- * MW_ERROR_ARGUMENT for another start or options out of range; MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
+ * MW_ERROR_ARGUMENT for another start or options out of range; MW_ERROR_LIMIT for more cells than 2^30;
+ * MW_ERROR_MEMORY. */
 MW_API mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const mw_index_options *options,
                                  mw_index **out, mw_error *error);
 MW_API void mw_index_destroy(mw_index *index); /* NULL is allowed */

@@ -49,6 +49,16 @@ for walk in $walks; do
     run_on "$points" locate --walk "$walk" --arithmetic double --threads 3 --seed 7 square.off -
     exits 0; prints "$answers"
 done
+# Whatever adjusts them, too; what is out of range is refused before anything is printed.
+for options in '--start grid --cells 1' '--start grid --cells 1000' '--start two-level-grid --cells 3' \
+    '--start layers --layers 1' '--start layers --layers 2' '--start sample --sample 1' \
+    '--start sample --sample cube-root' '--start sample --sample fourth-root' '--finish remembering' \
+    '--finish stochastic' '--areas' '--steps 1'; do
+    # shellcheck disable=SC2086 # words
+    run_on "$points" locate $options square.off -; exits 0; prints "$answers"
+done
+run_on "$points" locate --start grid --cells 4000000000 square.off -; refused 4 'at most 2\^30 cells'
+run_on "$points" locate --start layers --layers 1000 square.off -; refused 2 ''
 run_on "$(cat square.off)" locate - <(printf '%s' "$points"); exits 0; prints "$answers"
 
 # Holes, tolerance, details.
@@ -135,6 +145,14 @@ says '^queries per second +[0-9]+$'; says '^seed +0$'
 run_on "$points" locate --stats --json --seed 5 --walk lawson square.off -; exits 0; prints "$answers"
 holds "the statistics are JSON" is_json "$logs/err"
 says '"seed": 5'; says '"walk": "lawson"'; says '"triangles_per_query": [1-9]'
+
+# Memory and time of what the start and the walks build; nothing where nothing is built.
+for start in grid two-level-grid layers; do
+    run_on "$points" locate --stats --start $start --areas square.off -; exits 0
+    says '^start bytes +[1-9]'; says '^start seconds +[0-9]'; says '^area bytes +16$'; says "^start +$start\$"
+done
+run_on "$points" locate --stats square.off -; exits 0
+says '^start bytes +0$'; says '^area bytes +0$'
 
 # More points than one block holds; the output does not depend on the threads, and its rows are in order.
 awk 'BEGIN { for (i = 0; i < 300000; i++) printf "%d.%d,%.3f\n", i % 3, i % 7, (i % 1001) / 400 }' >many.csv

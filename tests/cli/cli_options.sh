@@ -27,6 +27,7 @@ run locate --xyzzy a b; refused 2 "unknown option '--xyzzy'$"
 run locate -Z a b; refused 2 "unknown option '-Z'"
 run locate --walk lawsn a b; refused 2 "unknown walk 'lawsn'; did you mean 'lawson'\?"
 run locate --start centr a b; refused 2 "unknown start 'centr'; did you mean 'centre'\?"
+run locate --finish lawson a b; refused 2 "unknown way to finish 'lawson'"
 run locate --arithmetic fuzzy a b; refused 2 "unknown arithmetic 'fuzzy'"
 run locate --walk; refused 2 "'--walk' wants an argument: NAME"
 run locate --any=yes a b; refused 2 "'--any' takes no argument"
@@ -54,6 +55,12 @@ for value in '' x 1.5 -1 +1 ' 1' 1e3 0x10 4294967296 99999999999999999999; do
     run locate --threads "$value" a b; refused 2 "'--threads' wants"
 done
 run locate --threads 257 a b; refused 2 "at most 256"
+for option in steps cells layers; do
+    run locate --$option -1 a b; refused 2 "'--$option' wants a whole number"
+done
+for value in '' x 0 -1 1.5 4294967295 cube cuberoot; do
+    run locate --sample "$value" a b; refused 2 "'--sample' wants .*, cube-root or fourth-root"
+done
 for value in '' x -1 1.0 18446744073709551616; do
     run locate --seed "$value" a b; refused 2 "'--seed' wants"
 done
@@ -65,7 +72,8 @@ printf '0.5 0.25\n' >p.xyz
 run locate m.off p.xyz
 answer=$(<"$logs/out")
 for form in '--walk lawson' '--walk=lawson' '--walk straight --walk=lawson' '--seed 18446744073709551615' '-q' \
-    '--threads=2 -q' '--tolerance 0' '--tolerance=1e-3'; do
+    '--threads=2 -q' '--finish remembering' '--steps 5' '--areas --sample fourth-root' '--tolerance 0' \
+    '--tolerance=1e-3'; do
     # shellcheck disable=SC2086 # words
     run locate $form m.off p.xyz; exits 0; prints "$answer"; says_nothing
     # shellcheck disable=SC2086
@@ -113,8 +121,10 @@ for option in walk start; do
         test "$(complete_words meshwalk locate --$option '')" == "$(listed $option)"
     holds "the help lists names of --$option" test -n "$(listed $option)"
 done
-holds "help and completion of --arithmetic differ" \
-    test "$(complete_words meshwalk locate --arithmetic '')" == "$(row arithmetic)"
+for option in arithmetic finish; do
+    holds "help and completion of --$option differ" \
+        test "$(complete_words meshwalk locate --$option '')" == "$(row $option)"
+done
 run triangulate --help
 holds "help and completion of --format differ" \
     test "$(complete_words meshwalk triangulate --format '')" == "$(row format)"

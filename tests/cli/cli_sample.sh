@@ -16,6 +16,10 @@ run_on "$points" sample --outside empty --tolerance 1 square.off -; exits 0
 prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,1.5\n-1,-1,\nnan,0,'
 run_on "$points" sample --strict square.off -; exits 1
 run_on $'3 3\n' sample --strict --outside nearest square.off -; exits 0; prints $'x,y,z\n3,3,2'
+for start in grid two-level-grid layers; do
+    run_on "$points" sample --start $start --cells 9 --layers 2 --finish stochastic square.off -; exits 0
+    prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,\n-1,-1,\nnan,0,'
+done
 for threads in 1 2; do
     run_on "$points" sample --threads $threads --walk straight --start random square.off -; exits 0
     prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,\n-1,-1,\nnan,0,'
