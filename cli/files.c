@@ -105,6 +105,18 @@ bool files_has_area(const mw_mesh_file *file)
     return false;
 }
 
+int files_try_output(const char *output, bool *named)
+{
+    mw_error error;
+    mw_output *out;
+    if (named) *named = false;
+    if (files_is_stream(output)) return 0;
+    if (mw_output_open(output, &out, &error) != MW_OK) return fail_writing(&error);
+    if (named) *named = mw_output_temporary(out) != NULL;
+    mw_output_close(out, 0, NULL);
+    return 0;
+}
+
 int files_write_text(const char *output, text *t)
 {
     mw_error error;

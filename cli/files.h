@@ -19,6 +19,10 @@ int files_read_mesh(const char *path, mw_mesh_file *file);
 /* Is there a triangle with an area? Without one no point can be located. */
 bool files_has_area(const mw_mesh_file *file);
 
+/* Can the output be written at all? Better asked before long work than after it. `named`, if not NULL, is set if the
+ * system writes it under a temporary name. Returns 0 or an exit code. */
+int files_try_output(const char *output, bool *named);
+
 /* Write a text as a whole; output NULL is standard output. The text is released. Returns 0 or an exit code. */
 int files_write_text(const char *output, text *t);
 

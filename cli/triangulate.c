@@ -194,20 +194,6 @@ static int print_report(const triangulate_settings *s, const work *w)
     return end;
 }
 
-/* Can the output be written at all? Better asked before the work than after it. `named` is set if the system writes it
- * under a temporary name. */
-static int try_output(const char *output, bool *named)
-{
-    mw_error error;
-    mw_output *out;
-    *named = false;
-    if (files_is_stream(output)) return 0;
-    if (mw_output_open(output, &out, &error) != MW_OK) return fail_writing(&error);
-    *named = mw_output_temporary(out) != NULL;
-    mw_output_close(out, 0, NULL);
-    return 0;
-}
-
 static int write_mesh(const triangulate_settings *s, const work *w, bool named)
 {
     mw_error error;
@@ -259,7 +245,7 @@ static int run(const void *settings, const char *const *operands)
     work w = {.begin = tally_clock()};
     bool named = false;
     int end = check_settings(s, operands[0]);
-    if (end == 0) end = try_output(s->common.output, &named);
+    if (end == 0) end = files_try_output(s->common.output, &named);
     if (end == 0) end = read_points(s, operands[0], &w);
     if (end == 0) end = triangulate(operands[0], &w);
     if (end == 0) end = write_mesh(s, &w, named);
