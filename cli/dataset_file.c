@@ -1,0 +1,68 @@
+#include "dataset_file.h"
+#include "files.h"
+#include "message.h"
+#include "progress.h"
+
+#include <stdlib.h>
+
+static bool make_room(dataset *d, size_t count)
+{
+    if (count >= SIZE_MAX / (2 * sizeof(double))) return false;
+    double *points = realloc(d->points, 2 * (count + 1) * sizeof(double));
+    if (points) d->points = points;
+    return points;
+}
+
+/* The vertices of a mesh. Returns false if the file is none. */
+static bool read_vertices(dataset *d, const char *path)
+{
+    mw_mesh_file file;
+    if (files_is_stream(path) || mw_read_mesh(path, &file, NULL) != MW_OK) return false;
+    bool room = make_room(d, d->count + file.point_count);
+    for (size_t i = 0; room && i < file.point_count; i++, d->count++)
+        for (size_t k = 0; k < 2; k++) d->points[2 * d->count + k] = file.points[3 * i + k];
+    mw_mesh_file_release(&file);
+    return room;
+}
+
+#define BLOCK ((size_t)1 << 14)
+
+static int read_blocks(dataset *d, mw_point_reader *reader, double *values)
+{
+    mw_error error;
+    size_t width = mw_points_width(reader), room = d->count;
+    for (size_t count = 1; count > 0;) {
+        if (mw_points_read(reader, values, BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
+        if (d->count + count > room && !make_room(d, room = 2 * (d->count + count))) return fail_memory();
+        for (size_t i = 0; i < count; i++, d->count++)
+            for (size_t k = 0; k < 2; k++) d->points[2 * d->count + k] = values[i * width + k];
+        progress_points(d->count);
+    }
+    return 0;
+}
+
+static int read_points(dataset *d, const char *path)
+{
+    mw_error error;
+    mw_point_reader *reader;
+    if (mw_points_open(path, NULL, &reader, &error) != MW_OK) return fail_reading(&error);
+    double *values = malloc(BLOCK * mw_points_width(reader) * sizeof *values);
+    int end = values ? read_blocks(d, reader, values) : fail_memory();
+    free(values);
+    mw_points_close(reader);
+    return end;
+}
+
+int dataset_read(dataset *d, const char *path, bool enclose)
+{
+    *d = (dataset){0};
+    progress_phase("reading", path);
+    int end = read_vertices(d, path) ? 0 : read_points(d, path);
+    if (end) return end;
+    dataset_bound(d, d->count);
+    if (!enclose || d->count == 0) return 0;
+    if (!make_room(d, d->count + 4)) return fail_memory();
+    d->count += 4;
+    dataset_enclose(d);
+    return 0;
+}

@@ -1,0 +1,11 @@
+/* dataset_file.h - points to measure with from a file. */
+#ifndef CLI_DATASET_FILE_H
+#define CLI_DATASET_FILE_H
+
+#include "datasets.h"
+
+/* The points of a file of points, or the vertices of a mesh. The domain is their extent; with `enclose` its four corners
+ * follow them. Complains about what is wrong; returns 0 or an exit code. */
+int dataset_read(dataset *d, const char *path, bool enclose);
+
+#endif
