@@ -4,6 +4,6 @@
 
 #include "options.h"
 
-extern const command info_command, check_command, triangulate_command, locate_command, sample_command;
+extern const command info_command, check_command, triangulate_command, locate_command, sample_command, bench_command;
 
 #endif

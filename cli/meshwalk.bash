@@ -10,12 +10,21 @@ _meshwalk_options() {
         triangulate) echo "--kind --format --columns --class --json $common" ;;
         locate) echo "--details $query $common" ;;
         sample) echo "--field --outside $query $common" ;;
+        bench) echo "--queries --sizes --enclose --data --no-times --format --plot $common" ;;
     esac
 }
 
-# Names that an option takes.
+# Names that an option of a command takes.
 _meshwalk_names() {
-    case $1 in
+    case $2 in
+        --format)
+            if [[ $1 == bench ]]; then
+                echo 'table tsv json'
+            else
+                echo 'auto off ply ply-ascii node obj stl csv vtk'
+            fi
+            ;;
+        --enclose) echo 'auto yes no' ;;
         --walk) echo 'auto lawson remembering stochastic straight normal-straight hybrid celestial' ;;
         --start) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
         --arithmetic) echo 'exact double' ;;
@@ -23,7 +32,6 @@ _meshwalk_names() {
         --sample) echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay' ;;
-        --format) echo 'auto off ply ply-ascii node obj stl csv vtk' ;;
         --class)
             echo 'never-classified unclassified ground low-vegetation medium-vegetation high-vegetation building'
             echo 'low-noise water rail road wire-guard conductor tower connector bridge-deck high-noise'
@@ -41,16 +49,18 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        mapfile -t COMPREPLY < <(compgen -W 'info check triangulate locate sample --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'info check triangulate locate sample bench --help --version' -- "$word")
         return
     fi
-    names=$(_meshwalk_names "$before")
+    names=$(_meshwalk_names "$command" "$before")
+    [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] && names=paper
+    [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 E2'
     if [[ -n $names ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
     case $before in
-        --threads | --seed | --steps | --cells | --layers | --tolerance | --columns | --field) return ;;
+        --threads | --seed | --steps | --cells | --layers | --tolerance | --columns | --field | --queries | --sizes) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

@@ -210,8 +210,8 @@ int options_parse(const command *c, int count, char **arguments, void *settings,
             complain("a file has the empty name");
             return END_USAGE;
         }
-    if (found == c->operand_count) return 0;
-    complain("%s: wants %s, not %d file%s; usage: meshwalk %s [options] %s", c->name, c->operands, found,
+    if (found <= c->operand_count && found >= c->operand_count - c->optional_operands) return 0;
+    complain("%s: wants %s, not %d argument%s; usage: meshwalk %s [options] %s", c->name, c->operands, found,
              found == 1 ? "" : "s", c->name, c->operands);
     return END_USAGE;
 }

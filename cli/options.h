@@ -41,6 +41,7 @@ typedef struct command {
     const char *name;
     const char *operands;         /* as in the usage line: "MESH POINTS" */
     int operand_count;            /* exactly so many */
+    int optional_operands;        /* but so many of the last ones may be missing: NULL then */
     const char *summary;          /* one line */
     const char *description;      /* a paragraph or more */
     const option *const *options; /* tables; NULL ends them */

@@ -3,7 +3,7 @@
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 
-commands=(info check triangulate locate sample)
+commands=(info check triangulate locate sample bench)
 
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
@@ -31,10 +31,10 @@ run locate --finish lawson a b; refused 2 "unknown way to finish 'lawson'"
 run locate --arithmetic fuzzy a b; refused 2 "unknown arithmetic 'fuzzy'"
 run locate --walk; refused 2 "'--walk' wants an argument: NAME"
 run locate --any=yes a b; refused 2 "'--any' takes no argument"
-run locate a; refused 2 "wants MESH POINTS, not 1 file;"
-run locate a b c; refused 2 "wants MESH POINTS, not 3 files"
+run locate a; refused 2 "wants MESH POINTS, not 1 argument;"
+run locate a b c; refused 2 "wants MESH POINTS, not 3 arguments"
 run locate '' b; refused 2 "empty name"
-run info a b; refused 2 "wants MESH, not 2 files"
+run info a b; refused 2 "wants MESH, not 2 arguments"
 run locate - -; refused 2 "can be read once"
 run triangulate a; refused 2 "-o MESH is missing"
 run triangulate a -o -; refused 2 "wants --format"
@@ -129,6 +129,12 @@ run triangulate --help
 holds "help and completion of --format differ" \
     test "$(complete_words meshwalk triangulate --format '')" == "$(row format)"
 holds "help and completion of --kind differ" test "$(complete_words meshwalk triangulate --kind '')" == "$(listed kind)"
+run bench --help
+for option in format enclose; do
+    holds "help and completion of bench --$option differ" \
+        test "$(complete_words meshwalk bench --$option '')" == "$(row $option)"
+done
+holds "tables are completed" test "$(complete_words meshwalk bench paper C | tr '\n' ' ')" == 'C1 C2 '
 run sample --help
 holds "help and completion of --outside differ" \
     test "$(complete_words meshwalk sample --outside '')" == "$(listed outside)"

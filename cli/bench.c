@@ -1,0 +1,79 @@
+/* bench - measurements that anybody can repeat. */
+#include "bench.h"
+#include "commands.h"
+#include "message.h"
+#include "spelling.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    int (*run)(const bench_settings *s, const char *table);
+} measurements[] = {
+    {"paper", bench_paper},
+};
+#define MEASUREMENTS (sizeof measurements / sizeof *measurements)
+
+static const char *enclose_name(int i)
+{
+    static const char *const names[] = {"auto", "yes", "no", NULL};
+    return names[i];
+}
+static const char *format_name(int i)
+{
+    static const char *const names[] = {"table", "tsv", "json", NULL};
+    return names[i];
+}
+static const choices enclose_choices = {"way to enclose", enclose_name, NULL};
+static const choices format_choices = {"format", format_name, NULL};
+
+static const option bench_options[] = {
+    {"queries", 0, OPTION_COUNT, offsetof(bench_settings, queries), "N",
+     "points to locate on each set (default: 0, a million); of them at most 20000 are timed", NULL},
+    {"sizes", 0, OPTION_TEXT, offsetof(bench_settings, sizes), "LIST",
+     "numbers of vertices of the sets that are made, as in 1e4,1e5 (default: those of the table)", NULL},
+    {"enclose", 0, OPTION_CHOICE, offsetof(bench_settings, enclose), "NAME",
+     "add the four corners of the domain to the points (default: auto, as the table does):", &enclose_choices},
+    {"data", 0, OPTION_TEXT, offsetof(bench_settings, data), "LIST",
+     "files of points, or meshes whose vertices are taken, in place of the sets: ground.las,survey.csv; nothing is "
+     "published for them",
+     NULL},
+    {"no-times", 0, OPTION_FLAG, offsetof(bench_settings, no_times), NULL, "count only", NULL},
+    {"format", 0, OPTION_CHOICE, offsetof(bench_settings, format), "NAME",
+     "how to print the figures (default: table):", &format_choices},
+    {"plot", 0, OPTION_TEXT, offsetof(bench_settings, plot), "FILE", "draw them too; .svg, .png or .pdf by the ending",
+     NULL},
+    {0},
+};
+
+static int run(const void *settings, const char *const *operands)
+{
+    const char *what = operands[0];
+    spelling s = spelling_of(what);
+    for (size_t i = 0; i < MEASUREMENTS; i++) {
+        if (strcmp(measurements[i].name, what) == 0) return measurements[i].run(settings, operands[1]);
+        spelling_try(&s, measurements[i].name);
+    }
+    spelling_complain(&s, "measurement", "");
+    return END_USAGE;
+}
+
+static const option *const tables[] = {bench_options, common_options, NULL};
+
+const command bench_command = {
+    .name = "bench",
+    .operands = "WHAT [TABLE]",
+    .operand_count = 2,
+    .optional_operands = 1,
+    .summary = "measure the walks, beside the published figures",
+    .description =
+        "'meshwalk bench paper TABLE' makes the sets of points of a published table, triangulates them, counts and "
+        "times what the walks do, and prints each figure beside the published one and their ratio. TABLE is one of "
+        "A1, A2, B1, B2, C1, C2 and E2, after the appendix of the thesis; E2 is also its Fig. 12. Counts are taken "
+        "over all queries, on all threads; times are medians over 5 rounds of single queries on one thread, in plain "
+        "doubles (time_us) and exact (time_exact_us).",
+    .options = tables,
+    .settings_size = sizeof(bench_settings),
+    .run = run,
+};
