@@ -1,0 +1,163 @@
+/* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002, sec. 3.3; thesis App. E, sec. 7.1, Alg. 6].
+ *
+ *                       * q           First turn round p, a vertex of the first tile, to the tile at p that the horizontal
+ *                       :             line through p enters towards a, the point of that line below or above q: a
+ *        l______l       :             comparison a tile. Then follow the line: with l and r the left and right ends of the
+ *       /|     / \      :             edge just crossed and s the third vertex, the line leaves over rs where s lies to its
+ *    p /_|____/___\ s...a             left, over sl otherwise: one comparison. Where both ends of that edge fall short of
+ *      \ |   /    /                   a, so does the edge: two comparisons; elsewhere orient2d of the edge and a tells. In
+ *       \|__/____/                    the tile that holds a turn, and follow the vertical line to q in the same way.
+ *        r
+ * Departures from the printed pseudocode.
+ *   Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes on where a is inside.
+ *   The turn: printed, it looks at one end of the exit edge. Here the sides of all three vertices are compared with the
+ *   vertical line; it leaves over the edge that runs from right to left. This covers every case of l and r.
+ *   The other directions, "analogous" in print, are the same code in turned coordinates: axis.h.
+ *   Leaving the hull, only told in the text. First, q may lie beyond the hull edge itself: then it is outside, by an exact
+ *   test. Else a horizontal leg is followed by a vertical one along another line, through an inner point of the tile
+ *   (between its centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from there, from
+ *   the vertex nearest to q. In a thin hull askew to the axes all this does not help; so after RESTARTS it is left to an
+ *   exact walk.
+ * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical leg, from p. q at the
+ * height of p: a is q, and the horizontal leg finds it. A vertex on the line of a leg counts as right of it, but where
+ * the walk turns to the right, as left (turn_upright). p on the hull: where the turn meets the hull first, the line
+ * points out of the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
+ * MW_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right, the walk follows a
+ * line moved by next to nothing, so every tile has points of it inside, and its part of the true line runs from the entry
+ * edge, or p, to the exit edge. What the leg looks for lies ahead of p; then ahead of each entry edge, since it was
+ * beyond that; so it is in the tile unless it is beyond the exit edge. A leg ahead of a in the tile that holds a begins
+ * likewise, the tile having points just before the vertical line. Legs along another line find nothing, they only lead
+ * nearer.
+ * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point where a leg's line
+ * leaves the tile comes on with each step; and there are at most 3 (RESTARTS + 1) legs. A tile may come once in each. */
+#include "walk/axis.h"
+#include "walk/drive.h"
+
+/* The phase of a walk: one of the first five; MOVED, where the vertical line is not that through q; and the number of
+ * restarts. */
+enum { START, TURN_RIGHT, TURN_LEFT, SET_OUT, FOLLOW, STEP = 7, MOVED = 8, RESTART = 16, RESTARTS = 2 };
+
+static MW_INLINE void enter(mw_walk *w, uint32_t phase)
+{
+    w->phase = (w->phase & ~(uint32_t)STEP) | phase;
+}
+
+/* Where the leg ends: a, q, or the point of another vertical line at the height of q. */
+static MW_INLINE mw_point aim(const mw_walk *w)
+{
+    if (!is_vertical(w)) return (mw_point){w->q.x, w->d.x * w->p.y};
+    return w->phase & MOVED ? (mw_point){-w->d.y * w->p.y, w->q.y} : w->q;
+}
+
+/* The vertex of the tile that is nearest to q, or about. */
+static MW_INLINE uint32_t nearest(const mw_walk *w)
+{
+    double far[3];
+    for (uint32_t k = 0; k < 3; k++) far[k] = fabs(corner(w, k).x - w->q.x) + fabs(corner(w, k).y - w->q.y);
+    if (far[1] < far[0]) return far[2] < far[1] ? 2 : 1;
+    return far[2] < far[0] ? 2 : 0;
+}
+
+/* Run again from this tile. */
+static MW_INLINE mw_verdict restart(mw_walk *w)
+{
+    if (w->phase / RESTART == RESTARTS) return MW_CLOSE;
+    w->phase = (w->phase / RESTART + 1) * RESTART + START;
+    return MW_GO;
+}
+
+/* The horizontal leg would leave the hull: a vertical one from here instead. */
+static MW_INLINE mw_verdict detour(mw_walk *w, mw_policy P)
+{
+    mw_point c = inner_point(w), v = corner(w, nearest(w));
+    head_upright(w, (mw_point){c.x / 2 + v.x / 2, c.y / 2 + v.y / 2}, P);
+    if (w->stage == MW_STAGE_INIT) begin_stage(w, MW_STAGE_WALK, P);
+    w->phase |= MOVED;
+    enter(w, SET_OUT);
+    return MW_GO;
+}
+
+/* Cross edge e; if it is on the hull, see on which side of it q lies. */
+static MW_INLINE mw_verdict cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
+{
+    mw_verdict verdict = cross(w, e, P);
+    if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
+    if (beyond(w, e, P)) return MW_LEFT;
+    return is_vertical(w) ? restart(w) : detour(w, P);
+}
+
+/* The tile holds the end of the leg. */
+static MW_INLINE mw_verdict arrive(mw_walk *w, mw_policy P)
+{
+    if (w->phase & MOVED) return restart(w);
+    if (is_vertical(w) || w->q.y == aim(w).y) return MW_FOUND;
+    turn_upright(w, P);
+    enter(w, SET_OUT);
+    return MW_GO;
+}
+
+/* The line leaves the tile over edge e: so does the walk, unless the leg ends before. */
+static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
+{
+    mw_point r = corner(w, e), l = corner(w, e + 1);
+    bool near = is_past(w, r, P) | is_past(w, l, P);
+    if (MW_UNLIKELY(near) && orient(w, r, l, aim(w), P) >= 0) return arrive(w, P);
+    return cross_or_detour(w, e, P);
+}
+
+/* The line leaves the tile over edge e, off p: the turn ends here. */
+static MW_INLINE mw_verdict end_turn(mw_walk *w, uint32_t e, mw_policy P)
+{
+    enter(w, FOLLOW);
+    begin_stage(w, MW_STAGE_WALK, P);
+    return go_on(w, e, P);
+}
+
+static MW_INLINE mw_verdict turn(mw_walk *w, uint32_t phase, uint32_t e, mw_policy P)
+{
+    enter(w, phase);
+    return cross_or_detour(w, e, P);
+}
+
+/* In the first tile, or one to run again from: choose p, and so the heading, r and l. */
+static MW_INLINE mw_verdict start(mw_walk *w, mw_policy P)
+{
+    bool first = w->phase == START;
+    if (first)
+        initialise(w, P);
+    else
+        begin_stage(w, MW_STAGE_INIT, P);
+    uint32_t k = first ? 0 : nearest(w);
+    mw_point p = corner(w, k);
+    if (w->q.x == p.x && w->q.y == p.y) return MW_FOUND;
+    if (w->q.x != p.x)
+        head_across(w, p, P);
+    else
+        head_upright(w, p, P);
+    if (is_left(w, corner(w, k + 1), P)) return turn(w, TURN_RIGHT, k, P);
+    if (!is_left(w, apex(w, k), P)) return turn(w, TURN_LEFT, mw__prev(k), P);
+    return end_turn(w, mw__next(k), P);
+}
+
+/* In the first tile of a vertical leg. */
+static MW_INLINE mw_verdict set_out(mw_walk *w, mw_policy P)
+{
+    uint32_t e = exit_edge(w, P);
+    if (e == MW_NO_EDGE) return MW_CLOSE; /* the inner point was rounded off the tile */
+    enter(w, FOLLOW);
+    return go_on(w, e, P);
+}
+
+static MW_INLINE mw_verdict orthogonal_step(mw_walk *w, mw_policy P)
+{
+    uint32_t next = mw__next(w->e), prev = mw__prev(w->e), step = w->phase & STEP;
+    if (MW_LIKELY(step == FOLLOW)) /* entered over edge e = lr */
+        return go_on(w, is_left(w, apex(w, w->e), P) ? next : prev, P);
+    if (step == TURN_RIGHT) /* entered over edge e = lp, the new r is off it */
+        return is_left(w, apex(w, w->e), P) ? cross_or_detour(w, next, P) : end_turn(w, prev, P);
+    if (step == TURN_LEFT) /* entered over edge e = pr, the new l is off it */
+        return is_left(w, apex(w, w->e), P) ? end_turn(w, next, P) : cross_or_detour(w, prev, P);
+    return step == SET_OUT ? set_out(w, P) : start(w, P);
+}
+
+MW_STAMP_WALK(orthogonal, false)
