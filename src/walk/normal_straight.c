@@ -13,7 +13,7 @@
  * constants vanish, for which two subtractions are to be made; nothing is saved, but nothing cancels far from the
  * origin. Nor is p itself needed, only the direction d from p to q: the mean of those from l and r.
  * Edge cases. In a flat first tile q may lie behind lr although s is the nearest vertex; the printed walk then goes
- * away from q. Therefore the first tile also asks whether the edge to be crossed has its ends on different sides of
+ * away from q. Therefore the first tile first asks whether the edge to be crossed has its ends on different sides of
  * the line, one position more a query. If not, the walk starts over lr, into the tile that the line enters. Where d is
  * zero (q = p), s of the first tile is past n, the line leaves the hull, or no edge of the first tile will do (in
  * tiles a few roundings wide), an exact walk goes on from there.
@@ -53,11 +53,11 @@ static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
     uint32_t e = facing_nearest(w);
     mw_point l = corner(w, e), r = corner(w, e + 1), s = apex(w, e);
     double x = ((w->q.x - l.x) + (w->q.x - r.x)) / 2, y = ((w->q.y - l.y) + (w->q.y - r.y)) / 2;
-    if (MW_UNLIKELY(!set_direction(w, x, y)) || past_normal(w, s, P)) return MW_CLOSE;
+    if (MW_UNLIKELY(!set_direction(w, x, y))) return MW_CLOSE;
     bool left = left_of_line(w, s, P);
-    if (MW_LIKELY(left_of_line(w, left ? r : l, P) != left))
-        return cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
-    return left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P) : MW_CLOSE;
+    if (MW_UNLIKELY(left_of_line(w, left ? r : l, P) == left))
+        return left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P) : MW_CLOSE;
+    return past_normal(w, s, P) ? MW_CLOSE : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
 }
 
 static MW_INLINE mw_verdict normal_straight_step(mw_walk *w, mw_policy P)
