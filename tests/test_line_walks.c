@@ -141,6 +141,28 @@ static void test_flat_first_triangle(void **state)
         }
 }
 
+/* q lies in a lone flat triangle, where the line leaves the hull behind it: that does not make q lie outside. */
+static void test_hull_behind(void **state)
+{
+    (void)state;
+    arrays a = arrays_make(3, 1);
+    arrays_point(&a, -10, 0);
+    arrays_point(&a, 10, 0);
+    arrays_point(&a, 0, 1);
+    arrays_triangle(&a, 0, 1, 2);
+    field f = field_of_arrays(&a);
+    for (int walk = 0; walk < WALKS; walk++)
+        for (int i = -9; i < 10; i++) {
+            const double q[2] = {i, 0.0625};
+            mw_query_options options = {.start = MW_START_LAST, .walk = line_walks[walk]};
+            mw_location at;
+            count_from(&f, &options, 0, q, &at);
+            assert_int_equal(at.where, MW_INSIDE);
+        }
+    field_free(&f);
+    arrays_free(&a);
+}
+
 /* q is where the line would begin: there is none, and nothing to compare. */
 static void test_no_line(void **state)
 {
@@ -378,15 +400,11 @@ static void test_trap_ends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tests_per_triangle),
-        cmocka_unit_test(test_flat_first_triangle),
-        cmocka_unit_test(test_no_line),
-        cmocka_unit_test(test_on_lines),
-        cmocka_unit_test(test_a_few_roundings_wide),
-        cmocka_unit_test(test_wild_magnitudes),
-        cmocka_unit_test(test_no_handovers),
-        cmocka_unit_test(test_any_scale),
-        cmocka_unit_test(test_trap_ends),
+        cmocka_unit_test(test_tests_per_triangle), cmocka_unit_test(test_flat_first_triangle),
+        cmocka_unit_test(test_hull_behind),        cmocka_unit_test(test_no_line),
+        cmocka_unit_test(test_on_lines),           cmocka_unit_test(test_a_few_roundings_wide),
+        cmocka_unit_test(test_wild_magnitudes),    cmocka_unit_test(test_no_handovers),
+        cmocka_unit_test(test_any_scale),          cmocka_unit_test(test_trap_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
