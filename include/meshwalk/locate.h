@@ -112,7 +112,7 @@ typedef struct mw_index mw_index;
 /* All zero = choose. */
 typedef struct mw_index_options {
     uint32_t cells;  /* MW_START_GRID: about so many cells, MW_START_TWO_LEVEL_GRID: of its first level; at most 2^30;
-                        0 = by the number of vertices                                                            */
+                        0 = one for two vertices                                                                 */
     uint32_t layers; /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
     double ratio;    /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
     int descent;     /* MW_START_LAYERS: the vertex to go down at. 0: by the walk, 1: nearest, 2: largest orientation

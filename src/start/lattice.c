@@ -1,4 +1,4 @@
-/* lattice.c - cells over an extent, and the spiral search for the nearest one that is not empty. */
+/* lattice.c - cells over an extent, and the nearest one that is not empty for each that is. */
 #include "start/lattice.h"
 
 mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells)
@@ -19,6 +19,8 @@ mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells
     return lattice;
 }
 
+/* From the cells that have an entry outwards, ring by ring: each cell is reached first from one at the least distance in
+ * rings, which is where a spiral search round it would end. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue)
 {
     uint32_t cells = mw__lattice_cells(lattice), columns = lattice->columns, head = 0, tail = 0;

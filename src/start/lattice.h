@@ -35,17 +35,17 @@ static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p
     return mw__lattice_line(y, lattice->rows) * lattice->columns + mw__lattice_line(x, lattice->columns);
 }
 
-/* Give each entry that is MW_NONE, one for each cell, that of a cell in the first ring of cells round it that has an
- * entry; not all are MW_NONE. queue: room for as many numbers as there are cells. */
+/* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell, that of a cell in the
+ * first ring of cells round it that has an entry. Not all are MW_NONE. queue: room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);
 
 /* For each vertex a tile that has it, MW_NONE for those of no tile. NULL when out of memory. Release with free(). */
 uint32_t *mw__tile_of_vertices(const mw_tiling *tiling);
 
-/* The vertices of a tiling, about: half its tiles. Vertices of no tile do not count. */
-static MW_INLINE uint32_t mw__vertex_estimate(const mw_tiling *tiling)
+/* Cells for a tiling, where nothing is said: one for two vertices, which are half as many as tiles. See grid.c. */
+static MW_INLINE uint32_t mw__lattice_choose(const mw_tiling *tiling)
 {
-    return tiling->tri_count / 2 + 1;
+    return tiling->tri_count / 4 + 1;
 }
 
 #endif

@@ -4,7 +4,11 @@
  * A coarse uniform grid; a cell with more than CROWDED vertices is a grid itself, with a cell for each of its vertices.
  * Here that grid spans the extent of those vertices rather than the cell, so that a cluster is resolved however small it
  * is, and empty cells have an entry as in the uniform grid: where the nearest cell is crowded its grid, of which a query
- * from outside gets a cell at the rim. */
+ * from outside gets a cell at the rim.
+ *
+ * The coarse grid has one cell for two vertices: on uniform points about one cell in 20 is crowded then, and the other
+ * queries take no longer than with the uniform grid. With 10^5 points in 32 clusters and queries at them, walks visit
+ * 3.8 triangles instead of 65. Clusters within clusters would need a third level; layers have as many as it takes. */
 #include "start/two_level_grid.h"
 
 #include <stdlib.h>
@@ -101,7 +105,7 @@ bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
                                const double high[2], uint32_t cells)
 {
     yard y = {.tiling = tiling};
-    *grid = (mw_two_level_grid){.lattice = mw__lattice(low, high, cells ? cells : mw__vertex_estimate(tiling))};
+    *grid = (mw_two_level_grid){.lattice = mw__lattice(low, high, cells ? cells : mw__lattice_choose(tiling))};
     bool done = find_crowded(grid, &y) && find_extents(grid, &y) && lay_out(grid, &y) && fill(grid, &y);
     free(y.tile);
     free(y.vertices);
