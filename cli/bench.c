@@ -4,7 +4,9 @@
 #include "message.h"
 #include "spelling.h"
 
+#include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct {
@@ -12,6 +14,7 @@ static const struct {
     int (*run)(const bench_settings *s, const char *table);
 } measurements[] = {
     {"paper", bench_paper},
+    {"near-vertices", bench_near},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 
@@ -47,6 +50,50 @@ static const option bench_options[] = {
     {0},
 };
 
+int bench_each_word(const char *list, visit_word *visit, void *self)
+{
+    int end = 0;
+    for (bool more = true; more && end == 0;) {
+        size_t length = strcspn(list, ",");
+        char *word = strndup(list, length);
+        if (!word) return fail_memory();
+        end = visit(word, self);
+        free(word);
+        more = list[length] == ',';
+        list += length + more;
+    }
+    return end;
+}
+
+/* At least 10: four may be corners. */
+#define LEAST_SIZE 10
+#define MOST_SIZE 500000000
+
+static int take_size(const char *word, void *self)
+{
+    size_list *list = self;
+    char *rest;
+    double size = strtod(word, &rest);
+    bool plain = *word && strspn(word, "0123456789e") == strlen(word) && !*rest;
+    if (!plain || !(size >= LEAST_SIZE && size <= MOST_SIZE) || size != floor(size)) {
+        complain("option '--sizes' wants numbers from %d to %d separated by commas, not '%s'", LEAST_SIZE, MOST_SIZE,
+                 word);
+        return END_USAGE;
+    }
+    if (list->count == MOST_SIZES) {
+        complain("option '--sizes' takes at most %d numbers", MOST_SIZES);
+        return END_USAGE;
+    }
+    list->size[list->count++] = (size_t)size;
+    return 0;
+}
+
+int bench_sizes(const char *list, size_list *sizes)
+{
+    *sizes = (size_list){0};
+    return bench_each_word(list, take_size, sizes);
+}
+
 static int run(const void *settings, const char *const *operands)
 {
     const char *what = operands[0];
@@ -72,7 +119,11 @@ const command bench_command = {
         "times what the walks do, and prints each figure beside the published one and their ratio. TABLE is one of "
         "A1, A2, B1, B2, C1, C2 and E2, after the appendix of the thesis; E2 is also its Fig. 12. Counts are taken "
         "over all queries, on all threads; times are medians over 5 rounds of single queries on one thread, in plain "
-        "doubles (time_us) and exact (time_exact_us).",
+        "doubles (time_us) and exact (time_exact_us).\n\n"
+        "'meshwalk bench near-vertices' locates points within 1e-15 of vertices, or one of the next doubles, in five "
+        "meshes: uniform points, a grid, points on circles, slivers, and uniform points far from the origin. It prints "
+        "for every walk and arithmetic how many of a million queries ran out of steps (cycles), and how many the "
+        "celestial walk had to end (hand-overs).",
     .options = tables,
     .settings_size = sizeof(bench_settings),
     .run = run,

@@ -16,7 +16,22 @@ typedef struct bench_settings {
     bool no_times;
 } bench_settings;
 
-/* A measurement: 'meshwalk bench WHAT [TABLE]'; table is NULL if none was given. Returns the exit code. */
+/* Run `visit` on each word of a list between commas, until one returns an exit code; return that. */
+typedef int visit_word(const char *word, void *self);
+int bench_each_word(const char *list, visit_word *visit, void *self);
+
+#define MOST_SIZES 8
+
+typedef struct size_list {
+    size_t size[MOST_SIZES];
+    size_t count;
+} size_list;
+
+/* The numbers of --sizes. Complains; returns 0 or an exit code. */
+int bench_sizes(const char *list, size_list *sizes);
+
+/* The measurements: 'meshwalk bench WHAT [TABLE]'; table is NULL if none was given. Return the exit code. */
 int bench_paper(const bench_settings *s, const char *table);
+int bench_near(const bench_settings *s, const char *table);
 
 #endif

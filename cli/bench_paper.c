@@ -207,23 +207,6 @@ static int run_generated(paper *p, const size_t *sizes)
     return 0;
 }
 
-/* Run `visit` on each word of a list between commas. */
-typedef int visit_word(const char *word, void *self);
-static int each_word(const char *list, visit_word *visit, void *self)
-{
-    int end = 0;
-    for (bool more = true; more && end == 0;) {
-        size_t length = strcspn(list, ",");
-        char *word = strndup(list, length);
-        if (!word) return fail_memory();
-        end = visit(word, self);
-        free(word);
-        more = list[length] == ',';
-        list += length + more;
-    }
-    return end;
-}
-
 static const char *base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -251,34 +234,6 @@ static int check_file(const char *path, void *self)
     return end || !p->settings->plot ? end : files_check(p->settings->plot, &path, 1);
 }
 
-/* At least 10: four may be corners. */
-#define LEAST_SIZE 10
-#define MOST_SIZE 500000000
-
-typedef struct size_list {
-    size_t size[MOST_SIZES];
-    size_t count;
-} size_list;
-
-static int take_size(const char *word, void *self)
-{
-    size_list *list = self;
-    char *rest;
-    double size = strtod(word, &rest);
-    bool plain = *word && strspn(word, "0123456789e") == strlen(word) && !*rest;
-    if (!plain || !(size >= LEAST_SIZE && size <= MOST_SIZE) || size != floor(size)) {
-        complain("option '--sizes' wants numbers from %d to %d separated by commas, not '%s'", LEAST_SIZE, MOST_SIZE,
-                 word);
-        return END_USAGE;
-    }
-    if (list->count == MOST_SIZES) {
-        complain("option '--sizes' takes at most %d numbers", MOST_SIZES);
-        return END_USAGE;
-    }
-    list->size[list->count++] = (size_t)size;
-    return 0;
-}
-
 int bench_paper(const bench_settings *s, const char *name)
 {
     const paper_table *table = table_named(name);
@@ -286,12 +241,13 @@ int bench_paper(const bench_settings *s, const char *name)
     paper p = {.table = table, .settings = s, .queries = s->queries ? s->queries : 1000000};
     size_list sizes = {0};
     int end = paper_plot_check(s, table);
-    if (end == 0 && s->sizes) end = each_word(s->sizes, take_size, &sizes);
-    if (end == 0 && s->data) end = each_word(s->data, check_file, &p);
+    if (end == 0 && s->sizes) end = bench_sizes(s->sizes, &sizes);
+    if (end == 0 && s->data) end = bench_each_word(s->data, check_file, &p);
     if (end == 0) end = files_try_output(s->common.output, NULL);
     if (end == 0 && s->plot) end = files_try_output(s->plot, NULL);
     if (end == 0)
-        end = s->data ? each_word(s->data, run_file, &p) : run_generated(&p, s->sizes ? sizes.size : table->sizes);
+        end =
+            s->data ? bench_each_word(s->data, run_file, &p) : run_generated(&p, s->sizes ? sizes.size : table->sizes);
     if (end == 0 && s->plot) end = paper_plot(&p, s->plot);
     if (end == 0) {
         text t = {0};

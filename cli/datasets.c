@@ -23,8 +23,7 @@ static uint64_t next(uint64_t *random)
     return z ^ (z >> 31);
 }
 
-/* From 0 to below 1. */
-static double unit(uint64_t *random)
+double dataset_unit(uint64_t *random)
 {
     return (double)(next(random) >> 11) * 0x1p-53;
 }
@@ -32,7 +31,7 @@ static double unit(uint64_t *random)
 /* Two independent normal numbers [Box, Muller 1958]. */
 static void normal(double pair[2], uint64_t *random)
 {
-    double radius = sqrt(-2 * log(1 - unit(random))), angle = 2 * PI * unit(random);
+    double radius = sqrt(-2 * log(1 - dataset_unit(random))), angle = 2 * PI * dataset_unit(random);
     pair[0] = radius * cos(angle);
     pair[1] = radius * sin(angle);
 }
@@ -40,7 +39,7 @@ static void normal(double pair[2], uint64_t *random)
 void dataset_draw(const dataset *d, double *points, size_t n, uint64_t *random)
 {
     for (size_t i = 0; i < n; i++) {
-        double s = unit(random), t = unit(random);
+        double s = dataset_unit(random), t = dataset_unit(random);
         for (size_t k = 0; k < 2; k++) points[2 * i + k] = d->origin[k] + s * d->u[k] + t * d->v[k];
     }
 }
@@ -74,7 +73,7 @@ static bool in_unit_square(const double p[2])
 static void clusters(dataset *d, size_t n, uint64_t *random)
 {
     double centre[2 * CLUSTERS];
-    for (size_t i = 0; i < 2 * CLUSTERS; i++) centre[i] = unit(random);
+    for (size_t i = 0; i < 2 * CLUSTERS; i++) centre[i] = dataset_unit(random);
     for (size_t i = 0; i < n; i++) {
         double *p = d->points + 2 * i;
         do {
@@ -97,16 +96,16 @@ static void arcs(dataset *d, size_t n, uint64_t *random)
 {
     arc arc_of[ARCS];
     for (size_t i = 0; i < ARCS; i++) {
-        arc_of[i] = (arc){.centre = {unit(random), unit(random)}};
-        arc_of[i].radius = 0.05 + 0.25 * unit(random);
-        arc_of[i].begin = 2 * PI * unit(random);
-        arc_of[i].length = 2 * PI * (0.125 + 0.875 * unit(random));
+        arc_of[i] = (arc){.centre = {dataset_unit(random), dataset_unit(random)}};
+        arc_of[i].radius = 0.05 + 0.25 * dataset_unit(random);
+        arc_of[i].begin = 2 * PI * dataset_unit(random);
+        arc_of[i].length = 2 * PI * (0.125 + 0.875 * dataset_unit(random));
     }
     for (size_t i = 0; i < n; i++) {
         double *p = d->points + 2 * i;
         do {
             const arc *a = &arc_of[next(random) % ARCS];
-            double angle = a->begin + a->length * unit(random), off[2];
+            double angle = a->begin + a->length * dataset_unit(random), off[2];
             normal(off, random);
             double radius = a->radius + ARC_DEVIATION * off[0];
             p[0] = a->centre[0] + radius * cos(angle);

@@ -42,6 +42,9 @@ void dataset_bound(dataset *d, size_t n);
 /* Write the corners of the domain over the last four points. */
 void dataset_enclose(dataset *d);
 
+/* A number from 0 to below 1; *random is the seed first, and goes on from call to call. */
+double dataset_unit(uint64_t *random);
+
 /* n points uniform in the domain; *random goes on from call to call. */
 void dataset_draw(const dataset *d, double *points, size_t n, uint64_t *random);
 

@@ -6,8 +6,6 @@
 #include "measure.h"
 #include "text.h"
 
-#define MOST_SIZES 8
-
 typedef struct paper_table {
     const char *name, *title;
     const algorithm *algorithms[MOST_ALGORITHMS + 1]; /* NULL ends them */
