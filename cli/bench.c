@@ -120,8 +120,9 @@ const command bench_command = {
         "A1, A2, B1, B2, C1, C2 and E2, after the appendix of the thesis; E2 is also its Fig. 12. Counts are taken "
         "over all queries, on all threads; times are medians over 5 rounds of single queries on one thread, in plain "
         "doubles (time_us) and exact (time_exact_us).\n\n"
-        "'meshwalk bench near-vertices' locates points within 1e-15 of vertices, or one of the next doubles, in five "
-        "meshes: uniform points, a grid, points on circles, slivers, and uniform points far from the origin. It prints "
+        "'meshwalk bench near-vertices [SET]' locates points within 1e-15 of vertices, or one of the next doubles, in "
+        "five "
+        "meshes: uniform, grid, rings, slivers, offset, or in one of them. It prints "
         "for every walk and arithmetic how many of a million queries ran out of steps (cycles), and how many the "
         "celestial walk had to end (hand-overs).",
     .options = tables,

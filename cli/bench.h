@@ -30,8 +30,8 @@ typedef struct size_list {
 /* The numbers of --sizes. Complains; returns 0 or an exit code. */
 int bench_sizes(const char *list, size_list *sizes);
 
-/* The measurements: 'meshwalk bench WHAT [TABLE]'; table is NULL if none was given. Return the exit code. */
+/* The measurements: 'meshwalk bench WHAT [TABLE]'; the last is NULL if it was not given. Return the exit code. */
 int bench_paper(const bench_settings *s, const char *table);
-int bench_near(const bench_settings *s, const char *table);
+int bench_near(const bench_settings *s, const char *set);
 
 #endif

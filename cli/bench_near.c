@@ -10,6 +10,7 @@
 #include "files.h"
 #include "message.h"
 #include "progress.h"
+#include "spelling.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -73,6 +74,8 @@ static const struct {
     {"uniform", make_uniform}, {"grid", make_grid},     {"rings", make_rings},
     {"slivers", make_slivers}, {"offset", make_offset},
 };
+
+#define SETS (sizeof sets / sizeof *sets)
 
 /* --- the measurement --------------------------------------------------------------------------------------------- */
 
@@ -249,12 +252,8 @@ static int run_made(const bench_settings *settings, size_t i, size_t vertices, t
     return end;
 }
 
-static int check_settings(const bench_settings *s, const char *table)
+static int check_settings(const bench_settings *s)
 {
-    if (table) {
-        complain("bench near-vertices has no table, but '%s' was given", table);
-        return END_USAGE;
-    }
     if (s->format == FORMAT_JSON || s->plot || s->data || s->enclose != ENCLOSE_AUTO) {
         complain("bench near-vertices makes its own points and prints them with --format table or tsv");
         return END_USAGE;
@@ -262,17 +261,31 @@ static int check_settings(const bench_settings *s, const char *table)
     return 0;
 }
 
-int bench_near(const bench_settings *s, const char *table)
+/* The set of that name. Complains; returns SETS if there is none. */
+static size_t set_named(const char *name)
+{
+    spelling s = spelling_of(name);
+    for (size_t i = 0; i < SETS; i++) {
+        if (strcmp(sets[i].name, name) == 0) return i;
+        spelling_try(&s, sets[i].name);
+    }
+    spelling_complain(&s, "set", "");
+    return SETS;
+}
+
+int bench_near(const bench_settings *s, const char *set)
 {
     size_list sizes = {.size = {DEFAULT_VERTICES}, .count = 1};
     text t = {0};
-    int end = check_settings(s, table);
+    size_t only = set ? set_named(set) : 0;
+    int end = only == SETS ? END_USAGE : check_settings(s);
     if (end == 0 && s->sizes) end = bench_sizes(s->sizes, &sizes);
     if (end == 0 && s->format == FORMAT_TSV)
         text_string(&t, "dataset\tvertices\twalk\tarithmetic\tqueries\tcycles\thandovers\tcycles_per_million\t"
                         "handovers_per_million\n");
-    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
-        for (size_t k = 0; k < sizes.count && end == 0; k++) end = run_made(s, i, sizes.size[k], &t);
+    for (size_t i = 0; i < SETS; i++)
+        for (size_t k = 0; k < sizes.count && end == 0 && (!set || i == only); k++)
+            end = run_made(s, i, sizes.size[k], &t);
     if (end == 0) return files_write_text(s->common.output, &t);
     text_release(&t);
     return end;
