@@ -1,0 +1,152 @@
+#!/usr/bin/env bash
+# bench: each table has its rows, published numbers and ratios; wrong usage is refused; plots are written.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+header=$'table\tdataset\tvertices\talgorithm\tquantity\tours\tpublished\tratio'
+few=(--queries 100 --no-times --format tsv)
+
+# Every line has its columns, numbers where there should be some, and the ratio is that of the numbers.
+sound() { # sound LINES
+    holds "the first line names the columns" test "$(head -n 1 "$logs/out")" == "$header"
+    holds "there are $1 lines, not $(($(wc -l <"$logs/out") - 1))" test "$(wc -l <"$logs/out")" == $(($1 + 1))
+    local wrong
+    wrong=$(tail -n +2 "$logs/out" | awk -F '\t' '
+        function number(s) { return s ~ /^[0-9]+(\.[0-9]+)?$/ }
+        NF != 8 || !number($3) || !number($6) || ($7 != "" && !number($7)) { print; next }
+        ($7 == "" || $7 == 0) && $8 != "" { print; next }
+        $7 > 0 && ($8 - $6 / $7 > 0.001 || $6 / $7 - $8 > 0.001) { print }')
+    holds "wrong lines: $wrong" test -z "$wrong"
+}
+publishes() { # publishes SET VERTICES ALGORITHM QUANTITY VALUE
+    checks=$((checks + 1))
+    grep -Pq "^[A-E][12]\t$1\t$2\t$3\t$4\t[^\t]+\t$5\t" "$logs/out" || fail "$1 $2 $3 $4: $5 should be published"
+}
+ours() { # ours SET VERTICES ALGORITHM QUANTITY: what was measured
+    awk -F '\t' -v OFS='\t' -v key="$1 $2 $3 $4" '$2 " " $3 " " $4 " " $5 == key { print $6 }' "$logs/out"
+}
+# shellcheck disable=SC2317 # called by holds
+between() { awk -v a="$1" -v b="$2" -v c="$3" 'BEGIN { exit !(a <= b && b <= c) }'; }
+
+# Ten quantities a walk and set without times, twelve with them.
+run bench paper E2 --sizes 1e4 "${few[@]}"; exits 0; says_nothing; sound 70
+publishes uniform 10000 straight triangles_init 2.8
+publishes uniform 10000 straight triangles 105.5
+publishes uniform 10000 straight orient 210
+publishes uniform 10000 barycentric orient 309.6
+publishes uniform 10000 normal-straight implicit 213.2
+publishes uniform 10000 orthogonal comparisons 410.8
+publishes uniform 10000 orthogonal orient 3.5
+publishes uniform 10000 improved-orthogonal triangles_final 1.8
+run bench paper E2 --sizes 1e4 --queries 10 --format tsv; exits 0; sound 84
+publishes uniform 10000 stochastic time_us 7.4
+publishes uniform 10000 normal-straight time_exact_us 5.82
+
+run bench paper A1 --sizes 1e5 "${few[@]}"; exits 0; says_nothing; sound 200
+publishes uniform 100000 remembering triangles 377.8
+publishes uniform 100000 remembering implicit 0
+publishes uniform 100000 normal-straight orient_final 3.77
+publishes clusters 100000 straight orient 346.68
+run bench paper A2 --sizes 1e5 "${few[@]}"; exits 0; sound 50
+publishes uniform 100000 normal-straight triangles_final_max 10
+publishes clusters 100000 normal-straight triangles_final 3.23
+run bench paper B1 --sizes 1e4,1e5 "${few[@]}"; exits 0; sound 100
+publishes uniform 100000 hybrid comparisons 685.23
+publishes uniform 10000 stochastic triangles 115.19
+run bench paper b2 --sizes 1e4 "${few[@]}"; exits 0; sound 20
+publishes rectangle 10000 improved-orthogonal triangles_final 17.45
+publishes rectangle 10000 hybrid triangles 123.07
+run bench paper C1 --sizes 1e4 "${few[@]}"; exits 0; sound 70
+publishes uniform 10000 direct-dw1 orient 104.2
+publishes uniform 10000 direct-dw2 orient 207.4
+run bench paper C2 --sizes 100,1000,10000 "${few[@]}"; exits 0; sound 150
+publishes uniform 100 direct-dw2 orient 13.5
+publishes uniform 10000 improved-orthogonal comparisons 43.1
+publishes uniform 10000 remembering layers 3
+for n in 100 1000 10000; do
+    layers=$(ours uniform $n direct-dw1 layers)
+    holds "C2 has the layers of the table" test "$layers" == $((n < 10000 ? 2 : 3))
+done
+
+# The straight walk among uniform points, by the theory 64 / (3 pi^2) sqrt(n) 0.5214: 112.7 triangles.
+run bench paper C1 --sizes 1e4 --queries 20000 --no-times --format tsv; exits 0
+walked=$(ours uniform 10000 straight triangles)
+holds "the straight walk takes about 112.7 triangles, not $walked" between 109 "$walked" 116
+holds "stored areas save a test a triangle" \
+    between 0.9 "$(ours uniform 10000 direct-dw1 triangles)" "$(ours uniform 10000 direct-dw1 orient)"
+
+# Counts depend on the seed alone.
+run bench paper B1 --sizes 1e4 "${few[@]}" --threads 1; cp "$logs/out" one.tsv
+run bench paper B1 --sizes 1e4 "${few[@]}" --threads 2
+holds "the number of threads changes nothing" same_text one.tsv "$logs/out"
+run bench paper B1 --sizes 1e4 "${few[@]}" --seed 7
+holds "another seed changes something" test "$(<one.tsv)" != "$(<"$logs/out")"
+rm one.tsv
+
+# Other sizes and enclosures: nothing published for these sizes; four corners, or none.
+run bench paper B1 --sizes 500 "${few[@]}"; exits 0; sound 50
+holds "nothing is published for 500 vertices" test -z "$(tail -n +2 "$logs/out" | cut -f 7 | tr -d '\n')"
+for enclose in yes no; do run bench paper B2 --sizes 50,60 --enclose $enclose "${few[@]}"; exits 0; sound 40; done
+run bench paper A1 --sizes 10,11 "${few[@]}"; exits 0; sound 400
+
+# One's own data: points and meshes; named after the file; nothing published. Equal points count once, four corners more.
+printf '0 0\n4 0\n4 3\n0 3\n1 1\n1 1\n3 2\n2 1\n' >p.xyz
+printf '%s\n' "$square" >m.off
+run bench paper E2 --data p.xyz,./m.off "${few[@]}"; exits 0; says_nothing; sound 140
+holds "nothing is published for them" test -z "$(tail -n +2 "$logs/out" | cut -f 7 | tr -d '\n')"
+holds "both are named" test "$(tail -n +2 "$logs/out" | cut -f 2,3 | sort -u | tr '\n' ' ')" == $'m.off\t4 p.xyz\t7 '
+run bench paper C2 --data p.xyz "${few[@]}"; exits 0; sound 50
+run bench paper A1 --data "$source_tree/data/jacksboro.csv" --queries 50 --no-times; exits 0
+prints_line '^jacksboro.csv, 20000 vertices$'
+prints_line '^  stochastic +RSW  triangles +1\.[0-9]{3}  1\.092 to 1\.092$'
+run bench paper A1 --data absent.xyz "${few[@]}"; refused 3 'absent.xyz'
+printf '0 0\n1 1\n2 2\n' >line.xyz
+run bench paper A1 --data line.xyz "${few[@]}"; refused 3 'line.xyz'
+: >empty.xyz
+for enclose in yes no; do run bench paper A1 --data empty.xyz --enclose $enclose "${few[@]}"; refused 3 'empty.xyz'; done
+printf '0 0\n1 1\n2 nan\n0 1\n' >nan.xyz
+run bench paper E2 --data nan.xyz "${few[@]}"; refused 3 'nan.xyz.*2'
+
+# The other formats.
+run bench paper B2 --sizes 1e4 --queries 50; exits 0; says_nothing
+prints_line '^rectangle, 10000 vertices$'
+prints_line '^  hybrid +HW +comparisons +[0-9.]+ +245\.46 +[01]\.[0-9]{3}$'
+prints_line '^  improved-orthogonal IOW  triangles +1\.[0-9]+ +1\.279 +[01]\.[0-9]{3}$'
+run bench paper B2 --sizes 1e4 --queries 50 --format json -o b2.json; exits 0; prints ''
+holds "the figures are JSON" is_json b2.json
+holds "JSON has 24 figures" test "$(grep -c '"quantity"' b2.json)" == 24
+rm b2.json
+
+# Wrong usage, found before any work.
+run bench; refused 2 'wants WHAT \[TABLE\], not 0 arguments'
+run bench paper; refused 2 'which table\? A1, .*E2'
+run bench paper E3; refused 2 "unknown table 'E3'; did you mean 'E2'\?"
+run bench papre E2; refused 2 "unknown measurement 'papre'; did you mean 'paper'\?"
+run bench paper E2 E2; refused 2 'wants WHAT \[TABLE\], not 3 arguments'
+for sizes in '' ',' 9 '1e4,' 1.5e4 1e99 x -5 ' 100' 600000000 20,20,20,20,20,20,20,20,20; do
+    run bench paper E2 --sizes="$sizes"; refused 2 "'--sizes'"
+done
+run bench paper E2 --enclose maybe; refused 2 "unknown way to enclose 'maybe'"
+run bench paper E2 --format csv; refused 2 "unknown format 'csv'"
+run bench paper E2 --data p.xyz,; refused 2 "'--data' wants files"
+run bench paper E2 --data p.xyz -o p.xyz; refused 2 'choose another output'
+run bench paper E2 -o absent/e2.tsv; exits 4; says 'absent/e2.tsv'
+
+# Plots, where the program can draw.
+run bench paper E2 --plot e2.svg --no-times --sizes 1e4
+if grep -q 'without Cairo' "$logs/err"; then
+    refused 2 'without Cairo'
+else
+    refused 2 'shows times'
+    run bench paper E2 --plot e2.gif --sizes 1e4; refused 2 'e2.gif: .*\.svg, \.png or \.pdf'
+    run bench paper E2 --plot x.svg -o x.svg --sizes 1e4; refused 2 'x.svg: '
+    run bench paper E2 --plot absent/x.svg --sizes 1e4; exits 4; says 'absent/x.svg'
+    run bench paper E2 --plot e2.svg --sizes 1e4,2e4 --queries 20 -q; exits 0; says_nothing
+    holds "the plot is an SVG" grep -q '<svg' e2.svg
+    run bench paper A2 --plot a2.PNG --sizes 100 "${few[@]}"; exits 0
+    holds "the plot is a PNG" test "$(head -c 4 a2.PNG | tr -d '\211')" == PNG
+    run bench paper B2 --plot b2.pdf --data p.xyz,m.off "${few[@]}"; exits 0
+    holds "the plot is a PDF" test "$(head -c 4 b2.pdf)" == %PDF
+    rm e2.svg a2.PNG b2.pdf
+fi
+only_files p.xyz m.off line.xyz empty.xyz nan.xyz
+finish
