@@ -1,35 +1,36 @@
-/* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002, sec. 3.3; thesis App. E, sec. 7.1, Alg. 6].
+/* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002; thesis App. E, sec. 7.1, Alg. 6].
  *
- *                       * q           First turn round p, a vertex of the first tile, to the tile at p that the horizontal
- *                       :             line through p enters towards a, the point of that line below or above q: a
- *        l______l       :             comparison a tile. Then follow the line: with l and r the left and right ends of the
- *       /|     / \      :             edge just crossed and s the third vertex, the line leaves over rs where s lies to its
- *    p /_|____/___\ s...a             left, over sl otherwise: one comparison. Where both ends of that edge fall short of
- *      \ |   /    /                   a, so does the edge: two comparisons; elsewhere orient2d of the edge and a tells. In
- *       \|__/____/                    the tile that holds a turn, and follow the vertical line to q in the same way.
- *        r
+ *          l          * q    First turn round p, a vertex of the first tile, to the tile at p that the horizontal line
+ *         /|\         :      through p enters on its way to a, the point above or below q: a comparison a tile. Then
+ *        / | \ s      :      follow the line: with l and r the left and right ends of the edge just crossed and s the
+ *    p ....|...\......a      third vertex, it leaves over rs where s lies to its left, over sl else: one comparison.
+ *        \ | /               While both ends of that edge fall short of a, a lies beyond it: two comparisons; then
+ *         \|/                orient2d of the edge and a tells. In the tile that holds a, turn, and follow the vertical
+ *          r                 line to q in the same way.
  * Departures from the printed pseudocode.
- *   Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes on where a is inside.
+ *   Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes on where a is
+ *   inside.
  *   The turn: printed, it looks at one end of the exit edge. Here the sides of all three vertices are compared with the
  *   vertical line; it leaves over the edge that runs from right to left. This covers every case of l and r.
  *   The other directions, "analogous" in print, are the same code in turned coordinates: axis.h.
- *   Leaving the hull, only told in the text. First, q may lie beyond the hull edge itself: then it is outside, by an exact
- *   test. Else a horizontal leg is followed by a vertical one along another line, through an inner point of the tile
- *   (between its centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from there, from
- *   the vertex nearest to q. In a thin hull askew to the axes all this does not help; so after RESTARTS it is left to an
- *   exact walk.
+ *   Leaving the hull, only told in the text. First, q may lie beyond the hull edge itself: then it is outside, by an
+ *   exact test. Else a horizontal leg is followed by a vertical one along another line, through an inner point of the
+ *   tile (between its centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from
+ *   there, from the vertex nearest to q. In a thin hull askew to the axes all this does not help; so after RESTARTS it
+ *   is left to an exact walk.
  * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical leg, from p. q at the
  * height of p: a is q, and the horizontal leg finds it. A vertex on the line of a leg counts as right of it, but where
  * the walk turns to the right, as left (turn_upright). p on the hull: where the turn meets the hull first, the line
  * points out of the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
  * MW_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right, the walk follows a
- * line moved by next to nothing, so every tile has points of it inside, and its part of the true line runs from the entry
- * edge, or p, to the exit edge. What the leg looks for lies ahead of p; then ahead of each entry edge, since it was
- * beyond that; so it is in the tile unless it is beyond the exit edge. A leg ahead of a in the tile that holds a begins
- * likewise, the tile having points just before the vertical line. Legs along another line find nothing, they only lead
+ * line moved by next to nothing, so every tile has points of it inside, and its part of the true line runs from the
+ * entry edge, or p, to the exit edge. What the leg looks for lies ahead of p; then ahead of each entry edge, since it
+ * was beyond that; so it is in the tile unless it is beyond the exit edge. The vertical leg begins likewise in the tile
+ * that holds a, which has points just before the vertical line. Legs along another line find nothing, they only lead
  * nearer.
  * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point where a leg's line
- * leaves the tile comes on with each step; and there are at most 3 (RESTARTS + 1) legs. A tile may come once in each. */
+ * leaves the tile comes on with each step; and there are at most 2 (RESTARTS + 1) legs. Each meets a
+ * tile once at most. */
 #include "walk/axis.h"
 #include "walk/drive.h"
 
@@ -100,8 +101,8 @@ static MW_INLINE mw_verdict arrive(mw_walk *w, mw_policy P)
 static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_point r = corner(w, e), l = corner(w, e + 1);
-    bool near = is_past(w, r, P) | is_past(w, l, P);
-    if (MW_UNLIKELY(near) && orient(w, r, l, aim(w), P) >= 0) return arrive(w, P);
+    bool r_past = is_past(w, r, P), l_past = is_past(w, l, P);
+    if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, aim(w), P) >= 0) return arrive(w, P);
     return cross_or_detour(w, e, P);
 }
 
