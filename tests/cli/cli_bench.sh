@@ -132,12 +132,12 @@ run bench paper E2 --data p.xyz -o p.xyz; refused 2 'choose another output'
 run bench paper E2 -o absent/e2.tsv; exits 4; says 'absent/e2.tsv'
 
 # Plots, where the program can draw.
-run bench paper E2 --plot e2.svg --no-times --sizes 1e4
+run bench paper B2 --plot b2.gif
 if grep -q 'without Cairo' "$logs/err"; then
     refused 2 'without Cairo'
 else
-    refused 2 'shows times'
-    run bench paper E2 --plot e2.gif --sizes 1e4; refused 2 'e2.gif: .*\.svg, \.png or \.pdf'
+    refused 2 'b2.gif: .*\.svg, \.png or \.pdf'
+    run bench paper E2 --plot e2.svg --no-times; refused 2 'shows times'
     run bench paper E2 --plot x.svg -o x.svg --sizes 1e4; refused 2 'x.svg: '
     run bench paper E2 --plot absent/x.svg --sizes 1e4; exits 4; says 'absent/x.svg'
     run bench paper E2 --plot e2.svg --sizes 1e4,2e4 --queries 20 -q; exits 0; says_nothing
