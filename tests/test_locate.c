@@ -239,6 +239,7 @@ static void test_bad_points(void **state)
             compare(&at[i], &want, q + 2 * i, "odd points");
         }
     }
+    starts_close(index);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     arrays_free(&a);
