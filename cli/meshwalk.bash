@@ -25,7 +25,10 @@ _meshwalk_names() {
             fi
             ;;
         --enclose) echo 'auto yes no' ;;
-        --walk) echo 'auto lawson remembering stochastic straight normal-straight hybrid celestial' ;;
+        --walk)
+            echo 'auto lawson remembering stochastic fast-stochastic barycentric direct straight normal-straight'
+            echo 'orthogonal improved-orthogonal hybrid celestial'
+            ;;
         --start) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
         --arithmetic) echo 'exact double' ;;
         --finish) echo 'auto remembering stochastic' ;;

@@ -145,6 +145,13 @@ static void fill(layout *to, const mw_tiling *from)
     }
 }
 
+static double double_area(mw_point a, mw_point b, mw_point c)
+{
+    double bound, area = mw__orient2d_rounded(a, b, c, &bound);
+    if (MW_UNLIKELY(!(MW_AREA_ERROR / 2 * area > bound))) area = mw__orient2d_exact(a, b, c);
+    return area < DBL_MAX ? area : INFINITY;
+}
+
 mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error)
 {
     const mw_point *p = tiling->point;
@@ -152,7 +159,7 @@ mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error)
     if (!tiling->area) return mw__fail_memory(error);
     for (uint32_t t = 0; t < tiling->tri_count; t++) {
         const uint32_t *v = tiling->tri[t].v;
-        tiling->area[t] = mw__orient2d(p[v[0]], p[v[1]], p[v[2]]);
+        tiling->area[t] = double_area(p[v[0]], p[v[1]], p[v[2]]);
     }
     return MW_OK;
 }

@@ -17,7 +17,7 @@
 typedef struct mw_tiling {
     mw_point *point;
     mw_triangle *tri;
-    double *area;    /* per tile, twice its area, rounded; NULL unless asked for (mw__tiling_areas); always owned */
+    double *area;    /* per tile, twice its area, see mw__tiling_areas; NULL unless asked for; always owned      */
     uint32_t *owner; /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned */
     uint32_t point_count, tri_count, ghost_count, hole_count;
     bool borrowed;    /* point and tri belong to the mesh               */
@@ -34,7 +34,9 @@ mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw
 void mw__tiling_release(mw_tiling *tiling);
 size_t mw__tiling_bytes(const mw_tiling *tiling); /* what it owns */
 
-/* Compute the areas. MW_ERROR_MEMORY. Not before the tiles have their final order. */
+/* Compute the areas: rounded, thin tiles included, with a relative error below MW_AREA_ERROR, and below the smallest
+ * normal number; infinite above the doubles. MW_ERROR_MEMORY. Not before the tiles have their final order. */
+#define MW_AREA_ERROR 0x1p-43
 mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error);
 
 /* Lay out tiles and vertices along a Hilbert curve; a borrowed tiling becomes a copy. */

@@ -50,6 +50,14 @@ static mw_walk_kind choose_walk(const mw_tiling *tiling)
     return failing * FEW > edges ? MW_WALK_CELESTIAL : MW_WALK_REMEMBERING;
 }
 
+/* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean length 32 / (9 pi)
+ * [Miles 1970], and a line crosses 2 / pi of their length: 64 / (3 pi^2) edges per unit of its own. */
+static double expect_pace(uint32_t tiles, double width, double height)
+{
+    static const double crossings = 2.1615;
+    return crossings * sqrt(tiles / 2.0) / sqrt(width) / sqrt(height);
+}
+
 static mw_status prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
     mw_tiling *tiling = &locator->tiling;
@@ -76,6 +84,7 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
     locator->centre = mw__start_centre(tiling, locator->low, locator->high);
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
+    locator->pace = expect_pace(tiling->tri_count, width, height);
     return MW_OK;
 }
 

@@ -145,7 +145,7 @@ static void add_work(mw_work *sum, const mw_work *more)
     sum->comparisons += more->comparisons;
 }
 
-mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
+static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
 {
     const mw_tiling *tiling = &locator->tiling;
     if (!cursor->index) {
@@ -156,6 +156,28 @@ mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point 
     uint32_t t = mw__index_first(tiling, cursor, q, random, &work);
     mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random));
     if (cursor->count) add_work(&walk.work, &work);
+    return walk;
+}
+
+/* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed by the line to q, by
+ * expectation. They come on top of the fuel. On Delaunay meshes of 10^3 to 10^6 random points, from random tiles, the
+ * tests are within 1.1 % of the fewest that any multiple of the estimate makes, and hardly a tile is visited in vain.
+ * For 10^5 points, where the stochastic walk visits 383.0 tiles with 494.5 tests, multiples give
+ *   times    0.5    0.8    0.9    0.95   1      1.03   1.05   1.1
+ *   tiles    383.4  383.4  383.4  383.5  383.7  384.7  386.4  397.8
+ *   tests    444.4  413.8  403.4  398.3  393.3  391.3  391.4  400.7 */
+static void allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t given)
+{
+    mw_point p = walk->point[walk->tri[walk->t].v[0]];
+    double steps = locator->pace * hypot(walk->q.x - p.x, walk->q.y - p.y);
+    walk->steps = given ? given : (uint32_t)fmin(steps, walk->fuel);
+    walk->fuel = walk->steps < UINT32_MAX - walk->fuel ? walk->fuel + walk->steps : UINT32_MAX;
+}
+
+mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
+{
+    mw_walk walk = begin(locator, cursor, q, random);
+    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) allow_steps(&walk, locator, cursor->steps);
     return walk;
 }
 

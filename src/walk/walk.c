@@ -48,8 +48,7 @@ mw_walk_kind mw_walk_by_name(const char *name)
 
 const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling)
 {
-    (void)tiling;
-    return kernels[kind];
+    return kind == MW_WALK_DIRECT && tiling->area ? &mw__direct_stored : kernels[kind];
 }
 
 mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,

@@ -63,6 +63,7 @@ typedef struct mw_kernels {
 
 #define MW_WALK_ENTRY(id, symbol, name, source, help) extern const mw_kernels mw__##symbol;
 #include <meshwalk/walks.def>
+extern const mw_kernels mw__direct_stored; /* the direct walk where areas are stored */
 
 /* The kernels of a walk on this tiling; not for MW_WALK_AUTO. */
 const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling);

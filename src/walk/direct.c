@@ -1,0 +1,70 @@
+/* direct.c - the direct walk [thesis App. C, Alg. 1], with stored areas (DW1) or without (DW2).
+ *
+ *          t2            The barycentric walk without division: the orientation coordinate c_i of q is twice the area
+ *         /  `           that it makes with the edge opposite to t_i, and c0 + c1 + c2 = 2A. Of these three the one
+ *        /    `   * q    of the edge just crossed is known from the tile before, with the opposite sign; the next
+ *      t0------t1        one is tested, and the last is 2A less both. One test a tile where 2A is stored, else two;
+ *                        one more in the first tile.
+ *
+ * The walk of the paper also takes clockwise tiles, but its printed pseudocode fails there, because it passes on
+ * coordinates that it has flipped (slip 5). It has to keep all of them normalised: the known one always -c, the tested
+ * one sgn(A) times the test, and the last one |2A| less both. Here sgn(A) is 1: the mesh turns clockwise triangles when
+ * it is created, so that all tiles are counter-clockwise.
+ * Another departure: coordinates are rounded, and what is derived from them takes the errors of all tiles before along.
+ * In exact arithmetic an edge is crossed only where its coordinate is surely negative, and that coordinate is passed on
+ * with the most by which it may be off added. So what is known in the next tile is a lower bound, what is derived from
+ * it an upper one, and a negative one is sure again. Where no coordinate is, q is in the tile or all but in it, and the
+ * exact final location ends the walk.
+ * Ends and cycles as the barycentric walk does. */
+#include "walk/drive.h"
+#include "walk/value.h"
+
+static MW_INLINE double side(mw_walk *w, uint32_t e, double *off, mw_policy P)
+{
+    return value(w, corner(w, e), corner(w, e + 1), w->q, off, P);
+}
+
+/* Twice the area of the tile. */
+static MW_INLINE double double_area(mw_walk *w, bool stored, double *off, mw_policy P)
+{
+    if (!stored) return value(w, corner(w, 0), corner(w, 1), corner(w, 2), off, P);
+    double area = w->area[w->t];
+    if (P.exact) *off += MW_AREA_ERROR * area;
+    return area;
+}
+
+static MW_INLINE mw_verdict step(mw_walk *w, bool stored, mw_policy P)
+{
+    double off = 0;
+    bool first = w->e == MW_NO_EDGE;
+    uint32_t e = first ? 0 : w->e, next = mw__next(e);
+    double known = first ? side(w, 0, &off, P) : w->c;
+    double tested = side(w, next, &off, P);
+    double area = double_area(w, stored, &off, P);
+    double last = area - known - tested;
+    off += rounding(area, known, tested, P);
+    bool turn = last < tested;
+    double least = turn ? last : tested;
+    uint32_t out = turn ? mw__prev(e) : next;
+    if (MW_UNLIKELY(known < least)) { /* in the first tile; later what is known is positive */
+        least = known;
+        out = e;
+    }
+    least += off;
+    if (!(least < 0)) return MW_CLOSE;
+    w->c = -least;
+    return cross(w, out, P);
+}
+
+static MW_INLINE mw_verdict direct_step(mw_walk *w, mw_policy P)
+{
+    return step(w, false, P);
+}
+
+static MW_INLINE mw_verdict direct_stored_step(mw_walk *w, mw_policy P)
+{
+    return step(w, true, P);
+}
+
+MW_STAMP_WALK(direct, false)
+MW_STAMP_WALK(direct_stored, false)
