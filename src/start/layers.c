@@ -212,12 +212,11 @@ void mw__layers_describe(const mw_layers *layers, uint32_t vertices[MW_MAX_LAYER
 
 /* --- the search -------------------------------------------------------------------------------------------------- */
 
-/* Does the walk know the orientation coordinates of q in the tile where it ends? Such a walk goes on wherever one of
- * them is negative, so that its tile is good enough to go down from. */
+/* Does the walk know the orientation coordinates of q in the tile where it ends? None of them is surely negative there,
+ * so that the tile is good enough to go down from, without the final location. */
 static bool has_coordinates(mw_walk_kind walk)
 {
-    (void)walk;
-    return false;
+    return walk == MW_WALK_DIRECT || walk == MW_WALK_BARYCENTRIC;
 }
 
 /* Let a walk that begins count from *work on. */

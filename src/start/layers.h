@@ -48,7 +48,8 @@ typedef struct mw_layer_walk {
 } mw_layer_walk;
 
 /* The tile at which a walk to q begins in the mesh. With how->count, what the walks in the layers did is added to *work
- * (else NULL will do). A layer in which a walk ran out of steps is left where it stopped. */
+ * (else NULL will do). A layer in which a walk ran out of steps is left where it stopped. The fast stochastic walk makes no
+ * steps with one test: the walks are short. */
 uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
                           mw_work *work);
 
