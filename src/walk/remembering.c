@@ -1,7 +1,8 @@
 /* remembering.c - the remembering walk [Devillers, Pion, Teillaud 2002, sec. 3.2; thesis App. A, sec. 2].
  *
- * Lawson's walk that remembers the edge it came by: q cannot lie beyond it, so at most two tests a tile. In the first
- * tile, where no edge was crossed, all three. Ends and cycles as Lawson's walk does. */
+ * Lawson's walk that remembers the edge it came by: q cannot lie beyond it, so at most two tests a tile, in the order in
+ * which the tile lists its edges. In the first tile, where no edge was crossed, all three. It goes the way of Lawson's
+ * walk, and ends and cycles as that does. */
 #include "walk/drive.h"
 
 static MW_INLINE mw_verdict remembering_step(mw_walk *w, mw_policy P)
@@ -10,7 +11,7 @@ static MW_INLINE mw_verdict remembering_step(mw_walk *w, mw_policy P)
         if (beyond(w, 0, P)) return cross(w, 0, P);
         w->e = 0; /* as if entered there: the rest is the same */
     }
-    return leave_either(w, mw__next(w->e), mw__prev(w->e), P);
+    return leave_either(w, w->e == 0 ? 1 : 0, w->e == 2 ? 1 : 2, P);
 }
 
 MW_STAMP_WALK(remembering, false)
