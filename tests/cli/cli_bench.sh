@@ -148,5 +148,20 @@ else
     holds "the plot is a PDF" test "$(head -c 4 b2.pdf)" == %PDF
     rm e2.svg a2.PNG b2.pdf
 fi
+
+# Near vertices: 13 walks in two arithmetics; in exact arithmetic none of them is ever caught.
+run bench near-vertices --sizes 1000 --queries 2000 --format tsv -o near.tsv; exits 0; says_nothing
+holds "five sets of 26 rows" test "$(tail -n +2 near.tsv | cut -f 1 | uniq -c | awk '$1 == 26' | wc -l)" == 5
+holds "each row has nine cells" test "$(awk -F '\t' 'NF != 9' near.tsv | wc -l)" == 0
+holds "in exact arithmetic no cycle, no hand-over" \
+    test "$(awk -F '\t' '$4 == "exact" && ($6 != 0 || $7 != 0)' near.tsv | wc -l)" == 0
+holds "in doubles there are some" test "$(awk -F '\t' '$4 == "double" { n += $7 } END { print (n > 0) }' near.tsv)" == 1
+run bench near-vertices rings --sizes 1000,2000 --queries 100 --format tsv -o near.tsv; exits 0
+holds "one set, two sizes" test "$(cut -f 1,2 near.tsv | sort -u | wc -l)" == 3
+run bench near-vertices uniform --sizes 1000 --queries 100; exits 0; prints_line '^  celestial +exact +0 +0$'
+run bench near-vertices ring; refused 2 "unknown set 'ring'; did you mean 'rings'\?"
+run bench near-vertices --sizes x; refused 2 "'--sizes'"
+run bench near-vertices --data p.xyz; refused 2 'makes its own points'
+rm near.tsv
 only_files p.xyz m.off line.xyz empty.xyz nan.xyz
 finish
