@@ -314,8 +314,8 @@ static void test_any_scale(void **state)
         mw_query_options options = {
             .walk = line_walks[walk], .start = MW_START_RANDOM, .finish = MW_WALK_STOCHASTIC, .count = 1};
         mw_counters want = {0};
-        for (int k = 0; k < 5; k++) {
-            const int exponent = (int[]){0, 300, 900, -300, -900}[k];
+        for (int k = 0; k < 6; k++) {
+            const int exponent = (int[]){0, 300, 900, -300, -900, -1040}[k];
             uint64_t same = 7;
             arrays scaled = grid_mesh(12, 0.4, &same);
             mw_counters got;

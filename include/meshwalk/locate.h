@@ -29,7 +29,8 @@ typedef enum mw_start_kind {
     MW_START_COUNT
 } mw_start_kind;
 
-/* How a walk decides its turns. The final triangle is decided exactly in either case; MW_DOUBLE is for measuring. */
+/* How a walk decides its turns; some find their way in doubles in either case. The final triangle is decided exactly in
+ * either case; MW_DOUBLE is for measuring. */
 typedef enum mw_arithmetic { MW_EXACT = 0, MW_DOUBLE } mw_arithmetic;
 
 /* Names as on the command line ("straight", "sorted", "auto"); NULL for a number that is no walk or start. */
@@ -150,7 +151,7 @@ typedef struct mw_query_options {
     mw_walk_kind finish;   /* the final location of the walks whose own tests are only a guide: MW_WALK_REMEMBERING or
                             MW_WALK_STOCHASTIC; 0 = remembering where a look at edges finds the mesh Delaunay            */
     uint64_t seed;         /* for everything random; answers do not depend on it                                  */
-    uint32_t sample;       /* MW_START_SAMPLE: number of triangles looked at, or one of the rules below           */
+    uint32_t sample;       /* MW_START_SAMPLE: triangles looked at, at most all; or one of the rules below        */
     uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: steps with one test, at most 4096 + 45
                             sqrt(triangles); 0 = estimate by distance and density                       */
     uint32_t threads;      /* batches: 0 = what OpenMP gives                                                      */
@@ -166,8 +167,8 @@ typedef struct mw_query_options {
 #define MW_SAMPLE_FOURTH_ROOT UINT32_MAX /* 2 times the fourth root of it                                         */
 
 /* What the walks did, summed over queries; filled where options.count says so. A search has up to three stages:
- * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks. Each stage
- * counts the triangle it begins in, so the sum of the three counts that one twice; triangles_visited counts it once.
+ * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks. Each beginning
+ * of a stage counts the triangle it begins in again; triangles_visited counts each entry once.
  * Layers (MW_START_LAYERS) are counted like the mesh itself. Independent of threads; where queries begin at the one
  * before (last, sorted, auto), they depend on lanes. */
 typedef struct mw_counters {
@@ -180,10 +181,8 @@ typedef struct mw_counters {
                                                    answer's three are not counted                                      */
     uint64_t implicit;    /* positions of a point by the equation of a line                                  */
     uint64_t comparisons; /* comparisons of coordinates                                                      */
-    uint64_t cycles;      /* walks that ran out of steps                                                     */
-    uint64_t
-        handovers; /* walks that did, or in doubles ended in a wrong triangle: the celestial walk ended them in exact
-                             arithmetic                                                                      */
+    uint64_t cycles;      /* walks that ran out of steps: in a cycle or, in a long thin mesh, on a long way  */
+    uint64_t handovers;   /* walks that the celestial walk ended: those, and such as in doubles ended wrongly */
 } mw_counters;
 
 /* Add `more` to `sum`: for the cursors of several threads. */

@@ -35,10 +35,12 @@ static bool fails_circle(const mw_tiling *tiling, const mw_triangle *tile, uint3
 
 /* The remembering walk is the cheapest, but may go round in cycles where edges are not Delaunay, and hands over only when
  * its fuel is used up. The celestial walk costs more on long walks, little more on short ones. A look at the edges of a
- * few tiles is enough to choose by. */
-static mw_walk_kind choose_walk(const mw_tiling *tiling)
+ * few tiles is enough to choose by. To end the cheap walks remembering is taken only where not one edge failed: the
+ * stochastic walk costs hardly more. */
+static void choose_walks(mw_locator *locator)
 {
     enum { PROBES = 1024, FEW = 50 }; /* one edge in FEW may fail */
+    const mw_tiling *tiling = &locator->tiling;
     uint32_t edges = 0, failing = 0, stride = tiling->tri_count / PROBES + 1;
     for (uint32_t t = 0; t < tiling->tri_count; t += stride)
         for (uint32_t k = 0; k < 3; k++) {
@@ -47,7 +49,8 @@ static mw_walk_kind choose_walk(const mw_tiling *tiling)
             edges++;
             failing += fails_circle(tiling, &tiling->tri[t], link);
         }
-    return failing * FEW > edges ? MW_WALK_CELESTIAL : MW_WALK_REMEMBERING;
+    locator->auto_walk = failing * FEW > edges ? MW_WALK_CELESTIAL : MW_WALK_REMEMBERING;
+    locator->finish = failing == 0 ? MW_WALK_REMEMBERING : MW_WALK_STOCHASTIC;
 }
 
 /* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean length 32 / (9 pi)
@@ -79,8 +82,7 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
         locator->has_border = true;
     }
     mw__extent(tiling->point, tiling->tri, tiling->tri_count, locator->low, locator->high);
-    locator->auto_walk = choose_walk(tiling);
-    locator->finish = locator->auto_walk == MW_WALK_REMEMBERING ? MW_WALK_REMEMBERING : MW_WALK_STOCHASTIC;
+    choose_walks(locator);
     locator->centre = mw__start_centre(tiling, locator->low, locator->high);
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;

@@ -22,5 +22,5 @@ uint32_t mw__sample_count(const mw_tiling *tiling, uint32_t sample)
 {
     if (sample == MW_SAMPLE_CUBE_ROOT) return (uint32_t)ceil(cbrt(tiling->tri_count));
     if (sample == MW_SAMPLE_FOURTH_ROOT) return (uint32_t)ceil(2 * sqrt(sqrt(tiling->tri_count)));
-    return sample < tiling->tri_count ? sample : tiling->tri_count; /* more find no nearer one */
+    return sample < tiling->tri_count ? sample : tiling->tri_count; /* a query must end soon */
 }

@@ -49,8 +49,9 @@ static MW_INLINE mw_point apex(const mw_walk *w, uint32_t e)
 }
 
 /* The cheap walks that follow a line from p to q place vertices by its direction d, in plain doubles. Set it; a very long
- * or short one is scaled by a power of two, so that products with it hardly over- or underflow. False where there is no
- * line: q is at p, or d is too long for doubles. */
+ * or short one is scaled by a power of two, so that products with differences of the same size are about 1 or, of long
+ * ones, of that size: they hardly over- or underflow. False where there is no line: q is at p, or d is too long for
+ * doubles. */
 static MW_INLINE bool set_direction(mw_walk *w, double x, double y)
 {
     double length = fabs(x) + fabs(y);
@@ -58,8 +59,9 @@ static MW_INLINE bool set_direction(mw_walk *w, double x, double y)
         if (!(length > 0 && length <= DBL_MAX)) return false;
         int exponent;
         frexp(length, &exponent);
-        x = ldexp(x, -exponent);
-        y = ldexp(y, -exponent);
+        int shift = exponent > 0 ? -exponent : exponent > -1000 ? -2 * exponent : 1000 - exponent;
+        x = ldexp(x, shift);
+        y = ldexp(y, shift);
     }
     w->d = (mw_point){x, y};
     return true;
