@@ -63,6 +63,15 @@ static void row_of_choices(text *t, const choices *c)
     text_release(&row);
 }
 
+static size_t longest_name(const choices *c)
+{
+    size_t longest = 0;
+    const char *name;
+    for (int i = 0; (name = c->name(i)); i++)
+        if (strlen(name) > longest) longest = strlen(name);
+    return longest;
+}
+
 static void help_of_choices(text *t, const choices *c)
 {
     if (!c->help) {
@@ -70,15 +79,15 @@ static void help_of_choices(text *t, const choices *c)
         return;
     }
     const char *name;
+    size_t indent = HELP_COLUMN + 4 + longest_name(c);
     for (int i = 0; (name = c->name(i)); i++) {
         const char *help = c->help(i);
         if (!help) continue;
         blanks(t, HELP_COLUMN + 2);
         text_string(t, name);
         size_t column = HELP_COLUMN + 2 + strlen(name);
-        size_t indent = HELP_COLUMN + 16;
-        blanks(t, column < indent ? indent - column : 1);
-        wrap_from(t, help, column < indent ? indent : column + 1, indent);
+        blanks(t, indent - column);
+        wrap_from(t, help, indent, indent);
     }
 }
 

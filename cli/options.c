@@ -15,7 +15,7 @@ const option common_options[] = {
     {"threads", 0, OPTION_COUNT, offsetof(common_settings, threads), "N",
      "use at most N threads (default: 0, all); results do not depend on it", NULL},
     {"seed", 0, OPTION_SEED, offsetof(common_settings, seed), "S",
-     "seed of everything random (default: 0); results do not depend on it", NULL},
+     "seed of everything random (default: 0); where a point lies does not depend on it", NULL},
     {"quiet", 'q', OPTION_FLAG, offsetof(common_settings, quiet), NULL, "no progress, no warnings, no remarks", NULL},
     {"help", 'h', OPTION_FLAG, offsetof(common_settings, help), NULL, "print this help", NULL},
     {0},
