@@ -63,7 +63,8 @@ typedef struct mw_location {
                           vertices off the edge the point is on; for MW_NEAR, of the nearest point; else NaN        */
     uint32_t triangle; /* the caller's number, or MW_NONE                                                           */
     uint32_t hole;     /* MW_IN_HOLE and MW_NEAR in a hole: number of the hole; else MW_NONE. Holes are numbered from 0
-                          in the order of the lowest-numbered triangle beside each                                  */
+                          in the order of the lowest-numbered triangle beside each; of several beside the same
+                          triangle the order depends on the mesh only                                                */
     uint8_t where;     /* mw_where                                                                                  */
     uint8_t local;     /* MW_ON_EDGE and MW_NEAR: local edge; MW_ON_VERTEX: local vertex; else 255                  */
     uint16_t reserved;
@@ -172,7 +173,7 @@ typedef struct mw_query_options {
  * Layers (MW_START_LAYERS) are counted like the mesh itself. Independent of threads; where queries begin at the one
  * before (last, sorted, auto), they depend on lanes. */
 typedef struct mw_counters {
-    uint64_t queries;
+    uint64_t queries;           /* walks: points that are not finite are not counted */
     uint64_t triangles_visited; /* triangles entered, the first one included   */
     uint64_t triangles_max;     /* most of them by one query                   */
     uint64_t triangles_init, triangles, triangles_final;
