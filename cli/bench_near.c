@@ -258,6 +258,10 @@ static int check_settings(const bench_settings *s)
         complain("bench near-vertices makes its own points and prints them with --format table or tsv");
         return END_USAGE;
     }
+    if (s->no_times) {
+        complain("bench near-vertices takes no times: leave out --no-times");
+        return END_USAGE;
+    }
     return 0;
 }
 
@@ -280,6 +284,7 @@ int bench_near(const bench_settings *s, const char *set)
     size_t only = set ? set_named(set) : 0;
     int end = only == SETS ? END_USAGE : check_settings(s);
     if (end == 0 && s->sizes) end = bench_sizes(s->sizes, &sizes);
+    if (end == 0) end = files_try_output(s->common.output, NULL);
     if (end == 0 && s->format == FORMAT_TSV)
         text_string(&t, "dataset\tvertices\twalk\tarithmetic\tqueries\tcycles\thandovers\tcycles_per_million\t"
                         "handovers_per_million\n");

@@ -162,6 +162,8 @@ run bench near-vertices uniform --sizes 1000 --queries 100; exits 0; prints_line
 run bench near-vertices ring; refused 2 "unknown set 'ring'; did you mean 'rings'\?"
 run bench near-vertices --sizes x; refused 2 "'--sizes'"
 run bench near-vertices --data p.xyz; refused 2 'makes its own points'
+run bench near-vertices --no-times; refused 2 'leave out --no-times'
+run bench near-vertices --sizes 1e8 -o absent/near.tsv; exits 4; says 'absent/near.tsv'
 rm near.tsv
 only_files p.xyz m.off line.xyz empty.xyz nan.xyz
 finish
