@@ -41,13 +41,18 @@ static bool stat_form(const char *path, bool output, int form, struct stat *s)
 }
 
 /* Devices and pipes may well be read and written at a time. */
+static bool is_one_file(const struct stat *a, const struct stat *b)
+{
+    return S_ISREG(a->st_mode) && a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
 static bool same_file(const char *output, const char *input)
 {
     for (int i = 0; i < OUTPUT_FORM_COUNT; i++)
         for (int j = 0; j < FORM_COUNT; j++) {
             struct stat a, b;
             if (!stat_form(output, true, i, &a) || !stat_form(input, false, j, &b)) continue;
-            if (S_ISREG(a.st_mode) && a.st_dev == b.st_dev && a.st_ino == b.st_ino) return true;
+            if (is_one_file(&a, &b)) return true;
         }
     return false;
 }
@@ -64,6 +69,32 @@ int files_check(const char *output, const char *const *inputs, int count)
     if (streams <= 1) return 0;
     complain("standard input ('-') can be read once only");
     return END_USAGE;
+}
+
+static const char *name_in_directory(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static bool stat_directory(const char *path, struct stat *s)
+{
+    char directory[4096];
+    int length = (int)(name_in_directory(path) - path);
+    if (strlen(path) >= sizeof directory) return false;
+    snprintf(directory, sizeof directory, "%.*s", length ? length : 1, length ? path : ".");
+    return stat(directory, s) == 0;
+}
+
+bool files_same_output(const char *one, const char *other)
+{
+    struct stat a, b;
+    bool exists = stat_form(one, true, 0, &a);
+    if (exists != stat_form(other, true, 0, &b)) return false;
+    if (exists) return is_one_file(&a, &b);
+    if (files_is_stream(one) || files_is_stream(other)) return false;
+    return strcmp(name_in_directory(one), name_in_directory(other)) == 0 && stat_directory(one, &a) &&
+           stat_directory(other, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 /* Does the file read as points? */

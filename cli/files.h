@@ -13,6 +13,9 @@ bool files_is_stream(const char *path);
  * returns END_USAGE. Also refuses to read standard input twice. Returns 0 if all is well. */
 int files_check(const char *output, const char *const *inputs, int count);
 
+/* Would two outputs be one file, also by another name of its directory, or through a link? They need not exist yet. */
+bool files_same_output(const char *one, const char *other);
+
 /* Read a mesh, complaining about what is wrong with it. Returns 0 or an exit code. */
 int files_read_mesh(const char *path, mw_mesh_file *file);
 

@@ -1,3 +1,4 @@
+#include "files.h"
 #include "message.h"
 #include "paper.h"
 #include "plot.h"
@@ -28,7 +29,7 @@ int paper_plot_check(const bench_settings *s, const paper_table *table)
         complain("bench paper: the plot of %s shows times; leave out --no-times or --plot", table->name);
         return END_USAGE;
     }
-    if (s->common.output && strcmp(s->common.output, s->plot) == 0) {
+    if (files_same_output(s->common.output, s->plot)) {
         complain("%s: the figures and the plot want files of their own", s->plot);
         return END_USAGE;
     }

@@ -138,7 +138,18 @@ if grep -q 'without Cairo' "$logs/err"; then
 else
     refused 2 'b2.gif: .*\.svg, \.png or \.pdf'
     run bench paper E2 --plot e2.svg --no-times; refused 2 'shows times'
-    run bench paper E2 --plot x.svg -o x.svg --sizes 1e4; refused 2 'x.svg: '
+    ln -s . here
+    for other in x.svg ./x.svg "$PWD/x.svg" here/x.svg; do
+        run bench paper A2 --plot x.svg -o "$other" "${few[@]}" --sizes 10; refused 2 'x.svg: .*files of their own'
+        absent x.svg
+    done
+    : >there.svg
+    ln -s there.svg link.txt
+    run bench paper A2 --plot there.svg -o link.txt "${few[@]}" --sizes 10; refused 2 'there.svg: .*files of their own'
+    mkdir sub
+    run bench paper A2 --plot x.svg -o sub/x.svg "${few[@]}" --sizes 10; exits 0; says_nothing
+    holds "one is a plot, the other a table" grep -q '^table' sub/x.svg
+    rm -r here there.svg link.txt sub x.svg
     run bench paper E2 --plot absent/x.svg --sizes 1e4; exits 4; says 'absent/x.svg'
     run bench paper E2 --plot e2.svg --sizes 1e4,2e4 --queries 20 -q; exits 0; says_nothing
     holds "the plot is an SVG" grep -q '<svg' e2.svg
