@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <meshwalk/meshwalk.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +48,39 @@ static inline mw_arrays arrays_view(const arrays *a)
                        .point_count = a->point_count,
                        .triangles = a->triangles,
                        .triangle_count = a->triangle_count};
+}
+
+static inline void expect_ok(mw_status status, const char *what, const mw_error *error)
+{
+    if (status == MW_OK) return;
+    fprintf(stderr, "%s: %s\n", what, error->message);
+    abort();
+}
+
+static inline mw_mesh *arrays_mesh(const arrays *a, mw_mesh_options options)
+{
+    mw_arrays view = arrays_view(a);
+    mw_mesh *mesh;
+    mw_error error;
+    expect_ok(mw_mesh_create(&view, &options, &mesh, &error), "mesh", &error);
+    return mesh;
+}
+
+/* The Delaunay triangulation of n points. */
+static inline mw_mesh *delaunay_mesh(const double *points, uint32_t n)
+{
+    mw_mesh *mesh;
+    mw_error error;
+    expect_ok(mw_delaunay(points, n, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    return mesh;
+}
+
+static inline mw_locator *mesh_locator(const mw_mesh *mesh, mw_locator_options options)
+{
+    mw_locator *locator;
+    mw_error error;
+    expect_ok(mw_locator_create(mesh, &options, &locator, &error), "locator", &error);
+    return locator;
 }
 
 static inline double random_unit(uint64_t *random)

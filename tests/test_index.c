@@ -15,23 +15,6 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-static mw_mesh *mesh_of(const arrays *a)
-{
-    mw_arrays view = arrays_view(a);
-    mw_mesh *mesh;
-    mw_error error;
-    if (mw_mesh_create(&view, NULL, &mesh, &error)) fail_msg("mesh: %s", error.message);
-    return mesh;
-}
-
-static mw_locator *locator_of(const mw_mesh *mesh)
-{
-    mw_locator *locator;
-    mw_error error;
-    if (mw_locator_create(mesh, NULL, &locator, &error)) fail_msg("locator: %s", error.message);
-    return locator;
-}
-
 static mw_index *index_of(const mw_locator *locator, mw_start_kind start, uint32_t cells)
 {
     mw_index *index;
@@ -93,10 +76,10 @@ static void expect_guides(const arrays *a, uint64_t *random)
     static const uint32_t cells[] = {0, 1, 2, 7, 1000};
     size_t n;
     double *q = nasty_queries(a, 10, &n, random);
-    mw_mesh *mesh = mesh_of(a);
-    mw_locator *locator = locator_of(mesh);
+    mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
-        if (!mw__index_serves((mw_start_kind)start)) continue;
+        if (!mw_start_has_index((mw_start_kind)start)) continue;
         for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
             mw_index *index = index_of(locator, (mw_start_kind)start, cells[i]);
             expect_guide(locator, index, q, n);
@@ -269,17 +252,17 @@ static void test_other_mesh(void **state)
     transform(&mesh[2], 1e6, -1e8, 1e9);
     for (int from = 0; from < 4; from++)
         for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
-            if (!mw__index_serves((mw_start_kind)start)) continue;
-            mw_mesh *other = mesh_of(&mesh[from]);
-            mw_locator *made = locator_of(other);
+            if (!mw_start_has_index((mw_start_kind)start)) continue;
+            mw_mesh *other = arrays_mesh(&mesh[from], (mw_mesh_options){0});
+            mw_locator *made = mesh_locator(other, (mw_locator_options){0});
             mw_index *index = index_of(made, (mw_start_kind)start, 0);
             mw_locator_destroy(made);
             mw_mesh_destroy(other);
             for (int to = 0; to < 4; to++) {
                 size_t n;
                 double *q = nasty_queries(&mesh[to], 5, &n, &random);
-                mw_mesh *here = mesh_of(&mesh[to]);
-                mw_locator *locator = locator_of(here);
+                mw_mesh *here = arrays_mesh(&mesh[to], (mw_mesh_options){0});
+                mw_locator *locator = mesh_locator(here, (mw_locator_options){0});
                 expect_guide(locator, index, q, n);
                 mw_locator_destroy(locator);
                 mw_mesh_destroy(here);
@@ -298,8 +281,8 @@ static void test_guides_well(void **state)
     uint64_t random = 8;
     for (int clustered = 0; clustered < 2; clustered++) {
         arrays a = clustered ? clusters(N, 1, &random) : grid_mesh(70, 0.4, &random);
-        mw_mesh *mesh = mesh_of(&a);
-        mw_locator *locator = locator_of(mesh);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
         double *q = malloc(2 * N * sizeof *q);
         mw_location *at = malloc(N * sizeof *at);
         for (size_t i = 0; i < N; i++) { /* where the triangles are */
@@ -331,8 +314,8 @@ static void test_describe(void **state)
     (void)state;
     uint64_t random = 9;
     arrays a = grid_mesh(100, 0.4, &random);
-    mw_mesh *mesh = mesh_of(&a);
-    mw_locator *locator = locator_of(mesh);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     for (int start = MW_START_GRID; start <= MW_START_TWO_LEVEL_GRID; start++) {
         mw_index_info info, wanted, one;
         mw_index *chosen = index_of(locator, (mw_start_kind)start, 0);
@@ -368,8 +351,8 @@ static void test_refuses(void **state)
     (void)state;
     uint64_t random = 10;
     arrays a = grid_mesh(3, 0, &random);
-    mw_mesh *mesh = mesh_of(&a);
-    mw_locator *locator = locator_of(mesh);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     mw_index *grid = index_of(locator, MW_START_GRID, 0), *none = grid;
     mw_cursor cursor;
     mw_error error;
@@ -390,7 +373,7 @@ static void test_refuses(void **state)
     mw_index_destroy(NULL);
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
         mw_query_options options = {.start = (mw_start_kind)start};
-        bool needs = mw__index_serves((mw_start_kind)start);
+        bool needs = mw_start_has_index((mw_start_kind)start);
         assert_int_equal(mw_cursor_init(&cursor, locator, &options, &error), needs ? MW_ERROR_ARGUMENT : MW_OK);
         options.index = grid;
         bool fits = start == MW_START_AUTO || start == MW_START_GRID;
@@ -413,8 +396,8 @@ static void test_auto(void **state)
     enum { N = 1000 };
     uint64_t random = 11;
     arrays a = grid_mesh(30, 0.4, &random);
-    mw_mesh *mesh = mesh_of(&a);
-    mw_locator *locator = locator_of(mesh);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     mw_index *index = index_of(locator, MW_START_GRID, 0);
     double q[2 * N];
     mw_location at[N];
@@ -437,10 +420,10 @@ static void test_memory(void **state)
     (void)state;
     uint64_t random = 12;
     arrays a = clusters(500, 1, &random);
-    mw_mesh *mesh = mesh_of(&a);
-    mw_locator *locator = locator_of(mesh);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
-        if (!mw__index_serves((mw_start_kind)start)) continue;
+        if (!mw_start_has_index((mw_start_kind)start)) continue;
         long failures = 0;
         for (bool failed = true; failed; failures++) {
             mw_error error = {0};

@@ -13,13 +13,7 @@
 
 #include <stdio.h>
 
-static mw_mesh *mesh_of(const arrays *a, int tolerant)
-{
-    mw_mesh *mesh;
-    mw_arrays view = arrays_view(a);
-    assert_int_equal(mw_mesh_create(&view, &(mw_mesh_options){.tolerant = tolerant}, &mesh, NULL), MW_OK);
-    return mesh;
-}
+enum { DESCENTS = MW_DESCENT_COORDINATE + 1 };
 
 static arrays random_points(uint32_t n, double (*coordinate)(uint64_t *random), uint64_t *random)
 {
@@ -33,8 +27,7 @@ static arrays random_points(uint32_t n, double (*coordinate)(uint64_t *random), 
 
 static mw_mesh *delaunay_of(arrays *a)
 {
-    mw_mesh *mesh;
-    assert_int_equal(mw_delaunay(a->points, a->point_count, 2, NULL, NULL, &mesh, NULL), MW_OK);
+    mw_mesh *mesh = delaunay_mesh(a->points, a->point_count);
     arrays_free(a);
     return mesh;
 }
@@ -71,7 +64,7 @@ static mw_mesh *grid(uint32_t n, double jitter, double holes, uint64_t *random)
     arrays a = grid_mesh(n, jitter, random);
     punch(&a, holes, random);
     scramble(&a, 1, random);
-    mw_mesh *mesh = mesh_of(&a, 0);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     arrays_free(&a);
     return mesh;
 }
@@ -154,7 +147,7 @@ static mw_point query(const mw_tiling *tiling, uint64_t *random)
 static void descend(mw_layers *layers, const mw_tiling *tiling, uint64_t *random)
 {
     for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
-        for (int i = 0; i < 4 * MW_DESCENTS; i++) {
+        for (int i = 0; i < 4 * DESCENTS; i++) {
             mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_STOCHASTIC, i % 2, true};
             layers->descent = (mw_descent)(i / 4);
             mw_point q = query(tiling, random);
@@ -258,7 +251,7 @@ static void test_any(void **state)
     arrays a = grid_mesh(20, 0, &random);
     for (uint32_t i = 0; i < a.point_count; i += 7) a.points[2 * i] = i % 2 ? NAN : INFINITY;
     for (uint32_t i = 3; i < a.point_count; i += 5) memcpy(a.points + 2 * i, a.points, 2 * sizeof *a.points);
-    mw_mesh *mesh = mesh_of(&a, 1);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.tolerant = 1});
     mw_tiling tiling;
     assert_int_equal(mw__tiling_create(mesh, true, &tiling, NULL), MW_OK);
     mw_layers layers;
@@ -300,7 +293,7 @@ static void check_near(mw_mesh *mesh)
     mw_layers layers;
     assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){0}, &layers, NULL), MW_OK);
     for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
-        for (int i = 0; i < 2 * MW_DESCENTS; i++) {
+        for (int i = 0; i < 2 * DESCENTS; i++) {
             mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, i % 2, true};
             layers.descent = (mw_descent)(i / 2);
             assert_true(mean_walk(&tiling, &layers, &how, &random) < 40);
@@ -360,7 +353,7 @@ static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_poin
         mw__walk_finish(&w, MW_WALK_REMEMBERING, 100000, top, true, true);
     w.work.comparisons += 7;
     if (descent == MW_DESCENT_COORDINATE && !has_coordinates(walk)) w.work.orient[MW_STAGE_WALK] += 2;
-    bool heavy = descent == MW_DESCENT_COORDINATE || (descent == MW_DESCENT_BY_WALK && has_coordinates(walk));
+    bool heavy = descent == MW_DESCENT_COORDINATE || (descent == MW_DESCENT_AUTO && has_coordinates(walk));
 
     mw_work work = {.comparisons = 7};
     mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, true, true};
@@ -383,7 +376,7 @@ static void test_descent(void **state)
     for (int i = 0; i < 300; i++) {
         mw_point q = {1.2 * random_unit(&random) - 0.1, 1.2 * random_unit(&random) - 0.1};
         for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
-            for (int descent = MW_DESCENT_BY_WALK; descent < MW_DESCENTS; descent++)
+            for (int descent = MW_DESCENT_AUTO; descent < DESCENTS; descent++)
                 try_descent(&layers, walk, (mw_descent)descent, q, mw__random(&random));
     }
     mw__layers_release(&layers);
@@ -447,8 +440,8 @@ static void test_options(void **state)
                                        {.ratio = 1},
                                        {.ratio = INFINITY},
                                        {.ratio = NAN},
-                                       {.descent = -1},
-                                       {.descent = 3}};
+                                       {.descent = (mw_descent)-1},
+                                       {.descent = (mw_descent)DESCENTS}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         mw_layers layers;
         mw_error error;
@@ -465,13 +458,6 @@ static mw_index *index_of(const mw_locator *locator, const mw_index_options *opt
     mw_index *index;
     assert_int_equal(mw_index_create(locator, MW_START_LAYERS, options, &index, NULL), MW_OK);
     return index;
-}
-
-static mw_locator *locator_of(const mw_mesh *mesh)
-{
-    mw_locator *locator;
-    assert_int_equal(mw_locator_create(mesh, NULL, &locator, NULL), MW_OK);
-    return locator;
 }
 
 static double *queries_in(const mw_mesh *mesh, size_t n, uint64_t *random)
@@ -497,10 +483,10 @@ static void test_answers(void **state)
     printf("seed %llu\n", (unsigned long long)seed);
     static mw_location want[N], have[N];
     mw_mesh *other = points_mesh(5000, random_unit, &random);
-    mw_locator *elsewhere = locator_of(other);
+    mw_locator *elsewhere = mesh_locator(other, (mw_locator_options){0});
     for (int i = 0; i < MESHES; i++) {
         mw_mesh *mesh = mesh_number(i, &random);
-        mw_locator *locator = locator_of(mesh);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
         mw_index *index[] = {index_of(locator, NULL), index_of(locator, &(mw_index_options){.layers = 4, .ratio = 0.3}),
                              index_of(elsewhere, NULL)};
         double *q = queries_in(mesh, N, &random);
@@ -532,7 +518,7 @@ static void test_describe(void **state)
     (void)state;
     uint64_t random = 31;
     mw_mesh *mesh = points_mesh(20000, random_unit, &random);
-    mw_locator *locator = locator_of(mesh);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     mw_index *few = index_of(locator, NULL), *many = index_of(locator, &(mw_index_options){.layers = 8, .ratio = 0.5});
     mw_index_info info[2];
     mw_index_describe(few, &info[0]);
@@ -546,7 +532,7 @@ static void test_describe(void **state)
     assert_int_equal(info[1].vertices[7], 157);
     assert_true(info[0].bytes > 100 * info[0].vertices[1] && info[1].bytes > 30 * info[0].bytes);
     assert_true(info[0].seconds >= 0 && info[0].cells == 0);
-    mw_index_options wrong[] = {{.layers = 9}, {.ratio = 1.5}, {.descent = 3}};
+    mw_index_options wrong[] = {{.layers = 9}, {.ratio = 1.5}, {.descent = (mw_descent)DESCENTS}};
     for (int i = 0; i < 3; i++) {
         mw_index *index;
         assert_int_equal(mw_index_create(locator, MW_START_LAYERS, &wrong[i], &index, NULL), MW_ERROR_ARGUMENT);
@@ -567,7 +553,7 @@ static void test_counters(void **state)
     static double q[2 * N];
     static mw_location at[N];
     mw_mesh *mesh = points_mesh(50000, random_unit, &random);
-    mw_locator *locator = locator_of(mesh);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     for (int i = 0; i < 2 * N; i++) q[i] = random_unit(&random);
     double before = INFINITY;
     for (uint32_t layers = 1; layers <= 3; layers++) {

@@ -22,20 +22,12 @@ typedef struct field {
 /* A mesh whose tiles have the numbers of its triangles. */
 static field field_of(mw_mesh *mesh)
 {
-    field f = {.mesh = mesh};
-    mw_locator_options keep = {.layout = 2};
-    mw_error error;
-    if (mw_locator_create(mesh, &keep, &f.locator, &error)) fail_msg("locator: %s", error.message);
-    return f;
+    return (field){.mesh = mesh, .locator = mesh_locator(mesh, (mw_locator_options){.layout = 2})};
 }
 
 static field field_of_arrays(const arrays *a)
 {
-    mw_arrays view = arrays_view(a);
-    mw_mesh *mesh;
-    mw_error error;
-    if (mw_mesh_create(&view, NULL, &mesh, &error)) fail_msg("mesh: %s", error.message);
-    return field_of(mesh);
+    return field_of(arrays_mesh(a, (mw_mesh_options){0}));
 }
 
 static void field_free(field *f)
@@ -52,9 +44,7 @@ static field delaunay_field(uint32_t n, uint64_t *random)
         points[2 * i] = (i % n + random_unit(random)) / n;
         points[2 * i + 1] = (i / n + random_unit(random)) / n;
     }
-    mw_mesh *mesh;
-    mw_error error;
-    if (mw_delaunay(points, n * n, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    mw_mesh *mesh = delaunay_mesh(points, n * n);
     free(points);
     return field_of(mesh);
 }
@@ -282,9 +272,7 @@ static void test_wild_magnitudes(void **state)
         for (int i = 0; i < 8; i++)
             points[i] = (i == 0 || i == 1 || i == 3 || i == 4 ? -1 : 1) * (round % 2 ? 1e308 : 1e300);
         for (int i = 0; i < 2 * QUERIES; i++) q[i] = i % 4 == 3 ? 0 : wild(&random);
-        mw_mesh *mesh;
-        mw_error error;
-        if (mw_delaunay(points, N, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+        mw_mesh *mesh = delaunay_mesh(points, N);
         arrays a = arrays_make(mw_mesh_vertex_count(mesh), mw_mesh_triangle_count(mesh));
         for (uint32_t v = 0; v < mw_mesh_vertex_count(mesh); v++) {
             double at[2];

@@ -17,24 +17,14 @@
 static mw_mesh *jittered(uint32_t n, uint64_t *random)
 {
     arrays a = grid_mesh(n, 0.9, random);
-    mw_mesh *delaunay, *mesh;
-    assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, &delaunay, NULL), MW_OK);
+    mw_mesh *delaunay = delaunay_mesh(a.points, a.point_count);
     assert_int_equal(mw_mesh_triangle_count(delaunay), a.triangle_count);
     for (uint32_t t = 0; t < a.triangle_count; t++) mw_mesh_triangle(delaunay, t, a.triangles + 3 * (size_t)t);
     scramble(&a, 1, random);
-    mw_arrays view = arrays_view(&a);
-    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     mw_mesh_destroy(delaunay);
     arrays_free(&a);
     return mesh;
-}
-
-static mw_locator *locator_of(const mw_mesh *mesh, int areas)
-{
-    mw_locator *locator;
-    mw_locator_options options = {.any = 1, .areas = areas};
-    assert_int_equal(mw_locator_create(mesh, &options, &locator, NULL), MW_OK);
-    return locator;
 }
 
 static mw_counters count(const mw_locator *locator, mw_query_options options, const double *q, size_t n)
@@ -57,7 +47,7 @@ static void test_tests_per_triangle(void **state)
     double q[2 * QUERIES];
     for (int i = 0; i < 2 * QUERIES; i++) q[i] = 1 + (N - 2) * random_unit(&random);
     for (int areas = 0; areas < 2; areas++) {
-        mw_locator *locator = locator_of(mesh, areas);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = areas});
         for (int i = 0; i < 8; i++) {
             mw_query_options options = {.walk = i & 1 ? MW_WALK_DIRECT : MW_WALK_BARYCENTRIC,
                                         .start = MW_START_RANDOM,
@@ -90,7 +80,7 @@ static void test_same_way(void **state)
     enum { N = 50 };
     uint64_t random = 2;
     mw_mesh *mesh = jittered(N, &random);
-    mw_locator *locator = locator_of(mesh, 1);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1});
     const mw_tiling *tiling = &locator->tiling;
     uint64_t steps = 0;
     for (int i = 0; i < 4000; i++) {
@@ -114,7 +104,7 @@ static void test_fast_saves_tests(void **state)
     enum { N = 60, QUERIES = 2000 };
     uint64_t random = 3;
     mw_mesh *mesh = jittered(N, &random);
-    mw_locator *locator = locator_of(mesh, 0);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     double q[2 * QUERIES];
     for (int i = 0; i < 2 * QUERIES; i++) q[i] = 1 + (N - 2) * random_unit(&random);
     mw_query_options options = {.walk = MW_WALK_STOCHASTIC, .start = MW_START_RANDOM, .seed = 4};
@@ -142,10 +132,8 @@ static void test_any_steps_same_answers(void **state)
     arrays a = grid_mesh(12, 0.6, &random);
     punch(&a, 0.2, &random);
     scramble(&a, 1, &random);
-    mw_arrays view = arrays_view(&a);
-    mw_mesh *mesh;
-    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
-    mw_locator *locator = locator_of(mesh, 0);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     size_t n;
     double *q = nasty_queries(&a, 3, &n, &random);
     for (size_t i = 0; i < n; i++) {
@@ -176,7 +164,7 @@ static void test_steps_and_fuel(void **state)
     enum { N = 60 };
     uint64_t random = 5;
     mw_mesh *mesh = jittered(N, &random);
-    mw_locator *locator = locator_of(mesh, 0);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     mw_query_options options = {.walk = MW_WALK_FAST_STOCHASTIC, .start = MW_START_CENTRE};
     mw_cursor cursor;
     assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
@@ -202,15 +190,13 @@ static void test_no_cycles_by_rounding(void **state)
     arrays a = fan_mesh(SPOKES);
     scramble(&a, 1, &random);
     transform(&a, 1, 1, 1.0 / 3);
-    mw_arrays view = arrays_view(&a);
-    mw_mesh *mesh;
-    assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     double q[2 * QUERIES];
     for (int i = 0; i < 2 * QUERIES; i++)
         q[i] = a.points[i % 2] + ldexp(random_unit(&random) - 0.5, -25 - (int)mw__random_below(&random, 30));
     uint64_t cycles[2] = {0, 0};
     for (int i = 0; i < 8; i++) {
-        mw_locator *locator = locator_of(mesh, i & 1);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = i & 1});
         mw_query_options options = {.walk = i & 2 ? MW_WALK_DIRECT : MW_WALK_BARYCENTRIC,
                                     .start = MW_START_RANDOM,
                                     .arithmetic = i & 4 ? MW_DOUBLE : MW_EXACT};
@@ -236,7 +222,7 @@ static void test_stored_areas(void **state)
         mw_arrays view = {.points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
         mw_mesh *mesh;
         assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
-        mw_locator *locator = locator_of(mesh, 1);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1});
         double want = (points[2] - points[0]) * (points[5] - points[4]); /* all but exact: x + height lies near x */
         double area = locator->tiling.area[0];
         assert_true(isinf(want) ? isinf(area) : fabs(area - want) <= 0x1p-42 * want);

@@ -24,7 +24,7 @@ typedef enum mw_walk_kind {
 
 typedef enum mw_start_kind {
     MW_START_AUTO = 0,
-#define MW_START_ENTRY(id, name, source, help) MW_START_##id,
+#define MW_START_ENTRY(id, name, source, index, help) MW_START_##id,
 #include <meshwalk/starts.def>
     MW_START_COUNT
 } mw_start_kind;
@@ -39,6 +39,8 @@ MW_API const char *mw_walk_source(mw_walk_kind walk);
 MW_API const char *mw_walk_help(mw_walk_kind walk);
 MW_API const char *mw_start_name(mw_start_kind start);
 MW_API const char *mw_start_help(mw_start_kind start);
+/* 1: the start needs an index (mw_index_create), 0: it needs none, or the number is no start. */
+MW_API int mw_start_has_index(mw_start_kind start);
 /* The number of a name (not NULL); MW_WALK_COUNT or MW_START_COUNT if there is none. */
 MW_API mw_walk_kind mw_walk_by_name(const char *name);
 MW_API mw_start_kind mw_start_by_name(const char *name);
@@ -111,15 +113,18 @@ MW_API const char *mw_locator_void_promise(const mw_locator *locator);
  * is queried. */
 typedef struct mw_index mw_index;
 
+/* At which vertex of a triangle of one layer to go down to the next. AUTO: the one with the largest orientation coordinate
+ * for the walks that know it (barycentric, direct), the nearest for the others. */
+typedef enum mw_descent { MW_DESCENT_AUTO = 0, MW_DESCENT_NEAREST, MW_DESCENT_COORDINATE } mw_descent;
+
 /* All zero = choose. */
 typedef struct mw_index_options {
     uint32_t cells;  /* MW_START_GRID: about so many cells, MW_START_TWO_LEVEL_GRID: of its first level; at most 2^30;
                         0 = one for two vertices                                                                 */
     uint32_t layers; /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
     double ratio;    /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
-    int descent;     /* MW_START_LAYERS: the vertex to go down at. 0: by the walk, 1: nearest, 2: largest orientation
-                        coordinate                                                                              */
-    uint64_t seed;   /* MW_START_LAYERS: of the random vertices                                                  */
+    mw_descent descent; /* MW_START_LAYERS: the vertex to go down at                                             */
+    uint64_t seed;      /* MW_START_LAYERS: of the random vertices                                               */
     uint32_t reserved[4];
 } mw_index_options;
 

@@ -45,7 +45,7 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const 
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the index");
     *out = NULL;
     if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a locator");
-    if (!mw__index_serves(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
+    if (!mw_start_has_index(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
     mw_index *index = mw__calloc(1, sizeof *index);
     if (!index) return mw__fail_memory(error);
     index->start = start;

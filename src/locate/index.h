@@ -22,7 +22,7 @@ struct mw_index {
 /* Does a start need an index? */
 static MW_INLINE bool mw__index_serves(mw_start_kind start)
 {
-    return start == MW_START_GRID || start == MW_START_TWO_LEVEL_GRID || start == MW_START_LAYERS;
+    return mw_start_has_index(start);
 }
 
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking

@@ -14,6 +14,8 @@
  * vertex. */
 #include "start/grid.h"
 
+#include "start/start.h"
+
 #include <stdlib.h>
 
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)

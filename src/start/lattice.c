@@ -39,13 +39,3 @@ void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queu
             }
     }
 }
-
-uint32_t *mw__tile_of_vertices(const mw_tiling *tiling)
-{
-    uint32_t *tile = mw__alloc(tiling->point_count, sizeof *tile);
-    if (!tile) return NULL;
-    for (uint32_t v = 0; v < tiling->point_count; v++) tile[v] = MW_NONE;
-    for (uint32_t t = 0; t < tiling->tri_count; t++)
-        for (uint32_t k = 0; k < 3; k++) tile[tiling->tri[t].v[k]] = t;
-    return tile;
-}

@@ -39,9 +39,6 @@ static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p
  * first ring of cells round it that has an entry. Not all are MW_NONE. queue: room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);
 
-/* For each vertex a tile that has it, MW_NONE for those of no tile. NULL when out of memory. Release with free(). */
-uint32_t *mw__tile_of_vertices(const mw_tiling *tiling);
-
 /* Cells for a tiling, where nothing is said: one for two vertices, which are half as many as tiles. See grid.c. */
 static MW_INLINE uint32_t mw__lattice_choose(const mw_tiling *tiling)
 {

@@ -26,18 +26,6 @@ enum { LARGE_MESH = 64, LARGE_LAYER = 200 };
 
 /* --- building ---------------------------------------------------------------------------------------------------- */
 
-/* Per vertex a tile that has it, MW_NONE where there is none; only for finite vertices. Returns NULL when out of memory. */
-static uint32_t *tiles_at(const mw_tiling *tiling)
-{
-    uint32_t *at = mw__alloc(tiling->point_count, sizeof *at);
-    if (!at) return NULL;
-    for (uint32_t v = 0; v < tiling->point_count; v++) at[v] = MW_NONE;
-    for (uint32_t t = tiling->tri_count; t-- > 0;)
-        for (int k = 0; k < 3; k++)
-            if (mw__is_finite(tiling->point[tiling->tri[t].v[k]])) at[tiling->tri[t].v[k]] = t;
-    return at;
-}
-
 /* How many of `vertices` vertices the layer above has. */
 static uint32_t size_above(uint32_t vertices, double ratio)
 {
@@ -158,18 +146,18 @@ static mw_status check(const mw_layers_options *options, mw_error *error)
         return mw__fail(error, MW_ERROR_ARGUMENT, "%u layers, at most %d are possible", options->layers, MW_MAX_LAYERS);
     if (!(options->ratio >= 0 && options->ratio < 1))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the ratio of layers is not between 0 and 1");
-    if (options->descent < 0 || options->descent >= MW_DESCENTS)
+    if ((unsigned)options->descent > MW_DESCENT_COORDINATE)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown descent through layers");
     return MW_OK;
 }
 
 mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_layers *out, mw_error *error)
 {
-    *out = (mw_layers){.count = 1, .tiles = tiling->tri_count, .descent = (mw_descent)options->descent};
+    *out = (mw_layers){.count = 1, .tiles = tiling->tri_count, .descent = options->descent};
     mw_status status = check(options, error);
     if (status) return status;
     double ratio = options->ratio > 0 ? options->ratio : RATIO;
-    uint32_t *at = tiles_at(tiling), size = at ? count_used(at, tiling->point_count) : 0;
+    uint32_t *at = mw__tile_of_vertices(tiling), size = at ? count_used(at, tiling->point_count) : 0;
     uint32_t wanted = options->layers ? options->layers : layers_by_size(size, ratio);
     out->vertices = size;
     mw_error reason;
@@ -179,7 +167,7 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
         tiling = &out->layer[out->count - 2].tiling;
         size = tiling->point_count;
         free(at);
-        at = tiles_at(tiling);
+        at = mw__tile_of_vertices(tiling);
     }
     if (!at) status = mw__fail_memory(&reason);
     free(at);
@@ -262,8 +250,8 @@ static uint32_t most_weight(mw_walk *walk, const mw_layer_walk *how)
 uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
                           mw_work *work)
 {
-    bool by_weight = layers->descent == MW_DESCENT_COORDINATE ||
-                     (layers->descent == MW_DESCENT_BY_WALK && has_coordinates(how->walk));
+    bool by_weight =
+        layers->descent == MW_DESCENT_COORDINATE || (layers->descent == MW_DESCENT_AUTO && has_coordinates(how->walk));
     mw_arithmetic arithmetic = how->exact ? MW_EXACT : MW_DOUBLE;
     uint32_t top = layers->count - 1;
     uint32_t t = mw__random_below(random, top ? layers->layer[top - 1].tiling.tri_count : layers->tiles);

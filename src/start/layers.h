@@ -5,10 +5,6 @@
 
 #include "walk/walk.h"
 
-/* At which vertex of the tile that holds q to go down. BY_WALK: the largest orientation coordinate for the walks that know
- * it, the nearest for the others. */
-typedef enum mw_descent { MW_DESCENT_BY_WALK, MW_DESCENT_NEAREST, MW_DESCENT_COORDINATE, MW_DESCENTS } mw_descent;
-
 /* One layer above the mesh: the Delaunay triangulation of its vertices. Tiles lie along a Hilbert curve, vertices as the
  * tiles use them; areas are stored. */
 typedef struct mw_layer {
@@ -27,7 +23,7 @@ typedef struct mw_layers {
 typedef struct mw_layers_options {
     uint32_t layers; /* the mesh itself counted, at most MW_MAX_LAYERS; 0 = by its size       */
     double ratio;    /* chance of a vertex to be in the next layer, between 0 and 1; 0 = 0.025 */
-    int descent;     /* mw_descent */
+    mw_descent descent;
     uint64_t seed;
 } mw_layers_options;
 

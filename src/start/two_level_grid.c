@@ -11,6 +11,8 @@
  * 3.8 triangles instead of 65. Clusters within clusters would need a third level; layers have as many as it takes. */
 #include "start/two_level_grid.h"
 
+#include "start/start.h"
+
 #include <stdlib.h>
 
 enum { CROWDED = 4 };

@@ -44,7 +44,7 @@ static MW_INLINE void enter(mw_walk *w, uint32_t phase)
 }
 
 /* Where the leg ends: a, q, or the point of another vertical line at the height of q. */
-static MW_INLINE mw_point aim(const mw_walk *w)
+static MW_INLINE mw_point leg_end(const mw_walk *w)
 {
     if (!is_vertical(w)) return (mw_point){w->q.x, w->d.x * w->p.y};
     return w->phase & MOVED ? (mw_point){-w->d.y * w->p.y, w->q.y} : w->q;
@@ -91,7 +91,7 @@ static MW_INLINE mw_verdict cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
 static MW_INLINE mw_verdict arrive(mw_walk *w, mw_policy P)
 {
     if (w->phase & MOVED) return restart(w);
-    if (is_vertical(w) || w->q.y == aim(w).y) return MW_FOUND;
+    if (is_vertical(w) || w->q.y == leg_end(w).y) return MW_FOUND;
     turn_upright(w, P);
     enter(w, SET_OUT);
     return MW_GO;
@@ -102,7 +102,7 @@ static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_point r = corner(w, e), l = corner(w, e + 1);
     bool r_past = is_past(w, r, P), l_past = is_past(w, l, P);
-    if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, aim(w), P) >= 0) return arrive(w, P);
+    if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, leg_end(w), P) >= 0) return arrive(w, P);
     return cross_or_detour(w, e, P);
 }
 
