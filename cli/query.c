@@ -123,6 +123,16 @@ static int fail_query(const mw_error *error)
     return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
 }
 
+/* The limits of the library, found out before the mesh is read. */
+static int check_index(const query_settings *settings)
+{
+    const uint32_t most_cells = UINT32_C(1) << 30;
+    if (settings->cells > most_cells) complain("option '--cells' wants at most 2^30, not '%u'", settings->cells);
+    if (settings->layers > MW_MAX_LAYERS)
+        complain("option '--layers' wants at most %d, not '%u'", MW_MAX_LAYERS, settings->layers);
+    return settings->cells > most_cells || settings->layers > MW_MAX_LAYERS ? END_USAGE : 0;
+}
+
 /* Build what the start needs, if it needs something. */
 static int make_index(query *q)
 {
@@ -141,6 +151,7 @@ int query_open(query *q, const query_settings *settings, const char *const *oper
     mw_mesh_file file;
     *q = (query){.settings = settings, .begin = tally_clock()};
     int end = files_check(settings->common.output, operands, 2);
+    if (end == 0) end = check_index(settings);
     if (end == 0) end = files_read_mesh(path, &file);
     if (end) return end;
     bool area = files_has_area(&file);

@@ -57,8 +57,11 @@ for options in '--start grid --cells 1' '--start grid --cells 1000' '--start two
     # shellcheck disable=SC2086 # words
     run_on "$points" locate $options square.off -; exits 0; prints "$answers"
 done
-run_on "$points" locate --start grid --cells 4000000000 square.off -; refused 4 'at most 2\^30 cells'
-run_on "$points" locate --start layers --layers 1000 square.off -; refused 2 ''
+for cells in 1073741825 4000000000; do
+    run locate --start grid --cells $cells absent.off -; refused 2 "'--cells' wants at most 2\^30, not '$cells'"
+done
+run locate --start layers --layers 9 absent.off -; refused 2 "'--layers' wants at most 8, not '9'"
+run_on "$points" locate --start layers --layers 8 square.off -; exits 0; prints "$answers"
 run_on "$(cat square.off)" locate - <(printf '%s' "$points"); exits 0; prints "$answers"
 
 # Holes, tolerance, details.
