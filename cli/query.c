@@ -139,7 +139,7 @@ static int make_index(query *q)
     mw_error error;
     const query_settings *settings = q->settings;
     mw_start_kind start = (mw_start_kind)settings->start;
-    if (start != MW_START_GRID && start != MW_START_TWO_LEVEL_GRID && start != MW_START_LAYERS) return 0;
+    if (!mw_start_has_index(start)) return 0;
     mw_index_options options = {.cells = settings->cells, .layers = settings->layers, .seed = settings->common.seed};
     return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
