@@ -52,7 +52,7 @@ Coordinates make_queries(const Coordinates &points, size_t n, uint64_t seed)
     dataset extent = {};
     extent.points = copy.data();
     extent.count = copy.size() / 2;
-    dataset_bound(&extent, extent.count);
+    if (!dataset_bound(&extent, extent.count)) fail("the extent of the points is too large for a double");
     uint64_t random = ~seed;
     dataset_draw(&extent, queries.data(), n, &random);
     return queries;

@@ -59,7 +59,10 @@ int dataset_read(dataset *d, const char *path, bool enclose)
     progress_phase("reading", path);
     int end = read_vertices(d, path) ? 0 : read_points(d, path);
     if (end) return end;
-    dataset_bound(d, d->count);
+    if (!dataset_bound(d, d->count)) {
+        complain("%s: the extent of the points is too large for a double", path);
+        return END_INPUT;
+    }
     if (!enclose || d->count == 0) return 0;
     if (!make_room(d, d->count + 4)) return fail_memory();
     d->count += 4;

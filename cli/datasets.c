@@ -151,9 +151,10 @@ void dataset_release(dataset *d)
     *d = (dataset){0};
 }
 
-void dataset_bound(dataset *d, size_t n)
+bool dataset_bound(dataset *d, size_t n)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    bool fits = true;
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < 2; k++) {
             low[k] = fmin(low[k], d->points[2 * i + k]);
@@ -163,7 +164,10 @@ void dataset_bound(dataset *d, size_t n)
         d->origin[k] = low[k];
         d->u[k] = k == 0 ? high[k] - low[k] : 0;
         d->v[k] = k == 1 ? high[k] - low[k] : 0;
+        /* points that are not finite, or none, are for others to refuse */
+        fits = fits && (!isfinite(low[k]) || !isfinite(high[k]) || isfinite(high[k] - low[k]));
     }
+    return fits;
 }
 
 void dataset_enclose(dataset *d)

@@ -37,8 +37,8 @@ typedef struct dataset {
 bool dataset_make(dataset *d, dataset_kind kind, size_t n, bool enclose, uint64_t seed);
 void dataset_release(dataset *d);
 
-/* Make the domain the extent of the first n points. */
-void dataset_bound(dataset *d, size_t n);
+/* Make the domain the extent of the first n points. Returns false if they are so far apart that it overflows. */
+bool dataset_bound(dataset *d, size_t n);
 /* Write the corners of the domain over the last four points. */
 void dataset_enclose(dataset *d);
 

@@ -86,14 +86,17 @@ static bool in_mesh(const mw_location *at)
     return at->where == MW_INSIDE || at->where == MW_ON_EDGE || at->where == MW_ON_VERTEX;
 }
 
+/* So many drawn in vain, beyond a thousand for each found, are no accident. */
+#define DRAWN_IN_VAIN 1000000
+
 /* n queries in the mesh, and their answers. */
 static int draw(scene *s, size_t n)
 {
     mw_error error;
     mw_query_options options = {.seed = s->trial->seed, .threads = s->trial->threads};
-    size_t found = 0;
-    for (size_t drawn = 0; found < n; drawn += n) {
-        if (drawn > 1000 * (found + n)) {
+    size_t found = 0, drawn = 0;
+    while (found < n) {
+        if (drawn > 1000 * found + DRAWN_IN_VAIN) {
             complain("%s: the mesh fills less than a thousandth of the extent of its points", s->trial->name);
             return END_INPUT;
         }
@@ -107,6 +110,7 @@ static int draw(scene *s, size_t n)
             memmove(s->queries + 2 * found, queries + 2 * i, 2 * sizeof *queries);
             s->answers[found++] = s->answers[begin + i];
         }
+        drawn += more;
     }
     return 0;
 }

@@ -106,6 +106,21 @@ for enclose in yes no; do run bench paper A1 --data empty.xyz --enclose $enclose
 printf '0 0\n1 1\n2 nan\n0 1\n' >nan.xyz
 run bench paper E2 --data nan.xyz "${few[@]}"; refused 3 'nan.xyz.*2'
 
+# A strip along the diagonal: queries are drawn until enough are in it, however few that are of those drawn; but there is
+# an end. Points so far apart that their extent overflows.
+strip() { awk -v w="$1" 'BEGIN { for (i = 0; i <= 200; i++) print i / 200, i / 200 + (i % 2 ? w : 0) }'; }
+strip .002 >strip.xyz
+run bench paper A2 --data strip.xyz --queries 3000 --no-times --format tsv; exits 0; says_nothing; sound 10
+strip .00001 >strip.xyz
+run bench paper A2 --data strip.xyz "${few[@]}"; refused 3 'strip.xyz: the mesh fills less than a thousandth'
+printf -- '-1e308 -1e308\n1e308 1e308\n-1e308 1e308\n1e308 -1e308\n' >far.xyz
+for enclose in yes no; do
+    run bench paper A2 --data far.xyz --enclose $enclose "${few[@]}"; refused 3 'far.xyz: the extent .* too large'
+done
+printf '0 0\n1 1\n2 inf\n0 1\n' >far.xyz
+run bench paper E2 --data far.xyz "${few[@]}"; refused 3 'far.xyz.*2'
+rm strip.xyz far.xyz
+
 # The other formats.
 run bench paper B2 --sizes 1e4 --queries 50; exits 0; says_nothing
 prints_line '^rectangle, 10000 vertices$'
