@@ -151,6 +151,14 @@ static double round_up(double value)
     return 10 * unit;
 }
 
+/* What is measured, or published; NaN where there is nothing, or a logarithmic axis has no place for it: a clock may be
+ * too coarse to tell a time from 0. */
+static double value_of(const plot *p, const plot_point *at, bool published)
+{
+    double value = published ? at->published : at->ours;
+    return p->log_y && value <= 0 ? NAN : value;
+}
+
 /* Range of the values in a panel. */
 typedef struct range {
     double x[2], y[2];
@@ -164,8 +172,9 @@ static range range_of(const plot *p, const plot_panel *panel)
             const plot_point *at = &panel->curve[k].point[i];
             r.x[0] = fmin(r.x[0], at->x);
             r.x[1] = fmax(r.x[1], at->x);
-            r.y[0] = fmin(r.y[0], fmin(at->ours, at->published)); /* passes over NaN */
-            r.y[1] = fmax(r.y[1], fmax(at->ours, at->published));
+            double ours = value_of(p, at, false), published = value_of(p, at, true);
+            r.y[0] = fmin(r.y[0], fmin(ours, published)); /* passes over NaN */
+            r.y[1] = fmax(r.y[1], fmax(ours, published));
         }
     return r;
 }
@@ -241,24 +250,20 @@ static axis draw_x_axis(cairo_t *c, const range *r)
 
 /* Curves and bars. */
 
-static double value_of(const plot_point *at, bool published)
-{
-    return published ? at->published : at->ours;
-}
-
-static void draw_curve(cairo_t *c, const plot_curve *curve, size_t k, const axis *x, const axis *y, bool published)
+static void draw_curve(cairo_t *c, const plot *p, size_t k, const plot_curve *curve, const axis *x, const axis *y,
+                       bool published)
 {
     colour(c, k);
     dash(c, published);
     cairo_new_path(c);
     for (size_t i = 0; i < curve->count; i++) {
-        double value = value_of(&curve->point[i], published);
+        double value = value_of(p, &curve->point[i], published);
         if (!isnan(value)) cairo_line_to(c, place(x, curve->point[i].x), place(y, value));
     }
     cairo_stroke(c);
     cairo_set_dash(c, NULL, 0, 0);
     for (size_t i = 0; i < curve->count; i++) {
-        double value = value_of(&curve->point[i], published);
+        double value = value_of(p, &curve->point[i], published);
         if (!isnan(value)) mark(c, k, place(x, curve->point[i].x), place(y, value), !published);
     }
 }
@@ -267,7 +272,7 @@ static void draw_curves(cairo_t *c, const plot *p, const plot_panel *panel, cons
 {
     axis x = draw_x_axis(c, r);
     for (int published = 1; published >= 0; published--)
-        for (size_t k = 0; k < p->curves; k++) draw_curve(c, &panel->curve[k], k, &x, y, published);
+        for (size_t k = 0; k < p->curves; k++) draw_curve(c, p, k, &panel->curve[k], &x, y, published);
     face(c, 11, false);
     write_at(c, PANEL_WIDTH / 2, PANEL_HEIGHT + 36, p->x_label, CENTRED);
 }
