@@ -4,6 +4,7 @@
 #include "progress.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static bool make_room(dataset *d, size_t count)
 {
@@ -13,16 +14,28 @@ static bool make_room(dataset *d, size_t count)
     return points;
 }
 
-/* The vertices of a mesh. Returns false if the file is none. */
-static bool read_vertices(dataset *d, const char *path)
+/* No reader of meshes knows the file, by its contents or its name; of other failures a reader tells. */
+static bool is_unknown(const mw_error *error)
 {
+    return error->status == MW_ERROR_INPUT && strstr(error->message, ": this is no mesh in a format known here");
+}
+
+/* The vertices of a mesh; *none is set if the file is not a mesh. Returns 0 or an exit code. */
+static int read_vertices(dataset *d, const char *path, bool *none)
+{
+    mw_error error;
     mw_mesh_file file;
-    if (files_is_stream(path) || mw_read_mesh(path, &file, NULL) != MW_OK) return false;
+    *none = files_is_stream(path);
+    if (*none) return 0;
+    if (mw_read_mesh(path, &file, &error) != MW_OK) {
+        *none = is_unknown(&error);
+        return *none ? 0 : fail_reading(&error);
+    }
     bool room = make_room(d, d->count + file.point_count);
     for (size_t i = 0; room && i < file.point_count; i++, d->count++)
         for (size_t k = 0; k < 2; k++) d->points[2 * d->count + k] = file.points[3 * i + k];
     mw_mesh_file_release(&file);
-    return room;
+    return room ? 0 : fail_memory();
 }
 
 #define BLOCK ((size_t)1 << 14)
@@ -57,7 +70,9 @@ int dataset_read(dataset *d, const char *path, bool enclose)
 {
     *d = (dataset){0};
     progress_phase("reading", path);
-    int end = read_vertices(d, path) ? 0 : read_points(d, path);
+    bool points;
+    int end = read_vertices(d, path, &points);
+    if (end == 0 && points) end = read_points(d, path);
     if (end) return end;
     if (!dataset_bound(d, d->count)) {
         complain("%s: the extent of the points is too large for a double", path);
