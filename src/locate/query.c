@@ -79,15 +79,26 @@ static void count(mw_counters *counters, const mw_work *work, bool cycle, bool h
                               });
 }
 
+/* A walk in doubles says that q lies beyond a hull edge of its last tile: does it? */
+static bool has_left(const mw_tiling *tiling, const mw_walk *walk)
+{
+    const mw_triangle *tile = &tiling->tri[walk->t];
+    for (int k = 0; k < 3; k++)
+        if (tile->link[k] == MW_NONE &&
+            mw__orient2d(tiling->point[tile->v[k]], tiling->point[tile->v[k + 1]], walk->q) < 0)
+            return true;
+    return false;
+}
+
 /* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was right costs no step
- * more, and does not count as handed over. */
-static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, bool counted, bool *moved)
+ * more, and does not count as handed over: *changed tells. */
+static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
 {
     uint32_t fuel = mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling);
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, fuel, 0);
     mw_verdict verdict = mw__celestial.run[true][counted](&end);
-    *moved = end.t != walk->t;
-    if (*moved) {
+    *changed = end.t != walk->t || verdict != before;
+    if (end.t != walk->t) {
         walk->work.visited += end.work.visited - 1;
         walk->work.triangles[MW_STAGE_FINAL] += end.work.triangles[MW_STAGE_WALK];
         walk->work.orient[MW_STAGE_FINAL] += end.work.orient[MW_STAGE_WALK];
@@ -103,9 +114,9 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
     bool exact = cursor->arithmetic == MW_EXACT;
     if (verdict == MW_CLOSE)
         verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact, cursor->count);
-    bool dry = verdict == MW_DRY, moved = false;
-    if (MW_UNLIKELY(dry || !exact)) verdict = hand_over(tiling, walk, cursor->count, &moved);
-    if (cursor->count) count(counters, &walk->work, dry, dry || moved);
+    bool dry = verdict == MW_DRY, changed = false, sure = exact || (verdict == MW_LEFT && has_left(tiling, walk));
+    if (MW_UNLIKELY(dry || !sure)) verdict = hand_over(tiling, walk, verdict, cursor->count, &changed);
+    if (cursor->count) count(counters, &walk->work, dry, changed);
     if (MW_UNLIKELY(verdict != MW_FOUND)) return outside(locator, 0, walk->q, cursor->tolerance);
     return settle(locator, walk->t, walk->q, cursor->tolerance);
 }
