@@ -362,6 +362,34 @@ static void test_auto_looks_at_the_mesh(void **state)
 }
 
 /* Counters do not depend on the number of threads, answers on nothing. */
+/* In doubles, too, a walk that left the hull where the point is outside was right: that is no hand-over. */
+static void test_no_handover_outside(void **state)
+{
+    (void)state;
+    enum { N = 500 };
+    uint64_t random = 11;
+    double q[2 * N];
+    arrays a = grid_mesh(20, 0.6, &random);
+    mw_mesh *mesh;
+    assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, &mesh, NULL), MW_OK);
+    mw_locator *locator = locator_of(mesh, 0, 0);
+    for (int i = 0; i < N; i++) {
+        q[2 * i] = 200 * random_unit(&random) - 90;
+        q[2 * i + 1] = i % 2 ? -10 - 50 * random_unit(&random) : 30 + 50 * random_unit(&random);
+    }
+    for (mw_walk_kind walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++) {
+        mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = MW_DOUBLE, .count = 1};
+        mw_location at[N];
+        mw_counters counters;
+        assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &counters, NULL), MW_OK);
+        for (int i = 0; i < N; i++) assert_int_equal(at[i].where, MW_OUTSIDE);
+        if (counters.handovers) fail_msg("%s: %d hand-overs", mw_walk_name(walk), (int)counters.handovers);
+    }
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
 static void test_determinism(void **state)
 {
     (void)state;
@@ -414,6 +442,7 @@ int main(void)
         cmocka_unit_test(test_celestial_trap),
         cmocka_unit_test(test_bad_points),
         cmocka_unit_test(test_determinism),
+        cmocka_unit_test(test_no_handover_outside),
         cmocka_unit_test(test_weights_at_any_scale),
         cmocka_unit_test(test_any),
         cmocka_unit_test(test_auto_looks_at_the_mesh),
