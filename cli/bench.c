@@ -121,10 +121,9 @@ const command bench_command = {
         "over all queries, on all threads; times are medians over 5 rounds of single queries on one thread, in plain "
         "doubles (time_us) and exact (time_exact_us).\n\n"
         "'meshwalk bench near-vertices [SET]' locates points within 1e-15 of vertices, or one of the next doubles, in "
-        "five "
-        "meshes: uniform, grid, rings, slivers, offset, or in one of them. It prints "
-        "for every walk and arithmetic how many of a million queries ran out of steps (cycles), and how many the "
-        "celestial walk had to end (hand-overs).",
+        "five meshes: uniform, grid, rings, slivers, offset, or in one of them. It prints for every walk and "
+        "arithmetic how many of a million queries ran out of steps (cycles), and how many the celestial walk had to "
+        "end (hand-overs).",
     .options = tables,
     .settings_size = sizeof(bench_settings),
     .run = run,

@@ -18,62 +18,7 @@
 
 enum { BLOCK = 1 << 17, DEFAULT_QUERIES = 1000000, DEFAULT_VERTICES = 100000 };
 
-/* --- the meshes -------------------------------------------------------------------------------------------------- */
-
-static bool make_uniform(dataset *d, size_t n, uint64_t seed)
-{
-    return dataset_make(d, DATASET_UNIFORM, n, false, seed);
-}
-
-/* All squares' corners lie on circles, and many vertices on lines. */
-static bool make_grid(dataset *d, size_t n, uint64_t seed)
-{
-    return dataset_make(d, DATASET_GRID, n, false, seed);
-}
-
-/* Circles round one centre, the same number of points on each: up to rounding all points of a circle are cocircular. */
-static bool make_rings(dataset *d, size_t n, uint64_t seed)
-{
-    const double turn = 6.283185307179586;
-    if (!dataset_make(d, DATASET_UNIFORM, n, false, seed)) return false;
-    size_t around = 2 * (size_t)sqrt((double)n), rings = n / around + 1;
-    for (size_t i = 0; i < n; i++) {
-        double radius = (double)(i / around + 1) / (double)(2 * rings);
-        double angle = turn * (double)(i % around) / (double)around;
-        d->points[2 * i] = 0.5 + radius * cos(angle);
-        d->points[2 * i + 1] = 0.5 + radius * sin(angle);
-    }
-    return true;
-}
-
-/* Ten rows, each 1e-9 wide, turned by pi/6: needles between the rows, caps within them. */
-static bool make_slivers(dataset *d, size_t n, uint64_t seed)
-{
-    const double cosine = 0.8660254037844386, sine = 0.5;
-    if (!dataset_make(d, DATASET_UNIFORM, n, false, seed)) return false;
-    for (size_t i = 0; i < n; i++) {
-        double *p = d->points + 2 * i, x = p[0], y = 0.1 * (double)(i % 10) + 1e-9 * p[1];
-        p[0] = x * cosine - y * sine;
-        p[1] = x * sine + y * cosine;
-    }
-    return true;
-}
-
-/* Ten kilometres of a country, in metres as its maps have them: doubles are 2^-30 apart there. */
-static bool make_offset(dataset *d, size_t n, uint64_t seed)
-{
-    if (!dataset_make(d, DATASET_UNIFORM, n, false, seed)) return false;
-    for (size_t i = 0; i < 2 * n; i++) d->points[i] = 5e6 + 1e4 * d->points[i];
-    return true;
-}
-
-static const struct {
-    const char *name;
-    bool (*make)(dataset *d, size_t n, uint64_t seed);
-} sets[] = {
-    {"uniform", make_uniform}, {"grid", make_grid},     {"rings", make_rings},
-    {"slivers", make_slivers}, {"offset", make_offset},
-};
+static const dataset_kind sets[] = {DATASET_UNIFORM, DATASET_GRID, DATASET_RINGS, DATASET_SLIVERS, DATASET_OFFSET};
 
 #define SETS (sizeof sets / sizeof *sets)
 
@@ -246,8 +191,8 @@ static int run_set(const bench_settings *settings, const char *name, const datas
 static int run_made(const bench_settings *settings, size_t i, size_t vertices, text *t)
 {
     dataset data;
-    if (!sets[i].make(&data, vertices, settings->common.seed)) return fail_memory();
-    int end = run_set(settings, sets[i].name, &data, t);
+    if (!dataset_make(&data, sets[i], vertices, false, settings->common.seed)) return fail_memory();
+    int end = run_set(settings, dataset_name((int)sets[i]), &data, t);
     dataset_release(&data);
     return end;
 }
@@ -270,8 +215,9 @@ static size_t set_named(const char *name)
 {
     spelling s = spelling_of(name);
     for (size_t i = 0; i < SETS; i++) {
-        if (strcmp(sets[i].name, name) == 0) return i;
-        spelling_try(&s, sets[i].name);
+        const char *set = dataset_name((int)sets[i]);
+        if (strcmp(set, name) == 0) return i;
+        spelling_try(&s, set);
     }
     spelling_complain(&s, "set", "");
     return SETS;

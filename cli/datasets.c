@@ -8,8 +8,9 @@
 const char *dataset_name(int kind)
 {
     static const char *const names[DATASET_KINDS] = {
-        [DATASET_UNIFORM] = "uniform",   [DATASET_GRID] = "grid", [DATASET_GAUSSIAN] = "gaussian",
-        [DATASET_CLUSTERS] = "clusters", [DATASET_ARCS] = "arcs", [DATASET_RECTANGLE] = "rectangle",
+        [DATASET_UNIFORM] = "uniform",   [DATASET_GRID] = "grid",       [DATASET_GAUSSIAN] = "gaussian",
+        [DATASET_CLUSTERS] = "clusters", [DATASET_ARCS] = "arcs",       [DATASET_RECTANGLE] = "rectangle",
+        [DATASET_RINGS] = "rings",       [DATASET_SLIVERS] = "slivers", [DATASET_OFFSET] = "offset",
     };
     return kind >= 0 && kind < DATASET_KINDS ? names[kind] : NULL;
 }
@@ -114,6 +115,30 @@ static void arcs(dataset *d, size_t n, uint64_t *random)
     }
 }
 
+static void rings(dataset *d, size_t n)
+{
+    size_t around = 2 * (size_t)sqrt((double)n), count = n / around + 1;
+    for (size_t i = 0; i < n; i++) {
+        double radius = (double)(i / around + 1) / (double)(2 * count);
+        double angle = 2 * PI * (double)(i % around) / (double)around;
+        d->points[2 * i] = 0.5 + radius * cos(angle);
+        d->points[2 * i + 1] = 0.5 + radius * sin(angle);
+    }
+}
+
+#define ROWS 10
+
+static void slivers(dataset *d, size_t n, uint64_t *random)
+{
+    const double cosine = 0.8660254037844386, sine = 0.5;
+    for (size_t i = 0; i < n; i++) {
+        double x = dataset_unit(random), y = 0.1 * (double)(i % ROWS) + 1e-9 * dataset_unit(random);
+        d->points[2 * i] = x * cosine - y * sine;
+        d->points[2 * i + 1] = x * sine + y * cosine;
+    }
+    dataset_bound(d, n);
+}
+
 static void fill(dataset *d, dataset_kind kind, size_t n, uint64_t *random)
 {
     *d = (dataset){.points = d->points, .count = d->count, .u = {1, 0}, .v = {0, 1}};
@@ -122,12 +147,17 @@ static void fill(dataset *d, dataset_kind kind, size_t n, uint64_t *random)
         d->u[1] = 2 * sin(PI / 6);
         d->v[0] = -sin(PI / 6);
         d->v[1] = cos(PI / 6);
+    } else if (kind == DATASET_OFFSET) {
+        d->origin[0] = d->origin[1] = 5e6;
+        d->u[0] = d->v[1] = 1e4;
     }
     switch (kind) {
     case DATASET_GRID: grid(d, n); break;
     case DATASET_GAUSSIAN: gaussian(d, n, random); break;
     case DATASET_CLUSTERS: clusters(d, n, random); break;
     case DATASET_ARCS: arcs(d, n, random); break;
+    case DATASET_RINGS: rings(d, n); break;
+    case DATASET_SLIVERS: slivers(d, n, random); break;
     default: dataset_draw(d, d->points, n, random);
     }
 }
