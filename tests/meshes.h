@@ -83,6 +83,23 @@ static inline mw_locator *mesh_locator(const mw_mesh *mesh, mw_locator_options o
     return locator;
 }
 
+/* The vertices and triangles of a mesh. */
+static inline arrays mesh_arrays(const mw_mesh *mesh)
+{
+    uint32_t points = mw_mesh_vertex_count(mesh), triangles = mw_mesh_triangle_count(mesh), v[3];
+    arrays a = arrays_make(points, triangles);
+    double at[2];
+    for (uint32_t i = 0; i < points; i++) {
+        mw_mesh_vertex(mesh, i, at);
+        arrays_point(&a, at[0], at[1]);
+    }
+    for (uint32_t i = 0; i < triangles; i++) {
+        mw_mesh_triangle(mesh, i, v);
+        arrays_triangle(&a, v[0], v[1], v[2]);
+    }
+    return a;
+}
+
 static inline double random_unit(uint64_t *random)
 {
     return (double)(mw__random(random) >> 11) * 0x1p-53;

@@ -184,6 +184,31 @@ static void test_no_line(void **state)
     arrays_free(&a);
 }
 
+/* A vertex that is too far from q for doubles, across a line along an axis: whether it is past the normal is not a number.
+ * The walk takes that for yes and stops, where the exact walk goes on. */
+static void test_past_any_number(void **state)
+{
+    (void)state;
+    arrays a = arrays_make(5, 4);
+    uint32_t s = arrays_point(&a, 1, -8.5), l = arrays_point(&a, 0, -7), r = arrays_point(&a, 0, -9);
+    uint32_t far = arrays_point(&a, 1, 15), end = arrays_point(&a, 15, -8);
+    arrays_triangle(&a, s, l, r);
+    arrays_triangle(&a, l, s, far);
+    arrays_triangle(&a, s, end, far);
+    arrays_triangle(&a, r, end, s);
+    const double unit = 0x1p1020, q[2] = {2 * unit, -8 * unit};
+    transform(&a, unit, 0, 0);
+    field f = field_of_arrays(&a);
+    mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_NORMAL_STRAIGHT, .count = 1};
+    mw_location at;
+    mw_counters counters = count_from(&f, &options, 0, q, &at);
+    assert_int_equal(at.triangle, 2);
+    assert_int_equal(counters.triangles, 2);
+    assert_int_equal(counters.triangles_visited, 3);
+    field_free(&f);
+    arrays_free(&a);
+}
+
 /* All queries from all tiles, both arithmetics, against the oracle; none runs out of steps. */
 static void from_everywhere(const arrays *a, const double *q, size_t n)
 {
@@ -273,17 +298,7 @@ static void test_wild_magnitudes(void **state)
             points[i] = (i == 0 || i == 1 || i == 3 || i == 4 ? -1 : 1) * (round % 2 ? 1e308 : 1e300);
         for (int i = 0; i < 2 * QUERIES; i++) q[i] = i % 4 == 3 ? 0 : wild(&random);
         mw_mesh *mesh = delaunay_mesh(points, N);
-        arrays a = arrays_make(mw_mesh_vertex_count(mesh), mw_mesh_triangle_count(mesh));
-        for (uint32_t v = 0; v < mw_mesh_vertex_count(mesh); v++) {
-            double at[2];
-            mw_mesh_vertex(mesh, v, at);
-            arrays_point(&a, at[0], at[1]);
-        }
-        for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
-            uint32_t v[3];
-            mw_mesh_triangle(mesh, t, v);
-            arrays_triangle(&a, v[0], v[1], v[2]);
-        }
+        arrays a = mesh_arrays(mesh);
         mw_mesh_destroy(mesh);
         from_everywhere(&a, q, QUERIES);
         arrays_free(&a);
@@ -393,6 +408,7 @@ int main(void)
         cmocka_unit_test(test_on_lines),           cmocka_unit_test(test_a_few_roundings_wide),
         cmocka_unit_test(test_wild_magnitudes),    cmocka_unit_test(test_no_handovers),
         cmocka_unit_test(test_any_scale),          cmocka_unit_test(test_trap_ends),
+        cmocka_unit_test(test_past_any_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

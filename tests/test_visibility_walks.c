@@ -209,6 +209,153 @@ static void test_no_cycles_by_rounding(void **state)
     arrays_free(&a);
 }
 
+/* Is q strictly beyond edge e of tile t? */
+static bool parts(const mw_walk *walk, uint32_t t, uint32_t e)
+{
+    const uint32_t *v = walk->tri[t].v;
+    mw_point a = walk->point[v[e]], b = walk->point[v[e + 1]];
+    return oracle_orient((double[2]){a.x, a.y}, (double[2]){b.x, b.y}, (double[2]){walk->q.x, walk->q.y}) < 0;
+}
+
+/* Walk to q from tile t in exact arithmetic: q must lie strictly beyond every edge crossed, one of the hull at last
+ * included. Adds the number of edges to *crossed. */
+static void expect_sure(const mw_kernels *kernels, const mw_tiling *tiling, uint32_t t, const double q[2], int *crossed)
+{
+    enum { STEPS = 300 };
+    mw_walk walk = mw__walk_begin(tiling, (mw_point){q[0], q[1]}, t, 0, 0);
+    mw_verdict verdict = MW_DRY;
+    for (int i = 0; i < STEPS && verdict == MW_DRY; i++) {
+        walk.fuel = 1;
+        t = walk.t;
+        verdict = kernels->run[true][false](&walk);
+        bool sure = verdict == MW_CLOSE;
+        for (uint32_t e = 0; e < 3; e++) {
+            uint32_t link = walk.tri[t].link[e];
+            bool left = verdict == MW_LEFT && link == MW_NONE;
+            bool crossed_here = verdict == MW_DRY && link == 4 * walk.t + walk.e;
+            sure |= (left || crossed_here) && parts(&walk, t, e);
+        }
+        if (!sure) fail_msg("from tile %u: (%a, %a) is not beyond the edge that was crossed", t, q[0], q[1]);
+        *crossed += verdict != MW_CLOSE;
+    }
+}
+
+static void expect_all_sure(const mw_tiling *tiling, uint32_t t, const double q[2], int *crossed)
+{
+    expect_sure(&mw__barycentric, tiling, t, q, crossed);
+    expect_sure(&mw__direct, tiling, t, q, crossed);
+    expect_sure(&mw__direct_stored, tiling, t, q, crossed);
+}
+
+/* Points about a line, many of them close together: needles of all shapes. */
+static mw_mesh *needles(uint32_t n, double offset, double height, uint64_t *random)
+{
+    double *points = malloc(2 * n * sizeof *points), slope = 2 * random_unit(random) - 1, x = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        double near = ldexp(random_unit(random) - 0.5, -(int)mw__random_below(random, 30));
+        double y = height * (random_unit(random) - 0.5);
+        x = i % 3 == 0 ? random_unit(random) : x + near;
+        points[2 * i] = offset + x - slope * y;
+        points[2 * i + 1] = -offset / 3 + slope * x + y;
+    }
+    mw_mesh *mesh = NULL; /* where all points are rounded onto one line */
+    mw_delaunay(points, n, 2, NULL, NULL, &mesh, NULL);
+    free(points);
+    return mesh;
+}
+
+/* In needles an area is the small difference of large products, whatever the walks derive from it is off by their errors,
+ * and the bounds on these decide. */
+static void test_sure_in_needles(void **state)
+{
+    (void)state;
+    uint64_t seed = 9, random = seed;
+    int crossed = 0;
+    print_message("seed %llu\n", (unsigned long long)seed);
+    for (int i = 0; i < 62; i++) {
+        mw_mesh *mesh = needles(30, i % 2 ? 5e6 : 0, ldexp(1, -i), &random);
+        if (!mesh) continue;
+        arrays a = mesh_arrays(mesh);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1});
+        size_t n;
+        double *q = nasty_queries(&a, 4, &n, &random);
+        for (size_t k = 0; k < n; k++)
+            expect_all_sure(&locator->tiling, mw__random_below(&random, locator->tiling.tri_count), q + 2 * k,
+                            &crossed);
+        free(q);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+    assert_true(crossed > 10000);
+}
+
+/* A stored area may be off by more than the tests in its tile. Two needles share the edge ab from a short side to the far
+ * vertex b; at v, or next to it, in the second, the tests are between points close together, but the area is not. */
+static void test_sure_by_stored_areas(void **state)
+{
+    (void)state;
+    uint64_t seed = 10, random = seed;
+    int crossed = 0;
+    print_message("seed %llu\n", (unsigned long long)seed);
+    for (int i = 0; i < 10000; i++) {
+        arrays m = arrays_make(4, 2);
+        double *a = m.points, *b = a + 2, *v = a + 4, *w = a + 6, side = ldexp(1, -5 - i % 5);
+        m.point_count = 4;
+        for (int c = 0; c < 2; c++) {
+            a[c] = random_unit(&random);
+            b[c] = a[c] + random_unit(&random) - 0.5;
+            v[c] = a[c] + side * (random_unit(&random) - 0.5);
+            w[c] = a[c] - side * (random_unit(&random) - 0.5);
+        }
+        bool left = mw_orient2d(a, b, v) > 0;
+        bool apart = left == (mw_orient2d(a, b, w) < 0);
+        for (int c = 0; c < 2 && !apart; c++) w[c] = 2 * a[c] - v[c];
+        arrays_triangle(&m, left ? 2 : 0, left ? 0 : 2, 1);
+        arrays_triangle(&m, left ? 0 : 3, left ? 3 : 0, 1);
+        mw_mesh *mesh = arrays_mesh(&m, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1, .layout = 2});
+        for (int k = 0; k < 4; k++) {
+            double q[2] = {nextafter(v[0], k % 2 ? b[0] : v[0]), nextafter(v[1], k / 2 ? b[1] : v[1])};
+            expect_sure(&mw__direct_stored, &locator->tiling, 1, q, &crossed);
+        }
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&m);
+    }
+    assert_true(crossed > 10000);
+}
+
+/* Found by search: all roundings conspire, in the areas, which are off by more than what makes their signs sure, and in the
+ * sums. Without a bound on the latter the walk would leave over the edge that q is (all but) on. */
+static void test_sure_in_sums(void **state)
+{
+    (void)state;
+    static const double p[][4][2] = {
+        {{0x1.38df64a3bc73p-6, -0x1.3a561bb87f2cap-1},
+         {0x1.a873f8c14e79p+0, -0x1.64b7ac9ec3f8bp-1},
+         {-0x1.11f14424ce64bp-3, 0x1.e5ec91855d134p+0},
+         {0x1.ce2a65aa07d5fp-6, -0x1.3a926e0fe03c6p-1}},
+        {{-0x1.59c6642468012p+0, 0x1.b0a1c7bc504d8p-1},
+         {-0x1.6dded4630f1c8p+0, -0x1.8460922eb6d6dp+0},
+         {-0x1.165b2242b5dcep-2, 0x1.2a0840a42f7dbp+0},
+         {-0x1.5ded5149e8937p+0, 0x1.6d815b8f03dc2p-2}},
+    };
+    int crossed = 0;
+    for (size_t i = 0; i < sizeof p / sizeof *p; i++)
+        for (uint32_t first = 0; first < 3; first++) {
+            arrays a = arrays_make(3, 1);
+            for (int k = 0; k < 3; k++) arrays_point(&a, p[i][k][0], p[i][k][1]);
+            arrays_triangle(&a, first, (first + 1) % 3, (first + 2) % 3);
+            mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+            mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1});
+            expect_all_sure(&locator->tiling, 0, p[i][3], &crossed);
+            mw_locator_destroy(locator);
+            mw_mesh_destroy(mesh);
+            arrays_free(&a);
+        }
+}
+
 /* Stored areas of slivers are as good as those of other triangles; beyond the doubles they are infinite. */
 static void test_stored_areas(void **state)
 {
@@ -277,7 +424,9 @@ int main(void)
         cmocka_unit_test(test_tests_per_triangle), cmocka_unit_test(test_same_way),
         cmocka_unit_test(test_fast_saves_tests),   cmocka_unit_test(test_any_steps_same_answers),
         cmocka_unit_test(test_steps_and_fuel),     cmocka_unit_test(test_no_cycles_by_rounding),
-        cmocka_unit_test(test_stored_areas),       cmocka_unit_test(test_any_mesh),
+        cmocka_unit_test(test_sure_in_needles),    cmocka_unit_test(test_sure_by_stored_areas),
+        cmocka_unit_test(test_sure_in_sums),       cmocka_unit_test(test_stored_areas),
+        cmocka_unit_test(test_any_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
