@@ -12,7 +12,7 @@ namespace bench
 
 using Coordinates = std::vector<double>; // x0 y0 x1 y1 ...
 
-// The sets of cli/datasets.h by name: uniform, grid, gaussian, clusters, arcs, rectangle. Any other name is a file of points,
+// The sets of cli/datasets.h by name: uniform, grid, gaussian, clusters, arcs, rectangle, rings, .... Any other name is a file of points,
 // and n its largest number. Ends the program if there is no such file.
 Coordinates make_points(const std::string &name, size_t n, uint64_t seed);
 

@@ -19,12 +19,6 @@ struct mw_index {
     };
 };
 
-/* Does a start need an index? */
-static MW_INLINE bool mw__index_serves(mw_start_kind start)
-{
-    return mw_start_has_index(start);
-}
-
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking
  * through the index did is added to *work, if the cursor counts. */
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work);

@@ -200,7 +200,7 @@ static mw_status resolve_start(const mw_query_options *options, mw_start_kind *s
     *start = options->start;
     if ((unsigned)*start >= MW_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
     if (!options->index) {
-        if (mw__index_serves(*start))
+        if (mw_start_has_index(*start))
             return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index", mw_start_name(*start));
         return MW_OK;
     }
