@@ -18,7 +18,7 @@ static MW_INLINE mw_verdict cross_chain(mw_walk *w, uint32_t e, mw_policy P)
     uint32_t next = mw__next(e);
     mw_point a = corner(w, e), c = corner(w, next), b = apex(w, e);
     bool round = dot(w, c, a, w->q, P) < 0 && dot(w, c, a, b, P) < 0;
-    return cross(w, round ? next : e, P);
+    return cross_guessed(w, round ? next : e, P);
 }
 
 static MW_INLINE mw_verdict celestial_step(mw_walk *w, mw_policy P)

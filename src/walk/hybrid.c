@@ -65,8 +65,10 @@ static MW_INLINE mw_verdict hybrid_step(mw_walk *w, mw_policy P)
     if (MW_UNLIKELY(w->phase == FIRST)) return aim(w, P);
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
     mw_point s = apex(w, w->e);
-    if (MW_LIKELY(w->phase == FOLLOW)) /* entered over edge e = lr */
-        return past(w, s, P) ? MW_CLOSE : cross_unsure(w, above(w, s, P) ? next : prev, P);
+    if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
+        if (MW_UNLIKELY(past(w, s, P))) return MW_CLOSE;
+        return cross_guessed_unsure(w, above(w, s, P) ? next : prev, P);
+    }
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is s */
         return above(w, s, P) ? cross_unsure(w, next, P) : follow(w, prev, s, P);
     return above(w, s, P) ? follow(w, next, s, P) : cross_unsure(w, prev, P); /* entered over e = pr, the new l is s */

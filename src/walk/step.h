@@ -105,6 +105,23 @@ static MW_INLINE mw_verdict cross_unsure(mw_walk *w, uint32_t e, mw_policy P)
     return MW_UNLIKELY(verdict == MW_LEFT) ? MW_CLOSE : verdict;
 }
 
+/* Cross edge e, which came out of values. A walk alone should not wait for them: a jump lets the processor guess, and have
+ * the next tile on its way. Many walks in flight have time, and no use for wrong guesses. */
+static MW_INLINE mw_verdict cross_guessed(mw_walk *w, uint32_t e, mw_policy P)
+{
+    if (P.lanes) return cross(w, e, P);
+    uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
+    if (e == next) return cross(w, next, P);
+    if (e == prev) return cross(w, prev, P);
+    return cross(w, e, P);
+}
+
+static MW_INLINE mw_verdict cross_guessed_unsure(mw_walk *w, uint32_t e, mw_policy P)
+{
+    mw_verdict verdict = cross_guessed(w, e, P);
+    return MW_UNLIKELY(verdict == MW_LEFT) ? MW_CLOSE : verdict;
+}
+
 /* Leave through edge e if q lies beyond it; otherwise q is here. */
 static MW_INLINE mw_verdict leave(mw_walk *w, uint32_t e, mw_policy P)
 {
