@@ -1,7 +1,7 @@
 // bench_locate - location in a Delaunay triangulation, every walk from random triangles, beside CGAL's locate from random
 // faces of the same triangulation; and, for queries that may be put in order, `auto` beside CGAL's locate from face to
 // face along its own spatial order, the sorting timed. One thread. The answers of both are compared.
-#include "harness.h"
+#include "locating.h"
 #include "peer.h"
 
 #include <meshwalk/meshwalk.h>
@@ -55,28 +55,6 @@ mw_query_options how(mw_walk_kind walk, mw_start_kind start, int count)
     options.threads = 1;
     options.count = count;
     return options;
-}
-
-double run_single(const Scene &scene, const mw_query_options &options, std::vector<mw_location> &found)
-{
-    mw_cursor cursor;
-    mw_error error;
-    if (mw_cursor_init(&cursor, scene.locator, &options, &error) != MW_OK) fail(error.message);
-    Stopwatch watch;
-    for (size_t i = 0; i < found.size(); i++)
-        found[i] = mw_locate(scene.locator, &cursor, scene.queries[2 * i], scene.queries[2 * i + 1]);
-    return watch.seconds();
-}
-
-double run_batch(const Scene &scene, const mw_query_options &options, std::vector<mw_location> &found,
-                 mw_counters *counters = nullptr)
-{
-    mw_error error;
-    Stopwatch watch;
-    if (mw_locate_batch(scene.locator, scene.queries.data(), found.size(), 2, &options, found.data(), counters,
-                        &error) != MW_OK)
-        fail(error.message);
-    return watch.seconds();
 }
 
 using Faces = std::vector<Delaunay::Face_handle>;
@@ -163,12 +141,13 @@ void measure(const std::string &name, size_t size, const Options &options, Table
     std::vector<Line> lines;
     auto count = [&](mw_walk_kind walk, mw_start_kind start) {
         mw_counters counters;
-        run_batch(scene, how(walk, start, 1), found, &counters);
+        run_batch(scene.locator, scene.queries, how(walk, start, 1), found, &counters);
         return counters;
     };
     auto enter = [&](mw_walk_kind walk, mw_start_kind start, bool batch) {
         size_t competitor = contest.enter([=, &scene, &found] {
-            return batch ? run_batch(scene, how(walk, start, 0), found) : run_single(scene, how(walk, start, 0), found);
+            return batch ? run_batch(scene.locator, scene.queries, how(walk, start, 0), found)
+                         : run_single(scene.locator, scene.queries, how(walk, start, 0), found);
         });
         lines.push_back({mw_walk_name(walk), mw_start_name(start), batch ? "batch" : "single", competitor,
                          count(walk, start), true});

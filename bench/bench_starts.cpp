@@ -1,7 +1,6 @@
 // bench_starts - every way to choose the first triangle, one walk after it: time of a query alone and in a batch, triangles
 // visited, and what the index costs that some starts need. One thread.
-#include "datasets.h"
-#include "harness.h"
+#include "locating.h"
 
 #include <meshwalk/meshwalk.h>
 
@@ -67,28 +66,6 @@ mw_query_options how(const Scene &scene, mw_walk_kind walk, const Start &start, 
     return options;
 }
 
-double run_single(const Scene &scene, const mw_query_options &options, std::vector<mw_location> &found)
-{
-    mw_cursor cursor;
-    mw_error error;
-    if (mw_cursor_init(&cursor, scene.locator, &options, &error) != MW_OK) fail(error.message);
-    Stopwatch watch;
-    for (size_t i = 0; i < found.size(); i++)
-        found[i] = mw_locate(scene.locator, &cursor, scene.queries[2 * i], scene.queries[2 * i + 1]);
-    return watch.seconds();
-}
-
-double run_batch(const Scene &scene, const mw_query_options &options, std::vector<mw_location> &found,
-                 mw_counters *counters = nullptr)
-{
-    mw_error error;
-    Stopwatch watch;
-    if (mw_locate_batch(scene.locator, scene.queries.data(), found.size(), 2, &options, found.data(), counters,
-                        &error) != MW_OK)
-        fail(error.message);
-    return watch.seconds();
-}
-
 // Whatever the start, the answers are the same.
 void compare(const std::vector<mw_location> &found, const std::vector<mw_location> &expected, const Start &start)
 {
@@ -104,17 +81,19 @@ void measure(const std::string &name, size_t size, mw_walk_kind walk, const Opti
     std::vector<Start> starts = all_starts();
     std::vector<size_t> single, batch;
     Contest contest;
-    run_batch(scene, how(scene, walk, starts[0], false), expected);
+    run_batch(scene.locator, scene.queries, how(scene, walk, starts[0], false), expected);
     for (const Start &start : starts) {
-        single.push_back(contest.enter([&] { return run_single(scene, how(scene, walk, start, false), found); }));
-        batch.push_back(contest.enter([&] { return run_batch(scene, how(scene, walk, start, false), found); }));
+        single.push_back(contest.enter(
+            [&] { return run_single(scene.locator, scene.queries, how(scene, walk, start, false), found); }));
+        batch.push_back(contest.enter(
+            [&] { return run_batch(scene.locator, scene.queries, how(scene, walk, start, false), found); }));
     }
     contest.hold(options);
     for (size_t i = 0; i < starts.size(); i++) {
         mw_counters counters;
         mw_index_info info = {};
         double queries = static_cast<double>(scene.query_count());
-        run_batch(scene, how(scene, walk, starts[i], true), found, &counters);
+        run_batch(scene.locator, scene.queries, how(scene, walk, starts[i], true), found, &counters);
         compare(found, expected, starts[i]);
         if (scene.index[starts[i].kind]) mw_index_describe(scene.index[starts[i].kind], &info);
         table.row({name, std::to_string(scene.points.size() / 2), mw_walk_name(walk), starts[i].name,
