@@ -5,7 +5,7 @@
 
 enum { POINTS = 20000, QUERIES = 5000 };
 
-static void fail(const mw_error *error)
+static _Noreturn void fail(const mw_error *error)
 {
     fprintf(stderr, "%s\n", error->message);
     exit(1);
@@ -36,7 +36,7 @@ static mw_locator *make_locator(double moved, mw_mesh **mesh)
 {
     static double points[2 * POINTS];
     mw_error error;
-    mw_locator *locator;
+    mw_locator *locator = NULL;
     make_points(points, POINTS, moved);
     if (mw_delaunay(points, POINTS, 2, NULL, NULL, mesh, &error) || mw_locator_create(*mesh, NULL, &locator, &error))
         fail(&error);
