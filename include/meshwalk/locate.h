@@ -211,7 +211,8 @@ typedef struct mw_cursor {
 
 /* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a finish that is neither remembering nor
  * stochastic, a start without its index, an index of another start, a tolerance that is negative, NaN or infinite, or
- * one without the border index. With an index and MW_START_AUTO the start is the index's. MW_START_SORTED in single queries means MW_START_LAST. */
+ * one without the border index. With an index and MW_START_AUTO the start is the index's. MW_START_SORTED in single
+ * queries means MW_START_LAST. */
 MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options,
                                 mw_error *error);
 

@@ -35,7 +35,8 @@ void mw__tiling_release(mw_tiling *tiling);
 size_t mw__tiling_bytes(const mw_tiling *tiling); /* what it owns */
 
 /* Compute the areas: rounded, thin tiles included, with a relative error below MW_AREA_ERROR or, among the subnormal
- * numbers, an absolute one below the smallest normal number; infinite above the doubles. MW_ERROR_MEMORY. Not before the tiles have their final order. */
+ * numbers, an absolute one below the smallest normal number; infinite above the doubles. MW_ERROR_MEMORY. Not before
+ * the tiles have their final order. */
 #define MW_AREA_ERROR 0x1p-43
 mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error);
 

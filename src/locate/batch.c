@@ -65,10 +65,7 @@ static bool depart(chunk *c, uint32_t lane, mw_walk *walk)
             continue;
         }
         uint64_t random = mw__random_seed(b->seed, query);
-        mw_cursor cursor = b->cursor;
-        cursor.last = c->last[lane];
-        if (cursor.last == MW_NONE) cursor.start = MW_START_SAMPLE; /* nothing before it */
-        *walk = mw__depart(b->locator, &cursor, q, &random);
+        *walk = mw__depart(b->locator, &b->cursor, c->last[lane], q, &random);
         c->query[lane] = query;
         return true;
     }

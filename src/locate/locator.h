@@ -27,8 +27,9 @@ struct mw_locator {
 mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
                          mw_counters *counters);
 
-/* The walk of one query: first tile by the cursor's start (MW_START_LAST and _SORTED: the cursor's last). */
-mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random);
+/* The walk of one query: first tile by the cursor's start; `last` is where the query before it ended, MW_NONE if there is
+ * none: then the start is MW_START_SAMPLE. */
+mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random);
 
 /* A location that names no triangle. */
 static MW_INLINE mw_location mw__nowhere(mw_where where)

@@ -123,16 +123,18 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
 
 /* --- the departure ----------------------------------------------------------------------------------------------- */
 
-static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
+static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
+                           uint64_t *random)
 {
     const mw_tiling *tiling = &locator->tiling;
+    if (MW_UNLIKELY(last == MW_NONE)) return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
     switch ((mw_start_kind)cursor->start) {
     case MW_START_RANDOM: return mw__start_random(tiling, random);
     case MW_START_SAMPLE: return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
     case MW_START_CENTRE: return locator->centre;
     case MW_START_AUTO:
-        if (mw__distance2(tiling->point[tiling->tri[cursor->last].v[0]], q) > locator->near2)
-            return mw__start_sample(tiling, q, cursor->sample, cursor->last, random);
+        if (mw__distance2(tiling->point[tiling->tri[last].v[0]], q) > locator->near2)
+            return mw__start_sample(tiling, q, cursor->sample, last, random);
         break;
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
@@ -141,7 +143,7 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, m
     case MW_START_SORTED:
     case MW_START_COUNT: break;
     }
-    return cursor->last;
+    return last;
 }
 
 /* Add what the index did to what the walk will do. */
@@ -156,11 +158,11 @@ static void add_work(mw_work *sum, const mw_work *more)
     sum->comparisons += more->comparisons;
 }
 
-static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
+static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random)
 {
     const mw_tiling *tiling = &locator->tiling;
     if (!cursor->index) {
-        uint32_t t = first_tile(locator, cursor, q, random);
+        uint32_t t = first_tile(locator, cursor, last, q, random);
         return mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random));
     }
     mw_work work = {0};
@@ -185,9 +187,9 @@ static void allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t given
     walk->fuel += walk->steps; /* at most 4096 + 45 sqrt(2^30), twice */
 }
 
-mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, mw_point q, uint64_t *random)
+mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random)
 {
-    mw_walk walk = begin(locator, cursor, q, random);
+    mw_walk walk = begin(locator, cursor, last, q, random);
     if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) allow_steps(&walk, locator, cursor->steps);
     return walk;
 }
@@ -248,7 +250,7 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
 mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y)
 {
     if (MW_UNLIKELY(!isfinite(x) || !isfinite(y))) return mw__nowhere(MW_BAD);
-    mw_walk walk = mw__depart(locator, cursor, (mw_point){x, y}, &cursor->random);
+    mw_walk walk = mw__depart(locator, cursor, cursor->last, (mw_point){x, y}, &cursor->random);
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
     mw_location location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
