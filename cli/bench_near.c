@@ -8,6 +8,7 @@
 #include "bench.h"
 #include "datasets.h"
 #include "files.h"
+#include "measure.h"
 #include "message.h"
 #include "progress.h"
 #include "spelling.h"
@@ -99,19 +100,6 @@ static void draw(near *s, size_t n)
     }
 }
 
-/* Whatever the walk, the answer is the same: that of the first entry. */
-static int compare(const near *s, const entry *e, size_t n)
-{
-    for (size_t i = 0; i < n; i++) {
-        if (s->locations[i].triangle == s->answers[i].triangle && s->locations[i].where == s->answers[i].where)
-            continue;
-        complain("%s: the walks %s and %s found different triangles at %.17g %.17g", s->name, mw_walk_name(e->walk),
-                 mw_walk_name(s->entries[0].walk), s->queries[2 * i], s->queries[2 * i + 1]);
-        return END_INTERNAL;
-    }
-    return 0;
-}
-
 static int run_entry(near *s, entry *e, size_t n, uint64_t seed)
 {
     mw_error error;
@@ -128,7 +116,8 @@ static int run_entry(near *s, entry *e, size_t n, uint64_t seed)
     if (mw_locate_batch(s->locator[e->areas], s->queries, n, 2, &options, locations, &counters, &error) != MW_OK)
         return fail(s, &error);
     mw_counters_add(&e->counters, &counters);
-    return e == s->entries ? 0 : compare(s, e, n);
+    return measure_compare(s->name, s->queries, n, mw_walk_name(e->walk), locations, mw_walk_name(s->entries[0].walk),
+                           s->answers);
 }
 
 static int run_all(near *s)

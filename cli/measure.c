@@ -127,14 +127,13 @@ static mw_query_options options_of(const scene *s, const algorithm *a, mw_arithm
     };
 }
 
-/* Whatever the walk, the answer is the same. */
-static int compare(const scene *s, const algorithm *a, size_t n)
+int measure_compare(const char *name, const double *queries, size_t n, const char *walk, const mw_location *found,
+                    const char *other, const mw_location *expected)
 {
     for (size_t i = 0; i < n; i++) {
-        if (s->locations[i].triangle == s->answers[i].triangle && s->locations[i].where == s->answers[i].where)
-            continue;
-        complain("%s: the walk %s found another triangle than auto at %.17g %.17g", s->trial->name, a->walk,
-                 s->queries[2 * i], s->queries[2 * i + 1]);
+        if (found[i].triangle == expected[i].triangle && found[i].where == expected[i].where) continue;
+        complain("%s: the walks %s and %s found different triangles at %.17g %.17g", name, walk, other, queries[2 * i],
+                 queries[2 * i + 1]);
         return END_INTERNAL;
     }
     return 0;
@@ -152,7 +151,7 @@ static int count_block(scene *s, size_t n, uint64_t block, mw_counters *sums)
         if (mw_locate_batch(s->locator[a->areas], s->queries, n, 2, &options, s->locations, &counters, &error) != MW_OK)
             return fail(s->trial, &error);
         mw_counters_add(&sums[i], &counters);
-        int end = compare(s, a, n);
+        int end = measure_compare(s->trial->name, s->queries, n, a->walk, s->locations, "auto", s->answers);
         if (end) return end;
     }
     return 0;

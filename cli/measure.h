@@ -63,4 +63,9 @@ typedef struct outcome {
 /* Complains about what went wrong; returns 0 or an exit code. */
 int measure(const trial *t, outcome *o);
 
+/* Whatever the walk, the answer is the same: complains where two found different ones for n queries. Returns 0 or an exit
+ * code. name: of the set of points. */
+int measure_compare(const char *name, const double *queries, size_t n, const char *walk, const mw_location *found,
+                    const char *other, const mw_location *expected);
+
 #endif
