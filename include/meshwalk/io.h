@@ -44,6 +44,37 @@ MW_API void mw_mesh_file_release(mw_mesh_file *file); /* NULL and an empty file 
 /* The mesh of a file as arrays for mw_mesh_create and mw_check_arrays. */
 MW_API mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file);
 
+/* Constraints for mw_constrained_delaunay as read: arrays owned by the structure; release with
+ * mw_constraint_file_release. */
+typedef struct mw_constraint_file {
+    double *points; /* 3 per point: x y z (NaN where the file has no z for it); points of rings and lines once each, in
+                       the order of the file; a ring's closing point is not repeated                               */
+    size_t point_count;
+    int has_z;          /* some point has a z */
+    uint32_t *segments; /* 2 per segment */
+    uint32_t *polygon;  /* per segment the number of its polygon, or MW_NONE for lines */
+    uint32_t *place;    /* per segment where it stands: `line` of the file or number of the feature, see place_name */
+    size_t segment_count;
+    size_t polygon_count;
+    double *holes; /* 2 per hole */
+    size_t hole_count;
+    const char *place_name; /* "line" or "feature": what `place` counts, lines from 1, features from 0 */
+    char **field_names;     /* further values per point (attributes of .poly) */
+    double **fields;
+    size_t field_count;
+} mw_constraint_file;
+
+/* Read constraints.
+ *   .poly     Triangle: with its points inside, or in a .node file of the same name; numbered from 0 or 1; holes. Every
+ *             segment bounds: there are no polygons, polygon[i] is MW_NONE
+ *   GeoJSON   Point, MultiPoint, LineString, MultiLineString, Polygon, MultiPolygon, GeometryCollection, Feature and
+ *             FeatureCollection; each polygon of a MultiPolygon is one. Refused where the library was built without
+ *             Jansson
+ * Recognised by content; gzip is taken. MW_ERROR_SYSTEM, MW_ERROR_INPUT, MW_ERROR_LIMIT, MW_ERROR_MEMORY as
+ * mw_read_mesh. On failure `file` is empty. */
+MW_API mw_status mw_read_constraints(const char *path, mw_constraint_file *file, mw_error *error);
+MW_API void mw_constraint_file_release(mw_constraint_file *file); /* NULL and an empty file are allowed */
+
 /* Write a mesh. The format follows `format`, or the ending of path where it is NULL:
  *   "off"         Geomview; fields are not written
  *   "ply"         binary, little-endian; "ply-ascii" the same as text (.ply names "ply")

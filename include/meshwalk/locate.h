@@ -80,7 +80,11 @@ typedef struct mw_locator_options {
     int border; /* 1: build the index that nearest-border queries and a tolerance need                        */
     int layout; /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
     int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
-    uint32_t reserved[4];
+    int fill;   /* pockets and holes of a mesh that is not convex: 1: fill them with ghost triangles, so that every walk
+                   can cross them; 2: leave them open and build nothing: only MW_WALK_BORDER walks there; 0: decide   */
+    uint32_t reserved[3];
+    uint64_t
+        queries; /* about so many are to come, for `fill` 0: filling takes time that few do not pay for; 0 = many */
 } mw_locator_options;
 
 /* Prepare a mesh for queries.
@@ -99,9 +103,12 @@ typedef struct mw_locator_info {
     size_t area_bytes;        /* of it, the stored areas                           */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;    /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
+    int copied;      /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
                       Hilbert order */
-    int embedding; /* 0: only with options.any                          */
+    int embedding;   /* 0: only with options.any                          */
+    int open;        /* 1: not convex, and pockets and holes are not filled                  */
+    uint32_t pieces; /* parts of the mesh that share no vertex; only where open, else 1      */
+    size_t fill_bytes; /* of the bytes, what filling takes: ghosts, and the copy they need     */
 } mw_locator_info;
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
 
@@ -183,12 +190,17 @@ typedef struct mw_counters {
     uint64_t triangles_max;     /* most of them by one query                   */
     uint64_t triangles_init, triangles, triangles_final;
     uint64_t triangles_final_max; /* most triangles_final of one query                                     */
+    uint64_t triangles_walk_max;  /* most triangles of one query                                           */
     uint64_t orient_init, orient, orient_final; /* orientation tests (and dot products of the celestial walk); the final
                                                    answer's three are not counted                                      */
     uint64_t implicit;    /* positions of a point by the equation of a line                                  */
     uint64_t comparisons; /* comparisons of coordinates                                                      */
-    uint64_t cycles;      /* walks that ran out of steps: in a cycle or, in a long thin mesh, on a long way  */
-    uint64_t handovers;   /* walks that the celestial walk ended: those, and such as in doubles ended wrongly */
+    /* MW_WALK_BORDER, whose stages are the walk and the border walk: */
+    uint64_t walk_runs, border_runs;
+    uint64_t triangles_border, triangles_border_max, orient_border;
+    uint64_t border_edges, border_edges_max; /* edges of the border that were tested */
+    uint64_t cycles;    /* walks that ran out of steps: in a cycle or, in a long thin mesh, on a long way  */
+    uint64_t handovers; /* walks that the celestial walk ended: those, and such as in doubles ended wrongly */
 } mw_counters;
 
 /* Add `more` to `sum`: for the cursors of several threads. */

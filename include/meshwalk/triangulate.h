@@ -1,9 +1,9 @@
-/* triangulate.h - Delaunay triangulation of points.
+/* triangulate.h - triangulations of points, with and without constraints.
  *
- * Points are inserted one by one, in random rounds along a Hilbert curve [Amenta, Choi, Rote 2003], each by a walk from
- * the one before, a split and flips [Lawson 1977]. Exact: the result is a Delaunay triangulation of the given doubles,
- * whatever their position. Where more than three points lie on an empty circle there are several, and the order of the
- * points decides which one is made. */
+ * Delaunay: points are inserted one by one, in random rounds along a Hilbert curve [Amenta, Choi, Rote 2003], each by a
+ * walk from the one before, a split and flips [Lawson 1977]. Exact: the result is a Delaunay triangulation of the given
+ * doubles, whatever their position. Where more than three points lie on an empty circle there are several, and the order
+ * of the points decides which one is made. */
 #ifndef MESHWALK_TRIANGULATE_H
 #define MESHWALK_TRIANGULATE_H
 
@@ -33,6 +33,118 @@ typedef struct mw_triangulation_report {
  * triangles made is O(n log n) wherever the points lie; time is about linear. One thread; thread-safe. */
 MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
                              mw_triangulation_report *report, mw_mesh **out, mw_error *error);
+
+/* --- other kinds of triangulation -------------------------------------------------------------------------------- */
+
+typedef enum mw_triangulation_kind {
+#define MW_KIND_ENTRY(id, symbol, name, source, help) MW_##id,
+#include <meshwalk/kinds.def>
+    MW_KIND_COUNT
+} mw_triangulation_kind;
+
+/* Names as on the command line; NULL for a number that is no kind. */
+MW_API const char *mw_kind_name(mw_triangulation_kind kind);
+MW_API const char *mw_kind_source(mw_triangulation_kind kind);
+MW_API const char *mw_kind_help(mw_triangulation_kind kind);
+
+/* What was made, whatever the kind. */
+typedef struct mw_kind_report {
+    mw_triangulation_report
+        delaunay;         /* of the Delaunay triangulation that each kind begins with                      */
+    double edge_length;   /* sum of the lengths of the edges, each counted once; rounded                   */
+    double largest_angle; /* in radians; rounded                                                           */
+    int optimal;          /* 1: it is a triangulation of its kind (of the least weight, of the least
+                                         largest angle), up to rounding where stated; 0: a local optimum only, see
+                                         mw_triangulate                                                                 */
+    size_t faces;         /* MW_MIN_WEIGHT: faces of more than three corners that the skeleton left        */
+    size_t largest_face;  /* of these, most corners of one                                                 */
+    size_t local_faces;   /* of these, too large, or not simple: filled by a local optimum                 */
+    uint32_t reserved[8];
+} mw_kind_report;
+
+typedef struct mw_kind_options {
+    uint32_t limit; /* MW_MIN_WEIGHT: corners of the largest face that is filled optimally; MW_MIN_MAX_ANGLE: most
+                       points for which the optimum is sought; 0 = what takes seconds                                  */
+    uint32_t reserved[7];
+} mw_kind_options;
+
+/* A triangulation of any kind; arguments and errors as for mw_delaunay, options NULL = all zero.
+ *   MW_GREEDY         Edges by increasing length (compared exactly), of equal ones by the numbers of their ends (the lower,
+ *                     then the higher), each taken unless it crosses one taken before.
+ *   MW_MIN_WEIGHT     Sums of lengths are compared in doubles, so of triangulations that differ in the last digits any
+ *                     may be made. Faces that are too large for dynamic programming, or hold points, get a local optimum:
+ *                     no exchange of the diagonal of a quadrilateral shortens it.
+ *   MW_MIN_MAX_ANGLE  Angles are compared exactly. Above the limit a local optimum: no exchange of a diagonal makes the
+ *                     largest angle of its quadrilateral smaller. */
+MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,
+                                const mw_kind_options *options, uint32_t *duplicate_of, mw_kind_report *report,
+                                mw_mesh **out, mw_error *error);
+
+/* --- constraints ------------------------------------------------------------------------------------------------- */
+
+/* Points, and what must show among the edges of their triangulation. Arrays are read during the call only. */
+typedef struct mw_constraints {
+    const double *points; /* x, y of point i at points[i * stride] and the double after it             */
+    size_t point_count;
+    size_t stride;            /* in doubles, 0 = 2                                                         */
+    const uint32_t *segments; /* two numbers of points per segment; one with equal ends is passed over     */
+    size_t segment_count;
+    const uint32_t *polygon; /* NULL, or per segment the number of the polygon whose ring it belongs to;
+                                MW_NONE: a line, which bounds nothing. A place is inside a polygon where an odd number of
+                                its segments lie on the way to infinity, so rings may come in any order and direction:
+                                outlines, holes, islands in them                                            */
+    const double *holes;     /* x, y of a place in each part that is to be removed, packed                 */
+    size_t hole_count;
+} mw_constraints;
+
+typedef enum mw_keep {
+    MW_KEEP_AUTO =
+        0,         /* inside, if any segment belongs to a polygon or there are holes; else the hull                 */
+    MW_KEEP_HULL,  /* all triangles of the convex hull, holes too                                               */
+    MW_KEEP_INSIDE /* with polygons those inside at least one of them, else those that segments part from the
+                         outside; of either, those that segments part from each of the holes' places               */
+} mw_keep;
+
+typedef struct mw_constrain_options {
+    mw_keep keep;
+    int split; /* 1: where segments cross, put a vertex there, rounded, and split them; 0: an error                */
+    uint32_t reserved[6];
+} mw_constrain_options;
+
+typedef struct mw_constrain_report {
+    mw_triangulation_report
+        delaunay;      /* of the points without the constraints                                         */
+    size_t pieces;     /* edges of the result that are constraints                                      */
+    size_t added;      /* with options.split: vertices made where segments cross                        */
+    size_t removed;    /* triangles outside and in holes                                                */
+    uint64_t crossed;  /* triangles that segments crossed                                               */
+    uint32_t cross[2]; /* MW_ERROR_INPUT for segments that cross: their numbers; else MW_NONE           */
+    uint32_t reserved[6];
+} mw_constrain_report;
+
+/* The constrained edges of the result: piece i joins vertices edge[2 i] and edge[2 i + 1], and is a part of segment
+ * segment[i], the lowest of those that share it. */
+typedef struct mw_pieces {
+    uint32_t *edge, *segment;
+    size_t count;
+} mw_pieces;
+MW_API void mw_pieces_release(mw_pieces *pieces); /* NULL and empty ones are allowed */
+
+/* Constrained Delaunay triangulation [Lee, Lin 1986; Chew 1989]: every segment is an edge, or a chain of edges with the
+ * vertices that lie on it; no vertex that a triangle sees past the segments lies in its circle. Exact.
+ *   options       NULL = all zero
+ *   duplicate_of  NULL, or point_count numbers, as for mw_delaunay: segments end at the lowest-numbered point of a place
+ *   pieces        NULL or filled; released by the caller
+ *   report        NULL or filled, after a failure too
+ *   out           the mesh, as of mw_delaunay: vertex i is point i; vertices made by options.split come after the points.
+ *                 Its neighbours across a constraint are linked as any others
+ * MW_ERROR_INPUT as for mw_delaunay, and: segments that cross (report->cross) without options.split, or so close that
+ * rounding cannot part them with it; nothing left to keep. MW_ERROR_ARGUMENT: a segment that names no point, or a place
+ * of a hole that is not finite. Each segment walks along itself: time in proportion to the triangles it crosses, and
+ * little more (docs/guarantees.md). One thread; thread-safe. */
+MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
+                                         uint32_t *duplicate_of, mw_constrain_report *report, mw_pieces *pieces,
+                                         mw_mesh **out, mw_error *error);
 
 #ifdef __cplusplus
 }
