@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set_target_properties(meshwalk_shared PROPERTIES EXPORT_NAME meshwalk)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshwalk)
 
-# Two export sets: users of the shared library need neither zlib's nor OpenMP's development files.
+# Two export sets: users of the shared library need the development files of neither zlib, OpenMP nor Jansson.
 install(TARGETS meshwalk_shared EXPORT meshwalkSharedTargets)
 install(TARGETS meshwalk_static EXPORT meshwalkStaticTargets)
 foreach(kind Shared Static)
@@ -24,6 +24,9 @@ install(FILES ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake ${PROJECT_BINARY_DIR}/m
 # pkg-config: the static library's own needs stand in Libs.private. The prefix is found from the place of the file.
 file(RELATIVE_PATH pc_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(pc_private "-lz -lm")
+if(JANSSON_FOUND)
+  string(APPEND pc_private " -ljansson")
+endif()
 foreach(name IN LISTS OpenMP_C_LIB_NAMES)
   string(APPEND pc_private " -l${name}")
 endforeach()

@@ -4,6 +4,7 @@
 #define MW_FUZZ_READER_H
 
 #include "io/builder.h"
+#include "io/constraints.h"
 #include "io/formats.h"
 #include "io/points.h"
 #include "io/source.h"
@@ -63,6 +64,41 @@ static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const u
     else
         require_mesh(&file, size);
     mw_mesh_file_release(&file);
+    mw__source_close(&source);
+}
+
+/* Segments name points that exist and polygons below their number, and nothing is there that the input does not hold. */
+static inline void require_constraints(const mw_constraint_file *file, size_t size)
+{
+    require(file->point_count <= size && file->segment_count <= size && file->polygon_count <= size);
+    require(file->hole_count <= size && file->field_count <= MW_COLUMN_LIMIT && file->place_name != NULL);
+    for (size_t i = 0; i < file->segment_count; i++) {
+        require(file->segments[2 * i] < file->point_count && file->segments[2 * i + 1] < file->point_count);
+        require(file->polygon[i] < file->polygon_count || file->polygon[i] == MW_NONE);
+        require(file->place[i] <= size);
+    }
+    require_values(file->points, 3 * file->point_count);
+    require_values(file->holes, 2 * file->hole_count);
+    for (size_t f = 0; f < file->field_count; f++) require_values(file->fields[f], file->point_count);
+}
+
+typedef mw_status constraint_reader(mw_source *source, mw_constraint_builder *builder, mw_error *error);
+
+/* Run one reader of constraints on the input; its messages begin with `shown`. */
+static inline void fuzz_constraints(constraint_reader *read, const char *name, const char *shown, const uint8_t *data,
+                                    size_t size)
+{
+    mw_error error = {0};
+    mw_source source;
+    mw_constraint_file file = {0};
+    mw_constraint_builder builder = {.file = &file, .source = &source};
+    if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
+    mw_status status = read(&source, &builder, &error);
+    if (status)
+        require_error(status, &error, shown);
+    else
+        require_constraints(&file, size);
+    mw_constraint_file_release(&file);
     mw__source_close(&source);
 }
 

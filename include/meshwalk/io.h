@@ -68,12 +68,15 @@ typedef struct mw_constraint_file {
  *   .poly     Triangle: with its points inside, or in a .node file of the same name; numbered from 0 or 1; holes. Every
  *             segment bounds: there are no polygons, polygon[i] is MW_NONE
  *   GeoJSON   Point, MultiPoint, LineString, MultiLineString, Polygon, MultiPolygon, GeometryCollection, Feature and
- *             FeatureCollection; each polygon of a MultiPolygon is one. Refused where the library was built without
- *             Jansson
+ *             FeatureCollection; each polygon of a MultiPolygon is one. A ring that is not closed is closed; null and
+ *             empty geometries are passed over. Refused where the library was built without Jansson
  * Recognised by content; gzip is taken. MW_ERROR_SYSTEM, MW_ERROR_INPUT, MW_ERROR_LIMIT, MW_ERROR_MEMORY as
  * mw_read_mesh. On failure `file` is empty. */
 MW_API mw_status mw_read_constraints(const char *path, mw_constraint_file *file, mw_error *error);
 MW_API void mw_constraint_file_release(mw_constraint_file *file); /* NULL and an empty file are allowed */
+/* Would mw_read_constraints take the file for one of a format that it reads, sound or not? 0 also for a file that cannot
+ * be opened. Of standard input this uses up the beginning. */
+MW_API int mw_constraints_known(const char *path);
 
 /* Write a mesh. The format follows `format`, or the ending of path where it is NULL:
  *   "off"         Geomview; fields are not written

@@ -7,6 +7,7 @@
 #include "io/formats.h"
 #include "io/number.h"
 #include "io/output.h"
+#include "io/row.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -15,51 +16,6 @@
 #include <unistd.h>
 
 static const char names_mark[] = "# attributes:";
-
-/* One line of a file of rows: integers and numbers after each other. */
-typedef struct row {
-    const mw_source *source;
-    const char *p;
-} row;
-
-static bool at_end(row *r)
-{
-    r->p = mw__skip_blanks(r->p);
-    return *r->p == 0;
-}
-
-static mw_status next_integer(row *r, const char *what, int64_t *value, mw_error *error)
-{
-    if (at_end(r)) return mw__source_fail(r->source, error, "the line ends before the %s", what);
-    const char *end = mw__read_integer(r->p, value);
-    if (!end || !mw__at_gap(end))
-        return mw__source_fail(r->source, error, "expected the %s, found '%s'", what, mw__excerpt(r->p).text);
-    r->p = end;
-    return MW_OK;
-}
-
-static mw_status next_double(row *r, const char *what, double *value, mw_error *error)
-{
-    if (at_end(r)) return mw__source_fail(r->source, error, "the line ends before the %s", what);
-    const char *end = mw__read_double(r->p, value);
-    if (!end || !mw__at_gap(end))
-        return mw__source_fail(r->source, error, "%s: '%s' is not a number", what, mw__excerpt(r->p).text);
-    r->p = end;
-    return MW_OK;
-}
-
-/* The header: a count, and up to `count - 1` further integers that keep their values where the line ends. */
-static mw_status read_header(mw_source *source, char *line, int64_t *values, size_t count, mw_error *error)
-{
-    if (!line) return mw__source_fail(source, error, "the file is empty");
-    row r = {source, line};
-    mw_status status = next_integer(&r, "number of rows", &values[0], error);
-    for (size_t i = 1; !status && i < count && !at_end(&r); i++)
-        status = next_integer(&r, "numbers of the header", &values[i], error);
-    for (size_t i = 0; !status && i < count; i++)
-        if (values[i] < 0) status = mw__source_fail(source, error, "a negative number in the header");
-    return status;
-}
 
 /* The line that announces the rows, comments before it passed over; *names is a copy of the list of names, or NULL. */
 static mw_status read_top(mw_source *source, char **line, char **names, mw_error *error)
@@ -123,10 +79,10 @@ typedef struct node_header {
 static mw_status read_vertex(mw_source *source, const char *line, int64_t v, const node_header *header,
                              mw_builder *builder, mw_error *error)
 {
-    row r = {source, line};
+    mw_row r = {source, line};
     int64_t number;
     double xyz[3] = {0};
-    mw_status status = next_integer(&r, "number of the vertex", &number, error);
+    mw_status status = mw__row_integer(&r, "number of the vertex", &number, error);
     if (!status && v == 0) {
         if (number != 0 && number != 1)
             return mw__source_fail(source, error, "the first vertex has the number %" PRId64 " instead of 0 or 1",
@@ -136,11 +92,12 @@ static mw_status read_vertex(mw_source *source, const char *line, int64_t v, con
     if (!status && number != v + builder->first_number)
         return mw__source_fail(source, error, "vertex %" PRId64 " where %" PRId64 " was expected", number,
                                v + builder->first_number);
-    for (int64_t k = 0; !status && k < header->dimension; k++) status = next_double(&r, "coordinate", &xyz[k], error);
+    for (int64_t k = 0; !status && k < header->dimension; k++)
+        status = mw__row_double(&r, "coordinate", &xyz[k], error);
     if (!status) status = mw__build_point(builder, xyz[0], xyz[1], xyz[2], error);
     for (size_t a = 0, field = 0; !status && a < (size_t)header->attributes; a++) {
         double value;
-        status = next_double(&r, "attribute", &value, error);
+        status = mw__row_double(&r, "attribute", &value, error);
         if (status) break;
         if (a == header->z)
             builder->file->points[3 * (builder->file->point_count - 1) + 2] = value;
@@ -150,28 +107,14 @@ static mw_status read_vertex(mw_source *source, const char *line, int64_t v, con
     return status;
 }
 
-static mw_status ended_early(const mw_source *source, const char *what, int64_t have, int64_t announced,
-                             mw_error *error)
-{
-    return mw__source_fail(source, error, "the file ends after %" PRId64 " of %" PRId64 " %s", have, announced, what);
-}
-
-static mw_status read_end(mw_source *source, const char *what, int64_t announced, mw_error *error)
-{
-    char *line;
-    mw_status status = mw__source_content(source, &line, error);
-    if (status || !line) return status;
-    return mw__source_fail(source, error, "more than the %" PRId64 " %s announced", announced, what);
-}
-
-mw_status mw__read_node(mw_source *node, mw_builder *builder, mw_error *error)
+mw_status mw__read_node_rows(mw_source *node, mw_builder *builder, int64_t *dimension, mw_error *error)
 {
     char *line, *names = NULL;
     int64_t values[4] = {0, 2, 0, 0};
     node_header header = {0};
     builder->source = node;
     mw_status status = read_top(node, &line, &names, error);
-    if (!status) status = read_header(node, line, values, 4, error);
+    if (!status) status = mw__row_header(node, line, values, 4, error);
     if (!status && values[1] != 2 && values[1] != 3)
         status = mw__source_fail(node, error, "vertices of %" PRId64 " coordinates; 2 or 3 are read", values[1]);
     if (!status && values[2] > MW_COLUMN_LIMIT)
@@ -184,11 +127,19 @@ mw_status mw__read_node(mw_source *node, mw_builder *builder, mw_error *error)
     free(names);
     for (int64_t v = 0; !status && v < header.count; v++) {
         status = mw__source_content(node, &line, error);
-        if (!status && !line) status = ended_early(node, "vertices", v, header.count, error);
+        if (!status && !line) status = mw__rows_ended(node, "vertices", v, header.count, error);
         if (!status) status = read_vertex(node, line, v, &header, builder, error);
     }
     builder->points_complete = true;
-    return status ? status : read_end(node, "vertices", header.count, error);
+    *dimension = header.dimension;
+    return status;
+}
+
+mw_status mw__read_node(mw_source *node, mw_builder *builder, mw_error *error)
+{
+    int64_t dimension;
+    mw_status status = mw__read_node_rows(node, builder, &dimension, error);
+    return status ? status : mw__rows_end(node, "vertices", (int64_t)builder->file->point_count, error);
 }
 
 mw_status mw__read_ele(mw_source *ele, mw_builder *builder, mw_error *error)
@@ -197,27 +148,27 @@ mw_status mw__read_ele(mw_source *ele, mw_builder *builder, mw_error *error)
     int64_t values[3] = {0, 3, 0}, first = 0;
     builder->source = ele;
     mw_status status = mw__source_content(ele, &line, error);
-    if (!status) status = read_header(ele, line, values, 3, error);
+    if (!status) status = mw__row_header(ele, line, values, 3, error);
     if (!status && values[1] != 3 && values[1] != 6)
         status = mw__source_fail(ele, error, "elements of %" PRId64 " corners; triangles have 3 (or 6)", values[1]);
     for (int64_t t = 0; !status && t < values[0]; t++) {
         int64_t number = 0;
         status = mw__source_content(ele, &line, error);
-        if (!status && !line) status = ended_early(ele, "triangles", t, values[0], error);
+        if (!status && !line) status = mw__rows_ended(ele, "triangles", t, values[0], error);
         if (status) break;
-        row r = {ele, line};
-        status = next_integer(&r, "number of the triangle", &number, error);
+        mw_row r = {ele, line};
+        status = mw__row_integer(&r, "number of the triangle", &number, error);
         if (t == 0) first = number == 1;
         if (!status && number != t + first)
             status =
                 mw__source_fail(ele, error, "triangle %" PRId64 " where %" PRId64 " was expected", number, t + first);
         mw__build_face(builder);
         for (int64_t k = 0; !status && k < values[1]; k++) {
-            status = next_integer(&r, "corner", &number, error);
+            status = mw__row_integer(&r, "corner", &number, error);
             if (!status && k < 3) status = mw__build_corner(builder, number, error);
         }
     }
-    return status ? status : read_end(ele, "triangles", values[0], error);
+    return status ? status : mw__rows_end(ele, "triangles", values[0], error);
 }
 
 /* The path without ".gz" and without ".node" or ".ele". */
@@ -269,9 +220,14 @@ static mw_status read_file(const char *path, const char *ending, mw_builder *bui
     return status;
 }
 
+mw_status mw__read_node_file(const char *path, mw_builder *builder, mw_error *error)
+{
+    return read_file(path, ".node", builder, mw__read_node, error);
+}
+
 mw_status mw__read_node_ele(const char *path, mw_builder *builder, mw_error *error)
 {
-    mw_status status = read_file(path, ".node", builder, mw__read_node, error);
+    mw_status status = mw__read_node_file(path, builder, error);
     return status ? status : read_file(path, ".ele", builder, mw__read_ele, error);
 }
 
