@@ -1,8 +1,8 @@
-/* measure.h - what walks do and take, one beside the other, on one triangulation.
+/* measure.h - what walks do and take, one beside the other, on one set of points or one mesh.
  *
- * All algorithms locate the same queries, uniform in the domain of the points; a query outside the mesh is replaced. What
- * they do is counted in batches. How long they take is measured apart, in single queries on one thread, so that counting
- * and interleaving cost it nothing. */
+ * All algorithms locate the same queries, drawn uniform in the domain of the points; one that falls outside the mesh, or
+ * outside another place where such is given, is replaced. What they do is counted in batches. How long they take is
+ * measured apart, in single queries on one thread, so that counting and interleaving cost it nothing. */
 #ifndef CLI_MEASURE_H
 #define CLI_MEASURE_H
 
@@ -10,7 +10,7 @@
 
 #include <meshwalk/meshwalk.h>
 
-/* Means per query; but of triangles_final_max the most, and of layers the number. */
+/* Means per query; but of the names with `max` the most of one query, and of those from LAYERS on the thing itself. */
 typedef enum quantity {
     TRIANGLES_INIT,
     TRIANGLES,
@@ -21,20 +21,53 @@ typedef enum quantity {
     ORIENT_FINAL,
     IMPLICIT,
     COMPARISONS,
+    WALK_RUNS,
+    TRIANGLES_WALK_MAX,
+    BORDER_RUNS,
+    TRIANGLES_BORDER,
+    ORIENT_BORDER,
+    TRIANGLES_BORDER_MAX,
+    BORDER_EDGES,
+    BORDER_EDGES_MAX,
+    TRIANGLES_TOTAL, /* entered by the walk, and looked at to find the first */
+    SAMPLE,          /* so many were looked at                               */
+    INSIDE_PERCENT,  /* of the queries, in the mesh                          */
     LAYERS,
+    LOCATOR_BYTES, /* what the locator has built beside the mesh */
+    EDGE_LENGTH,   /* sum over the edges of the triangulation */
+    SIDE_LENGTH,   /* sum over the sides of the triangles: inner edges twice */
+    LARGEST_ANGLE, /* degrees */
+    OPTIMAL,       /* 1, or 0: a local optimum only */
+    LOCATOR_SECONDS,
+    TRIANGULATION_SECONDS,
     TIME_US,       /* plain doubles, microseconds */
     TIME_EXACT_US, /* exact arithmetic            */
+    MESH_TRIANGLES,
+    MESH_BORDER_EDGES,
+    MESH_HOLES,
+    HULL_PERCENT, /* of the convex hull, in the mesh */
+    CORRELATION,  /* of triangles and side length, over the kinds of triangulation */
     QUANTITIES
 } quantity;
 
 const char *quantity_name(quantity q); /* "triangles_init", ... */
+bool quantity_is_time(quantity q);
+
+/* How a mesh is made ready for a walk. */
+typedef enum preparation {
+    FILLED, /* pockets and holes, if it has any, hold ghost triangles    */
+    AREAS,  /* so, and with stored areas                                 */
+    OPEN,   /* nothing is built: for the walk that goes round the border */
+    PREPARATIONS
+} preparation;
 
 /* A walk as a table of the thesis calls it. */
 typedef struct algorithm {
-    const char *name;         /* the walk's; or more, where one walk has two forms */
-    const char *abbreviation; /* as in the thesis                                  */
+    const char *name;         /* the walk's; or another, where one walk has several forms */
+    const char *abbreviation; /* as in the thesis                                        */
     const char *walk;
-    bool areas; /* with stored areas */
+    preparation preparation;
+    mw_triangulation_kind kind; /* of the points; those of a kind stand together */
 } algorithm;
 
 #define MOST_ALGORITHMS 8
@@ -46,10 +79,12 @@ typedef struct algorithm {
 typedef struct trial {
     const char *name; /* for messages */
     const dataset *data;
+    mw_mesh *mesh;                      /* a mesh to be taken as it is; NULL: the points are triangulated */
+    const mw_mesh *place;               /* queries are uniform in this mesh; NULL: in that of the trial   */
     const algorithm *const *algorithms; /* NULL ends them */
-    const char *finish;                 /* walk that ends the cheap ones        */
-    bool layered;                       /* start from layers, else from random triangles */
-    uint32_t layers;                    /* that many; 0: by the size            */
+    const char *finish;                 /* walk that ends the cheap ones */
+    const char *start;                  /* "random", "sample" or "layers" */
+    uint32_t sample, layers;            /* that many; 0: by the size      */
     uint64_t queries, seed;
     uint32_t threads;
     bool times;
@@ -58,6 +93,7 @@ typedef struct trial {
 typedef struct outcome {
     size_t vertices; /* of the triangulation, equal points counted once */
     double value[MOST_ALGORITHMS][QUANTITIES];
+    double whole[QUANTITIES]; /* MESH_TRIANGLES and so on, filled by whoever knows */
 } outcome;
 
 /* Complains about what went wrong; returns 0 or an exit code. */

@@ -10,17 +10,28 @@ typedef struct paper_table {
     const char *name, *title;
     const algorithm *algorithms[MOST_ALGORITHMS + 1]; /* NULL ends them */
     const algorithm *reference;                       /* ratios between walks are taken to this one */
-    const char *finish;
-    unsigned sets; /* 1 << dataset_kind */
+    const char *finish;                               /* NULL: auto */
+    const char *start, *from;                         /* where walks begin: its name, and in words */
+    uint64_t quantities;                              /* 1 << quantity: those of each algorithm */
+    const algorithm *whole;                           /* NULL, or the name of what a set as a whole has, */
+    uint64_t whole_quantities;                        /* these */
+    unsigned sets;                                    /* 1 << dataset_kind */
     size_t sizes[MOST_SIZES];
-    bool enclosed, layered;
+    bool enclosed, domains; /* four corners are added to the points; no points but meshes */
     quantity drawn;
 } paper_table;
 
-/* One set of points. */
+/* The table of a name; NULL after a complaint. */
+const paper_table *paper_table_named(const char *name);
+
+/* Put sums where a column of the table is one. */
+void paper_sum_columns(const paper_table *table, outcome *o);
+
+/* One set of points; or a mesh, and one way to draw queries and to begin. */
 typedef struct paper_result {
     char dataset[256];
-    bool own; /* a file of the user's: nothing is published for it */
+    bool own;          /* a file of the user's: nothing is published for it */
+    bool walks, whole; /* the parts of the outcome that it has */
     outcome outcome;
 } paper_result;
 
@@ -32,7 +43,19 @@ typedef struct paper {
     size_t count;
 } paper;
 
-/* What is published of algorithm i for this result; NaN if nothing. */
+/* The trial of a set as the table and the settings want it; measured, it becomes the last of the results. paper_measure
+ * returns 0 or an exit code; paper_add returns an empty result, or NULL without memory. */
+trial paper_trial(const paper *p, const char *name, const dataset *data, bool own);
+int paper_measure(paper *p, const trial *t, bool own);
+paper_result *paper_add(paper *p, const char *name, bool own);
+
+/* App. D: meshes that are made, those of the table or of the sizes, which a 0 ends; and one from a file. Return 0 or an
+ * exit code. */
+int paper_domains(paper *p, const size_t *sizes);
+int paper_domain_file(paper *p, const char *path, const char *name);
+
+/* What is published of an algorithm, or of algorithm i, for this result; NaN if nothing. */
+double paper_published_of(const paper *p, const paper_result *r, const algorithm *a, quantity q);
 double paper_published(const paper *p, const paper_result *r, size_t i, quantity q);
 
 /* Sums over the columns that the table prints of an algorithm: of triangles, and of all tests. `published`: of the printed

@@ -12,7 +12,7 @@
  * apart. */
 static bool is_scaled(const paper_table *table)
 {
-    return table->drawn == TRIANGLES && !table->layered;
+    return table->drawn == TRIANGLES && !table->domains && strcmp(table->start, "layers") != 0;
 }
 
 static const char *label_of(const paper_table *table)
@@ -36,34 +36,66 @@ int paper_plot_check(const bench_settings *s, const paper_table *table)
     return plot_check(s->plot);
 }
 
-/* All triangles of the thesis' column, the final location of the cheap walks too. */
-static plot_point point_of(const paper *p, const paper_result *r, size_t i)
+/* A curve for each algorithm; of Appendix D one for each phase of the first. */
+typedef struct curve {
+    size_t algorithm;
+    quantity quantity;
+    const char *name, *label;
+} curve;
+
+static size_t curves_of(const paper_table *table, curve curves[MOST_ALGORITHMS])
 {
-    quantity q = p->table->drawn;
+    static const curve phases[] = {{0, TRIANGLES, "walk", "walk"}, {0, TRIANGLES_BORDER, "border walk", "border"}};
+    size_t count = 0;
+    if (table->domains) {
+        memcpy(curves, phases, sizeof phases);
+        return sizeof phases / sizeof *phases;
+    }
+    for (; table->algorithms[count]; count++) {
+        const algorithm *a = table->algorithms[count];
+        curves[count] = (curve){count, table->drawn, a->name, a->abbreviation};
+    }
+    return count;
+}
+
+/* All triangles of the thesis' column, the final location of the cheap walks too. */
+static plot_point point_of(const paper *p, const paper_result *r, const curve *c)
+{
     plot_point at = {.x = (double)r->outcome.vertices};
-    if (q == TRIANGLES) {
+    if (c->quantity == TRIANGLES && !p->table->domains) {
         double scale = is_scaled(p->table) ? sqrt(at.x) : 1;
-        at.ours = paper_sum(p, r, i, PAPER_TRIANGLES, false) / scale;
-        at.published = paper_sum(p, r, i, PAPER_TRIANGLES, true) / scale;
+        at.ours = paper_sum(p, r, c->algorithm, PAPER_TRIANGLES, false) / scale;
+        at.published = paper_sum(p, r, c->algorithm, PAPER_TRIANGLES, true) / scale;
     } else {
-        at.ours = r->outcome.value[i][q];
-        at.published = paper_published(p, r, i, q);
+        at.ours = r->outcome.value[c->algorithm][c->quantity];
+        at.published = paper_published(p, r, c->algorithm, c->quantity);
     }
     return at;
 }
 
-/* Results of one set stand together; a file is a set of its own. */
-static size_t group(const paper *p, plot_panel *panels)
+/* In the figures of Appendix D walks begin at the nearest of a sample. */
+static bool is_drawn(const paper *p, const paper_result *r)
+{
+    return r->walks && (!p->table->domains || r->outcome.value[0][SAMPLE] > 1);
+}
+
+/* The panel of a result: that of its set; a file is a set of its own. */
+static plot_panel *panel_of(plot_panel *panels, size_t *count, const paper_result *r)
+{
+    for (size_t k = 0; k < *count && !r->own; k++)
+        if (strcmp(panels[k].title, r->dataset) == 0) return &panels[k];
+    panels[*count].title = r->dataset;
+    return &panels[(*count)++];
+}
+
+static size_t group(const paper *p, const curve *curves, size_t curve_count, plot_panel *panels)
 {
     size_t count = 0;
     for (size_t k = 0; k < p->count; k++) {
-        const paper_result *r = &p->results[k];
-        if (k == 0 || r->own || strcmp(r->dataset, r[-1].dataset) != 0)
-            panels[count++] = (plot_panel){.title = r->dataset};
-        for (size_t i = 0; p->table->algorithms[i]; i++) {
-            plot_curve *curve = &panels[count - 1].curve[i];
-            curve->point[curve->count++] = point_of(p, r, i);
-        }
+        if (!is_drawn(p, &p->results[k])) continue;
+        plot_panel *panel = panel_of(panels, &count, &p->results[k]);
+        for (size_t i = 0; i < curve_count; i++)
+            panel->curve[i].point[panel->curve[i].count++] = point_of(p, &p->results[k], &curves[i]);
     }
     return count;
 }
@@ -71,6 +103,7 @@ static size_t group(const paper *p, plot_panel *panels)
 int paper_plot(const paper *p, const char *path)
 {
     char title[128];
+    curve curves[MOST_ALGORITHMS];
     plot_panel *panels = calloc(p->count, sizeof *panels);
     if (!panels) return fail_memory();
     snprintf(title, sizeof title, "%s: %s", p->table->name, p->table->title);
@@ -80,12 +113,12 @@ int paper_plot(const paper *p, const char *path)
         .y_label = label_of(p->table),
         .log_y = p->table->drawn == TIME_EXACT_US,
         .panels = panels,
-        .count = group(p, panels),
+        .curves = curves_of(p->table, curves),
     };
-    for (size_t i = 0; p->table->algorithms[i]; i++) {
-        drawing.name[i] = p->table->algorithms[i]->name;
-        drawing.label[i] = p->table->algorithms[i]->abbreviation;
-        drawing.curves++;
+    drawing.count = group(p, curves, drawing.curves, panels);
+    for (size_t i = 0; i < drawing.curves; i++) {
+        drawing.name[i] = curves[i].name;
+        drawing.label[i] = curves[i].label;
     }
     int end = plot_write(&drawing, path);
     free(panels);

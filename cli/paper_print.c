@@ -12,11 +12,6 @@ static double rounded(double value)
     return round(value * 1e4) / 1e4;
 }
 
-static bool is_time(quantity q)
-{
-    return q == TIME_US || q == TIME_EXACT_US;
-}
-
 /* The figures of a result, one after the other. */
 typedef struct figure {
     const paper *paper;
@@ -28,16 +23,24 @@ typedef struct figure {
 
 typedef void print_figure(text *t, const figure *f);
 
+static void each_quantity(const paper *p, const paper_result *r, const algorithm *a, const double *value,
+                          uint64_t which, text *t, print_figure *print)
+{
+    for (quantity q = 0; q < QUANTITIES; q++) {
+        if (!(which >> q & 1) || (quantity_is_time(q) && p->settings->no_times)) continue;
+        figure f = {p, r, a, q, rounded(value[q]), 0, 0};
+        f.published = paper_published_of(p, r, a, q);
+        f.ratio = f.published > 0 ? rounded(f.ours / f.published) : NAN;
+        print(t, &f);
+    }
+}
+
 static void each_figure(const paper *p, const paper_result *r, text *t, print_figure *print)
 {
-    for (size_t i = 0; p->table->algorithms[i]; i++)
-        for (quantity q = 0; q < QUANTITIES; q++) {
-            if (is_time(q) && p->settings->no_times) continue;
-            figure f = {p, r, p->table->algorithms[i], q, rounded(r->outcome.value[i][q]), 0, 0};
-            f.published = paper_published(p, r, i, q);
-            f.ratio = f.published > 0 ? rounded(f.ours / f.published) : NAN;
-            print(t, &f);
-        }
+    const paper_table *table = p->table;
+    for (size_t i = 0; r->walks && table->algorithms[i]; i++)
+        each_quantity(p, r, table->algorithms[i], r->outcome.value[i], table->quantities, t, print);
+    if (r->whole) each_quantity(p, r, table->whole, r->outcome.whole, table->whole_quantities, t, print);
 }
 
 /* --format tsv */
@@ -72,7 +75,7 @@ static void json_number(text *t, const char *name, double value)
 
 static void json_object(text *t, const figure *f)
 {
-    bool first = f->result == f->paper->results && f->algorithm == f->paper->table->algorithms[0] && f->quantity == 0;
+    bool first = t->size == 1; /* nothing but the bracket */
     text_printf(t, "%s\n {\"table\": \"%s\", \"dataset\": ", first ? "" : ",", f->paper->table->name);
     report_quote(t, f->result->dataset);
     text_printf(t, ", \"vertices\": %zu, \"algorithm\": \"%s\", \"quantity\": \"%s\"", f->result->outcome.vertices,
@@ -101,14 +104,23 @@ static void end_line(text *t)
     text_string(t, "\n");
 }
 
+static int decimals_of(quantity q)
+{
+    if (q == LOCATOR_BYTES || q == MESH_TRIANGLES || q == MESH_BORDER_EDGES || q == MESH_HOLES || q == OPTIMAL ||
+        q == SAMPLE)
+        return 0;
+    return q == CORRELATION || q == LOCATOR_SECONDS || q == TRIANGULATION_SECONDS ? 3 : 2;
+}
+
 /* What is zero and not published says nothing, nor do layers where there are none. */
 static void table_line(text *t, const figure *f)
 {
+    int decimals = decimals_of(f->quantity);
     if (f->ours == 0 && isnan(f->published)) return;
-    if (f->quantity == LAYERS && !f->paper->table->layered) return;
-    text_printf(t, "  %-19s %-4s %-19s", f->algorithm->name, f->algorithm->abbreviation, quantity_name(f->quantity));
-    cell(t, 10, 2, f->ours);
-    cell(t, 10, 2, f->published);
+    if (f->quantity == LAYERS && strcmp(f->paper->table->start, "layers") != 0) return;
+    text_printf(t, "  %-19s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation, quantity_name(f->quantity));
+    cell(t, 10, decimals, f->ours);
+    cell(t, 10, decimals, f->published);
     cell(t, 7, 3, f->ratio);
     end_line(t);
 }
@@ -125,6 +137,10 @@ static double tests_per_triangle(const paper *p, const paper_result *r, size_t i
 {
     return paper_sum(p, r, i, PAPER_TESTS, published) / paper_sum(p, r, i, PAPER_TRIANGLES, published);
 }
+static double side_length(const paper *p, const paper_result *r, size_t i, bool published)
+{
+    return published ? paper_published(p, r, i, SIDE_LENGTH) : r->outcome.value[i][SIDE_LENGTH];
+}
 static double time_in_doubles(const paper *p, const paper_result *r, size_t i, bool published)
 {
     return published ? paper_published(p, r, i, TIME_US) : r->outcome.value[i][TIME_US];
@@ -137,12 +153,11 @@ static double time_exact(const paper *p, const paper_result *r, size_t i, bool p
 static const struct {
     proportion *of;
     const char *name;
-    bool time;
+    quantity needs; /* a quantity that the table has, and measures */
 } proportions[] = {
-    {triangles, "triangles", false},
-    {tests_per_triangle, "tests per triangle", false},
-    {time_in_doubles, "time", true},
-    {time_exact, "exact time", true},
+    {triangles, "triangles", TRIANGLES},       {tests_per_triangle, "tests per triangle", ORIENT},
+    {side_length, "side length", SIDE_LENGTH}, {time_in_doubles, "time", TIME_US},
+    {time_exact, "exact time", TIME_EXACT_US},
 };
 #define PROPORTIONS (sizeof proportions / sizeof *proportions)
 
@@ -178,7 +193,7 @@ static void proportion_line(text *t, const paper *p, const paper_result *r, size
 {
     double ours = over_reference(p, r, i, proportions[k].of, false);
     double published = over_reference(p, r, i, proportions[k].of, true);
-    text_printf(t, "  %-19s %-4s %-19s", p->table->algorithms[i]->name, p->table->algorithms[i]->abbreviation,
+    text_printf(t, "  %-19s %-4s %-21s", p->table->algorithms[i]->name, p->table->algorithms[i]->abbreviation,
                 proportions[k].name);
     cell(t, 10, 3, ours);
     if (r->own) {
@@ -190,26 +205,46 @@ static void proportion_line(text *t, const paper *p, const paper_result *r, size
     end_line(t);
 }
 
+static bool has(const paper *p, quantity q)
+{
+    return p->table->quantities >> q & 1 && !(quantity_is_time(q) && p->settings->no_times);
+}
+
+static bool has_range(const paper *p)
+{
+    const char *set;
+    size_t vertices;
+    return published_real(p->table->name, 0, &set, &vertices) &&
+           !isnan(published_value(p->table->name, set, vertices, p->table->reference->name, TRIANGLES));
+}
+
 static void print_proportions(text *t, const paper *p, const paper_result *r)
 {
-    text_printf(t, "\n  over those of the walk %s%s\n", p->table->reference->name,
-                r->own ? "; published: from the least to the largest of the thesis' real data" : "");
+    text_printf(t, "\n  over those of %s%s\n", p->table->reference->name,
+                r->own && has_range(p) ? "; published: from the least to the largest of the thesis' real data" : "");
     for (size_t k = 0; k < PROPORTIONS; k++)
-        for (size_t i = 0; p->table->algorithms[i]; i++) {
-            if (p->table->algorithms[i] == p->table->reference) continue;
-            if (!proportions[k].time || !p->settings->no_times) proportion_line(t, p, r, i, k);
-        }
+        for (size_t i = 0; has(p, proportions[k].needs) && p->table->algorithms[i]; i++)
+            if (p->table->algorithms[i] != p->table->reference) proportion_line(t, p, r, i, k);
+}
+
+static void print_local_optima(text *t, const paper *p, const paper_result *r)
+{
+    for (size_t i = 0; has(p, OPTIMAL) && p->table->algorithms[i]; i++)
+        if (r->outcome.value[i][OPTIMAL] == 0)
+            text_printf(t, "  %s: a local optimum only\n", p->table->algorithms[i]->name);
 }
 
 static void print_table(text *t, const paper *p)
 {
     text_printf(t, "%s: %s\n%" PRIu64 " queries on each set, from %s; means per query, times in microseconds\n",
-                p->table->name, p->table->title, p->queries, p->table->layered ? "layers" : "random triangles");
+                p->table->name, p->table->title, p->queries, p->table->from);
     for (size_t i = 0; i < p->count; i++) {
         const paper_result *r = &p->results[i];
         text_printf(t, "\n%s, %zu vertices\n\n", r->dataset, r->outcome.vertices);
-        text_printf(t, "  %-24s %-19s %10s %10s %7s\n", "algorithm", "quantity", "ours", "published", "ratio");
+        text_printf(t, "  %-24s %-21s %10s %10s %7s\n", "algorithm", "quantity", "ours", "published", "ratio");
         each_figure(p, r, t, table_line);
+        if (!r->walks) continue;
+        print_local_optima(t, p, r);
         if (p->table->algorithms[1]) print_proportions(t, p, r);
     }
 }

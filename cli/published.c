@@ -8,7 +8,7 @@ typedef struct cell {
     double value;
 } cell;
 
-#define MOST_CELLS 8
+#define MOST_CELLS 16
 
 typedef struct row {
     const char *table, *dataset;

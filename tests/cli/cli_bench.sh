@@ -140,7 +140,7 @@ rm b2.json
 # Wrong usage, found before any work.
 run bench; refused 2 'wants WHAT \[TABLE\], not 0 arguments'
 run bench paper; refused 2 'which table\? A1, .*E2'
-run bench paper E3; refused 2 "unknown table 'E3'; did you mean 'E2'\?"
+run bench paper E3; refused 2 "unknown table 'E3'; did you mean 'E1'\?"
 run bench papre E2; refused 2 "unknown measurement 'papre'; did you mean 'paper'\?"
 run bench paper E2 E2; refused 2 'wants WHAT \[TABLE\], not 3 arguments'
 for sizes in '' ',' 9 '1e4,' 1.5e4 1e99 x -5 ' 100' 600000000 20,20,20,20,20,20,20,20,20; do
@@ -190,9 +190,9 @@ else
     rm -f clock.so still.svg
 fi
 
-# Near vertices: 13 walks in two arithmetics; in exact arithmetic none of them is ever caught.
+# Near vertices: 14 walks in two arithmetics; in exact arithmetic none of them is ever caught.
 run bench near-vertices --sizes 1000 --queries 2000 --format tsv -o near.tsv; exits 0; says_nothing
-holds "five sets of 26 rows" test "$(tail -n +2 near.tsv | cut -f 1 | uniq -c | awk '$1 == 26' | wc -l)" == 5
+holds "five sets of 28 rows" test "$(tail -n +2 near.tsv | cut -f 1 | uniq -c | awk '$1 == 28' | wc -l)" == 5
 holds "each row has nine cells" test "$(awk -F '\t' 'NF != 9' near.tsv | wc -l)" == 0
 holds "in exact arithmetic no cycle, no hand-over" \
     test "$(awk -F '\t' '$4 == "exact" && ($6 != 0 || $7 != 0)' near.tsv | wc -l)" == 0

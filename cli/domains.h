@@ -1,0 +1,20 @@
+/* domains.h - meshes with pockets and holes to measure in, made from a seed.
+ *
+ * The outline is a star about the origin: corners at equal angles, their distances the exponential of a sum of waves, and
+ * a little noise. Holes are smaller such stars, which touch neither the outline nor each other. Points are uniform between
+ * them, and the outline and the holes constrain their Delaunay triangulation. */
+#ifndef CLI_DOMAINS_H
+#define CLI_DOMAINS_H
+
+#include <meshwalk/meshwalk.h>
+
+typedef struct domain_shape {
+    size_t vertices, border_edges; /* at least 10, and of them at least 8 at the border */
+    size_t holes;                  /* each with at least three of the border edges      */
+    double share;                  /* of the convex hull, in the mesh: met to a hundredth or so */
+} domain_shape;
+
+/* The same mesh for the same seed. MW_ERROR_MEMORY, or what the triangulation says. */
+mw_status domain_make(const domain_shape *shape, uint64_t seed, mw_mesh **out, mw_error *error);
+
+#endif
