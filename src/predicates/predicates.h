@@ -146,4 +146,64 @@ int mw__compare_distance(mw_point q, mw_point a, mw_point b, mw_point c, mw_poin
 /* Compare the distance of q to the closed segment ab with the length |d|, exactly. d may be infinite, but not NaN. */
 int mw__compare_distance_to(mw_point q, mw_point a, mw_point b, double d);
 
+/* The angle between b->a and b->c, from 0 to pi, as two products with their permanents. */
+typedef struct mw_angle {
+    mw_point a, b, c;
+    double cross, dot; /* rounded; cross as a magnitude */
+    double cross_sum, dot_sum;
+} mw_angle;
+
+static MW_INLINE mw_angle mw__angle(mw_point a, mw_point b, mw_point c)
+{
+    double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
+    double left = ux * vy, right = uy * vx, x = ux * vx, y = uy * vy;
+    return (mw_angle){a, b, c, fabs(left - right), x + y, fabs(left) + fabs(right), fabs(x) + fabs(y)};
+}
+
+/* Bound for cross(s) dot(t) - dot(s) cross(t). A product of two differences, cross or dot, is off by
+ * (3u + 16u^2) times its permanent, see orient2d; so the product of two of them by (6u + 42u^2) times the product of
+ * their permanents, and rounded once more by (7u + 52u^2); their difference, rounded, and the rounding of the
+ * permanents' products and sum (one factor 1 + u each) make it 8u + 80u^2. (8u + 128u^2)(1 - u)^3 is more.
+ * Underflow: an error of 2 * 2^-1075 in a factor is multiplied by the other one, and 2^-1075 added; with the sum of the
+ * permanents below 2^100 that is less than 2^-970. */
+#define MW_ANGLE_ERROR ((8.0 + 128.0 * 0x1p-53) * 0x1p-53)
+#define MW_ANGLE_SUMS 0x1p100
+
+int mw__compare_angles_exact(const mw_angle *s, const mw_angle *t);
+
+/* Compare two angles, exactly: -1 where s is smaller, 0 where they are equal, 1 where s is larger. All coordinates are
+ * finite, and a and c differ from b. */
+static MW_INLINE int mw__compare_angles(const mw_angle *s, const mw_angle *t)
+{
+    double sine = s->cross * t->dot - s->dot * t->cross;
+    double permanent = s->cross_sum * t->dot_sum + s->dot_sum * t->cross_sum;
+    bool small = s->cross_sum + s->dot_sum + t->cross_sum + t->dot_sum < MW_ANGLE_SUMS;
+    double bound = small ? MW_ANGLE_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
+    if (MW_LIKELY(fabs(sine) > bound)) return sine > 0 ? 1 : -1;
+    return mw__compare_angles_exact(s, t);
+}
+
+/* Bound for the difference of two squared lengths s and t. The differences of coordinates, the squares and their sum are
+ * rounded: the true value is s (1 + e)^4 with |e| <= u, and the true difference off s - t by at most
+ * (4u + 6u^2 + ...)(s + t). Rounding s - t and the bound, which is rounded twice, leaves (4u + 32u^2)(1 - u)^3, more than
+ * 4u + 6u^2 + .... Underflow: 4 * 2^-1075. */
+#define MW_LENGTH_ERROR ((4.0 + 32.0 * 0x1p-53) * 0x1p-53)
+
+/* |b - a|^2, rounded. */
+static MW_INLINE double mw__square_length(mw_point a, mw_point b)
+{
+    double x = b.x - a.x, y = b.y - a.y;
+    return x * x + y * y;
+}
+
+/* Is the squared length that was rounded to s surely less than the one rounded to t? */
+static MW_INLINE bool mw__surely_shorter(double s, double t)
+{
+    return t - s > MW_LENGTH_ERROR * (s + t) + MW_UNDERFLOW_ERROR;
+}
+
+/* Compare the lengths of ab and cd, exactly, where rounded squares could not tell: -1 where ab is shorter, 0 where they are
+ * equal, 1 where cd is. */
+int mw__compare_length_exact(mw_point a, mw_point b, mw_point c, mw_point d);
+
 #endif

@@ -1,11 +1,167 @@
-/* min_max_angle.c - not made yet. */
+/* min_max_angle.c - the triangulation with the smallest largest angle [Edelsbrunner, Tan, Waupotitsch 1992].
+ *
+ * The triangle with the largest angle is replaced by edge insertion (edge_insertion.c) until that fails: then no
+ * triangulation has a smaller largest angle. The triangle is now fixed, and the same is done with the others, by falling
+ * angles. Each success takes an angle from the list of the triangles' largest angles and adds only smaller ones, so this
+ * ends. Whatever triangulation has the fixed angles and then smaller ones has the fixed triangles, if no two angles
+ * between points are equal: then the sorted list that results is the least of all, compared as words are.
+ *
+ * At the end no triangle is fixed any more, and single edges are exchanged until that makes no largest angle of two
+ * triangles smaller: where angles are equal, or the work was limited, that may be a little left to do. */
+#include "triangulate/edge_insertion.h"
 #include "triangulate/kind.h"
+
+#include <stdlib.h>
+
+/* Triangles looked at, by all insertions, unless a limit is set: about half a minute. */
+#define MOST_WORK UINT64_C(200000000)
+
+/* A triangle as it was when it was put on the heap, by its corners p, q, r with the largest angle at q: it may have been
+ * replaced since. */
+typedef struct entry {
+    uint32_t p, q, r, triangle;
+} entry;
+
+typedef struct heap {
+    const mw_point *point;
+    entry *at;
+    size_t count, room;
+} heap;
+
+static mw_angle angle_of(const heap *h, const entry *e)
+{
+    return mw__angle(h->point[e->p], h->point[e->q], h->point[e->r]);
+}
+
+/* Equal angles: the lower-numbered triangle first. */
+static bool comes_before(const heap *h, const entry *e, const entry *f)
+{
+    mw_angle s = angle_of(h, e), t = angle_of(h, f);
+    int order = mw__compare_angles(&s, &t);
+    return order > 0 || (order == 0 && e->triangle < f->triangle);
+}
+
+static void sift_up(heap *h, size_t i, entry e)
+{
+    for (; i > 0 && comes_before(h, &e, &h->at[(i - 1) / 2]); i = (i - 1) / 2) h->at[i] = h->at[(i - 1) / 2];
+    h->at[i] = e;
+}
+
+static entry pop(heap *h)
+{
+    entry top = h->at[0], last = h->at[--h->count];
+    size_t i = 0, child;
+    for (; (child = 2 * i + 1) < h->count; i = child) {
+        if (child + 1 < h->count && comes_before(h, &h->at[child + 1], &h->at[child])) child++;
+        if (!comes_before(h, &h->at[child], &last)) break;
+        h->at[i] = h->at[child];
+    }
+    h->at[i] = last;
+    return top;
+}
+
+/* The triangle by its largest angle, the first one of equals. */
+static entry entry_of(const heap *h, const mw_triangle *tri, uint32_t t)
+{
+    mw_angle largest;
+    entry best = {0};
+    for (uint32_t k = 0; k < 3; k++) {
+        entry e = {tri->v[mw__prev(k)], tri->v[k], tri->v[mw__next(k)], t};
+        mw_angle angle = angle_of(h, &e);
+        if (k > 0 && mw__compare_angles(&angle, &largest) <= 0) continue;
+        largest = angle;
+        best = e;
+    }
+    return best;
+}
+
+static bool push(heap *h, const mw_triangle *tri, uint32_t t)
+{
+    if (h->count == h->room) {
+        size_t room = h->room + h->room / 2 + 64;
+        entry *at = mw__realloc(h->at, room, sizeof *at);
+        if (!at) return false;
+        h->at = at;
+        h->room = room;
+    }
+    sift_up(h, h->count++, entry_of(h, &tri[t], t));
+    return true;
+}
+
+/* The corner of the triangle where its largest angle is; 3 if it is another triangle now. */
+static uint32_t corner_of(const entry *e, const mw_triangle *tri)
+{
+    uint32_t k = 0;
+    while (k < 3 && tri->v[k] != e->q) k++;
+    bool same = k < 3 && tri->v[mw__prev(k)] == e->p && tri->v[mw__next(k)] == e->r;
+    return same ? k : 3;
+}
+
+typedef struct improvement {
+    mw_triangulation *t;
+    mw_insertion insertion;
+    heap heap;
+} improvement;
+
+/* Triangles whose neighbour has changed may be worth another try: where only one edge is exchanged. */
+static bool push_again(improvement *m, uint32_t t)
+{
+    mw_triangle *tri = m->t->tri;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t link = tri[t].link[k], n = mw__link_triangle(link);
+        if (link == MW_NONE || tri[n].user != MW_INSERTION_TRIED) continue;
+        tri[n].user = MW_INSERTION_FREE;
+        if (!push(&m->heap, tri, n)) return false;
+    }
+    return true;
+}
+
+static bool push_made(improvement *m)
+{
+    const mw_insertion *in = &m->insertion;
+    for (uint32_t i = 0; i < in->made_count; i++) {
+        if (!push(&m->heap, m->t->tri, in->made[i])) return false;
+        if (!push_again(m, in->made[i])) return false;
+    }
+    return true;
+}
+
+/* Improve by edges that cross at most `reach` others, until nothing is left to try or the work is done. *proved: an
+ * attempt has failed. */
+static mw_status improve(improvement *m, uint32_t reach, uint64_t most_work, bool *proved)
+{
+    mw_triangle *tri = m->t->tri;
+    m->insertion.reach = reach;
+    m->heap.count = 0;
+    for (uint32_t i = 0; i < m->t->tri_count; i++) tri[i].user = MW_INSERTION_FREE;
+    for (uint32_t i = 0; i < m->t->tri_count; i++)
+        if (!push(&m->heap, tri, i)) return MW_ERROR_MEMORY;
+    while (m->heap.count > 0 && m->insertion.work < most_work) {
+        entry e = pop(&m->heap);
+        uint32_t k = corner_of(&e, &tri[e.triangle]);
+        if (k == 3) continue;
+        mw_insertion_result result = mw__insert_edge(&m->insertion, e.triangle, k);
+        if (result == MW_INSERTION_MEMORY) return MW_ERROR_MEMORY;
+        if (result == MW_INSERTION_DONE) {
+            if (!push_made(m)) return MW_ERROR_MEMORY;
+        } else {
+            tri[e.triangle].user = reach > 1 ? MW_INSERTION_FIXED : MW_INSERTION_TRIED;
+            *proved = true;
+        }
+    }
+    return MW_OK;
+}
 
 mw_status mw__make_min_max_angle(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
                                  mw_error *error)
 {
-    (void)t;
-    (void)options;
-    (void)report;
-    return mw__fail(error, MW_ERROR_ARGUMENT, "not made yet");
+    improvement m = {.t = t, .insertion = {.point = t->point, .tri = t->tri}, .heap = {.point = t->point}};
+    bool exact = options->limit == 0 || t->point_count <= options->limit, proved = false, ignored;
+    mw_status status = MW_OK;
+    if (exact) status = improve(&m, UINT32_MAX, options->limit ? UINT64_MAX : MOST_WORK, &proved);
+    if (status == MW_OK) status = improve(&m, 1, UINT64_MAX, &ignored);
+    report->optimal = proved;
+    mw__insertion_release(&m.insertion);
+    free(m.heap.at);
+    return status == MW_OK ? MW_OK : mw__fail_memory(error);
 }

@@ -1,0 +1,400 @@
+/* edge_insertion.c - one edge inserted for a smaller largest angle [Edelsbrunner, Tan, Waupotitsch 1992; Bern,
+ * Edelsbrunner, Eppstein, Mitchell, Tan 1993].
+ *
+ *         s          Let pqr be a triangle with the largest angle, at q. A triangulation T without an angle as large
+ *        /|\         has an edge at q that parts this one; it crosses pr, pqr being empty. So each vertex s that q sees
+ *       / | \        beyond pr is tried: the triangles that qs crosses are removed, which leaves a polygon on either side
+ *      r--+--p       of qs, with a chain of vertices from q to s; ears are cut off the chains that have only smaller
+ *       \ | /        angles. If T has the edge qs, there is such an ear, other than at q and s, as long as a polygon is left,
+ *         q          whichever were cut before [1993, "cake cutting"]. So if ears run out, T does not have it.
+ *
+ * Ears at chain vertices do not depend on s, but for the last of them. So chains grow while the search moves away
+ * from q, triangle by triangle and nearest first, as stacks: an ear is cut as soon as it shows, and what is below the top
+ * of a stack has been tried. Branches of the search share the lower parts of their stacks, which are never
+ * changed. Where a chain turns into its polygon, the ear is empty: each of its vertices sees a point of qs (constrain.c
+ * has the argument).
+ *
+ * How far the search goes. Say y is a vertex of a chain, and the angle qys is not smaller than the one at q. Then T
+ * does not have qs: of the chain's vertices in the triangle qys let z be the one nearest to qs; the angle qzs is not
+ * smaller either, so T has an edge that parts it, and this would leave the triangle qzs, which is empty, through qs.
+ * Thus y takes from all that lies behind it what lies beyond a ray from y; once the rays from both sides have met,
+ * nothing is left. The larger the angle, the farther one has to look; a large one is rare. */
+#include "triangulate/edge_insertion.h"
+
+#include <stdlib.h>
+
+#define NOWHERE UINT32_MAX
+
+/* A vertex of a chain and the one below it. */
+struct mw_chain {
+    uint32_t vertex, below;
+};
+
+/* What y leaves of what is behind it: the places z with cross(direction, z - y) < 0 (left chain) or > 0 (right chain).
+ * Rounded: it only saves work. */
+typedef struct ray {
+    mw_point y, direction;
+} ray;
+
+/* A triangle that q sees through the edge of half-edge `half`, whose ends u and v are on the left and on the right. */
+struct mw_sight {
+    uint32_t half, parent;
+    uint32_t left, right;             /* the tops of the chains                                 */
+    uint32_t left_bound, right_bound; /* q sees what is strictly between these vertices         */
+    ray left_ray, right_ray;          /* one of each chain, that which leaves least             */
+};
+
+/* A search from one corner. */
+typedef struct search {
+    mw_insertion *in;
+    uint32_t q, p, r; /* p on the right of q's view, r on its left */
+    mw_angle worst;
+    double cosine, sine; /* of pi less that angle */
+} search;
+
+typedef enum hand { LEFT, RIGHT } hand;
+
+void mw__insertion_release(mw_insertion *in)
+{
+    free(in->sight);
+    free(in->chain);
+    free(in->shore);
+    free(in->made);
+    free(in->placed);
+    *in = (mw_insertion){0};
+}
+
+/* An array with room for n records: the old one, or a larger one in its place, or NULL. */
+static void *with_room(void *array, size_t *room, size_t n, size_t size)
+{
+    if (n <= *room) return array;
+    size_t more = n + n / 2 + 64;
+    void *larger = mw__realloc(array, more, size);
+    if (larger) *room = more;
+    return larger;
+}
+
+static double cross(mw_point a, mw_point b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+
+static mw_point minus(mw_point a, mw_point b)
+{
+    return (mw_point){a.x - b.x, a.y - b.y};
+}
+
+static bool is_smaller(const search *s, mw_point a, mw_point b, mw_point c)
+{
+    mw_angle angle = mw__angle(a, b, c);
+    return mw__compare_angles(&angle, &s->worst) < 0;
+}
+
+/* May b, between a and c on a chain away from q, be cut off? */
+static bool is_good_ear(const search *s, hand side, uint32_t va, uint32_t vb, uint32_t vc)
+{
+    const mw_point *point = s->in->point;
+    mw_point a = point[va], b = point[vb], c = point[vc];
+    double turn = mw__orient2d(a, b, c);
+    if (side == LEFT ? turn >= 0 : turn <= 0) return false;
+    return is_smaller(s, a, b, c) && is_smaller(s, c, a, b) && is_smaller(s, b, c, a);
+}
+
+/* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. */
+static uint32_t cut(const search *s, hand side, uint32_t top, uint32_t v)
+{
+    const mw_chain *chain = s->in->chain;
+    while (chain[top].below != NOWHERE && is_good_ear(s, side, chain[chain[top].below].vertex, chain[top].vertex, v)) {
+        s->in->work++;
+        top = chain[top].below;
+    }
+    return top;
+}
+
+static bool push(mw_insertion *in, uint32_t vertex, uint32_t below, uint32_t *top)
+{
+    mw_chain *chain = with_room(in->chain, &in->chain_room, in->chain_count + 1, sizeof *chain);
+    if (!chain) return false;
+    in->chain = chain;
+    in->chain[in->chain_count] = (mw_chain){vertex, below};
+    *top = (uint32_t)in->chain_count++;
+    return true;
+}
+
+/* --- rays --- */
+
+#define RAY_ERROR 0x1p-40
+#define RAY_SHORTEST 0x1p-900
+
+/* Of the rest of pi beside the worst angle. Where the products are too small or too large for that, 0: such rays leave
+ * everything. */
+static void set_turn(search *s)
+{
+    double length = hypot(s->worst.dot, s->worst.cross);
+    bool usable = length >= RAY_SHORTEST && length <= DBL_MAX;
+    s->cosine = usable ? -s->worst.dot / length : 0;
+    s->sine = usable ? s->worst.cross / length : 0;
+}
+
+/* The angle qys is that at q where s is on the ray: y - q turned by the rest of pi, to the right from a vertex of the
+ * left chain. */
+static ray ray_from(const search *s, hand side, uint32_t vertex)
+{
+    mw_point y = s->in->point[vertex], d = minus(y, s->in->point[s->q]);
+    double cosine = s->cosine, sine = side == LEFT ? -s->sine : s->sine;
+    ray r = {y, {d.x * cosine - d.y * sine, d.x * sine + d.y * cosine}};
+    if (!(fabs(r.direction.x) + fabs(r.direction.y) >= RAY_SHORTEST)) r.direction = (mw_point){0, 0};
+    return r;
+}
+
+/* How far z lies on the side that the ray leaves, or more: an error of RAY_ERROR times the lengths is far more than what
+ * a dozen operations can bring about, and MW_UNDERFLOW_ERROR more than what underflows. */
+static double left_over(const ray *r, hand side, mw_point z)
+{
+    mw_point d = minus(z, r->y);
+    double value = cross(r->direction, d);
+    double slack = (fabs(r->direction.x) + fabs(r->direction.y)) * (fabs(d.x) + fabs(d.y)) * RAY_ERROR;
+    return (side == LEFT ? -value : value) + slack + MW_UNDERFLOW_ERROR;
+}
+
+/* Is nothing left of the edge from u, on the left, to v between the two rays? */
+static bool is_closed(const ray *left, const ray *right, mw_point u, mw_point v)
+{
+    double from_u = left_over(left, LEFT, u), from_v = left_over(left, LEFT, v);
+    double to_u = left_over(right, RIGHT, u), to_v = left_over(right, RIGHT, v);
+    if (from_v < 0 && from_u < 0) return true;
+    if (to_u < 0 && to_v < 0) return true;
+    /* left over: from u + t (v - u) on with t = from, up to t = to */
+    double from = from_u < 0 ? from_u / (from_u - from_v) : 0, to = to_v < 0 ? to_u / (to_u - to_v) : 1;
+    if (from_v < 0 || to_u < 0) return false;
+    return from > to + RAY_ERROR;
+}
+
+/* Of two rays of a chain, that which leaves less near the new vertex w. */
+static ray narrower(const search *s, hand side, const ray *old, uint32_t w)
+{
+    return left_over(old, side, s->in->point[w]) < 0 ? *old : ray_from(s, side, w);
+}
+
+/* --- the search --- */
+
+static uint32_t apex_of(const mw_insertion *in, uint32_t half)
+{
+    return in->tri[mw__link_triangle(half)].v[mw__prev(mw__link_edge(half))];
+}
+
+/* Go on through a half-edge, from u on the left to v on the right. */
+static bool look(search *s, mw_sight next, uint32_t u, uint32_t v)
+{
+    mw_insertion *in = s->in;
+    if (next.half == MW_NONE || in->tri[mw__link_triangle(next.half)].user == MW_INSERTION_FIXED) return true;
+    if (is_closed(&next.left_ray, &next.right_ray, in->point[u], in->point[v])) return true;
+    mw_sight *sight = with_room(in->sight, &in->sight_room, in->sight_count + 1, sizeof *sight);
+    if (!sight) return false;
+    in->sight = sight;
+    in->sight[in->sight_count++] = next;
+    return true;
+}
+
+/* Pass w, the apex beyond half-edge `half` of sight i: leave it on the given side, whose chain it joins. */
+static bool pass(search *s, uint32_t i, uint32_t w, hand side)
+{
+    mw_insertion *in = s->in;
+    mw_sight from = in->sight[i], next = from;
+    const mw_triangle *tri = &in->tri[mw__link_triangle(from.half)];
+    uint32_t e = mw__link_edge(from.half), u = tri->v[e], v = tri->v[e + 1];
+    next.parent = i;
+    if (side == LEFT) {
+        if (!push(in, w, cut(s, LEFT, from.left, w), &next.left)) return false;
+        next.left_ray = narrower(s, LEFT, &from.left_ray, w);
+        if (mw__orient2d(in->point[s->q], in->point[from.left_bound], in->point[w]) < 0) next.left_bound = w;
+        next.half = tri->link[mw__next(e)];
+        return look(s, next, w, v);
+    }
+    if (!push(in, w, cut(s, RIGHT, from.right, w), &next.right)) return false;
+    next.right_ray = narrower(s, RIGHT, &from.right_ray, w);
+    if (mw__orient2d(in->point[s->q], in->point[from.right_bound], in->point[w]) > 0) next.right_bound = w;
+    next.half = tri->link[mw__prev(e)];
+    return look(s, next, u, w);
+}
+
+/* Are both polygons cut up to the edge to w? */
+static bool is_better(const search *s, const mw_sight *from, uint32_t w)
+{
+    const mw_chain *chain = s->in->chain;
+    return chain[cut(s, LEFT, from->left, w)].below == NOWHERE && chain[cut(s, RIGHT, from->right, w)].below == NOWHERE;
+}
+
+static bool begin(search *s, uint32_t half)
+{
+    mw_insertion *in = s->in;
+    mw_sight first = {.half = half, .parent = NOWHERE, .left_bound = s->r, .right_bound = s->p};
+    uint32_t bottom;
+    in->sight_count = in->chain_count = 0;
+    if (!push(in, s->q, NOWHERE, &bottom) || !push(in, s->r, bottom, &first.left) ||
+        !push(in, s->p, bottom, &first.right))
+        return false;
+    first.left_ray = ray_from(s, LEFT, s->r);
+    first.right_ray = ray_from(s, RIGHT, s->p);
+    return look(s, first, s->r, s->p);
+}
+
+/* The sight beyond which lies an s that makes things better. */
+static mw_insertion_result find(search *s, uint32_t half, uint32_t *found)
+{
+    mw_insertion *in = s->in;
+    const mw_point *point = in->point;
+    if (!begin(s, half)) return MW_INSERTION_MEMORY;
+    for (uint32_t i = 0; i < in->sight_count; i++) {
+        mw_sight from = in->sight[i];
+        uint32_t w = apex_of(in, from.half);
+        bool right_of_left = mw__orient2d(point[s->q], point[from.left_bound], point[w]) < 0;
+        bool left_of_right = mw__orient2d(point[s->q], point[from.right_bound], point[w]) > 0;
+        in->work++;
+        if (right_of_left && left_of_right && is_better(s, &from, w)) {
+            *found = i;
+            return MW_INSERTION_DONE;
+        }
+        if (in->reach == 1) break;
+        if (left_of_right && !pass(s, i, w, LEFT)) return MW_INSERTION_MEMORY;
+        if (right_of_left && !pass(s, i, w, RIGHT)) return MW_INSERTION_MEMORY;
+    }
+    return MW_INSERTION_NONE;
+}
+
+/* --- the exchange --- */
+
+enum { PLACE = 3 }; /* while triangles are exchanged, `user` of those removed is their place on the path + PLACE */
+
+/* A vertex of a chain, and the edge that leads to it from the one below. */
+struct mw_shore {
+    uint32_t vertex;
+    uint32_t beyond; /* the half-edge on the edge's other side, MW_NONE on the hull           */
+    uint32_t place;  /* of the triangle removed on this side; NOWHERE for the base of an ear  */
+};
+
+static bool path_room(mw_insertion *in, uint32_t n)
+{
+    uint32_t *made = with_room(in->made, &in->made_room, n, sizeof *made);
+    if (made) in->made = made;
+    uint32_t *placed = with_room(in->placed, &in->placed_room, n, sizeof *placed);
+    if (placed) in->placed = placed;
+    mw_shore *shore = with_room(in->shore, &in->shore_room, 2 * (size_t)n + 4, sizeof *shore);
+    if (shore) in->shore = shore;
+    return made && placed && shore;
+}
+
+/* made[] = the triangles to be removed, from t to that beyond sight `found`. */
+static bool list_path(mw_insertion *in, uint32_t t, uint32_t found)
+{
+    uint32_t n = 1;
+    for (uint32_t i = found; i != NOWHERE; i = in->sight[i].parent) n++;
+    if (!path_room(in, n)) return false;
+    in->made_count = n;
+    for (uint32_t i = found; i != NOWHERE; i = in->sight[i].parent)
+        in->made[--n] = mw__link_triangle(in->sight[i].half);
+    in->made[0] = t;
+    for (uint32_t i = 0; i < in->made_count; i++) {
+        in->tri[in->made[i]].user = PLACE + i;
+        in->placed[i] = MW_NONE;
+    }
+    return true;
+}
+
+/* The step over edge e of the triangle at a place of the path, to the given vertex. */
+static mw_shore step_over(const mw_insertion *in, uint32_t place, uint32_t e, uint32_t vertex)
+{
+    return (mw_shore){vertex, in->tri[in->made[place]].link[e], place};
+}
+
+static bool leads_to(const mw_insertion *in, uint32_t place, uint32_t e, uint32_t other)
+{
+    uint32_t half = in->tri[in->made[place]].link[e];
+    return half != MW_NONE && mw__link_triangle(half) == in->made[other];
+}
+
+/* Write both chains, from q to w, uncut. Each triangle between the first and the last has one edge on them. */
+static void list_chains(const search *s, uint32_t k, mw_shore *chain[2], uint32_t count[2])
+{
+    mw_insertion *in = s->in;
+    uint32_t last = in->made_count - 1, left = 0, right = 0;
+    chain[LEFT][left++] = chain[RIGHT][right++] = (mw_shore){s->q, MW_NONE, NOWHERE};
+    chain[LEFT][left++] = step_over(in, 0, mw__prev(k), s->r);
+    chain[RIGHT][right++] = step_over(in, 0, k, s->p);
+    uint32_t half = in->tri[in->made[0]].link[mw__next(k)];
+    for (uint32_t i = 1; i <= last; i++) {
+        uint32_t e = mw__link_edge(half), w = apex_of(in, half);
+        bool out_right = i < last && leads_to(in, i, mw__next(e), i + 1), out_left = i < last && !out_right;
+        if (!out_left) chain[LEFT][left++] = step_over(in, i, mw__prev(e), w);
+        if (!out_right) chain[RIGHT][right++] = step_over(in, i, mw__next(e), w);
+        half = in->tri[in->made[i]].link[out_left ? mw__prev(e) : mw__next(e)];
+    }
+    count[LEFT] = left;
+    count[RIGHT] = right;
+}
+
+/* Edge `half` of a new triangle lies where the step was. Where chains run along both sides of an edge, what lies beyond
+ * a step is the triangle that has come in the place of the other one. */
+static void place(mw_insertion *in, uint32_t half, const mw_shore *step)
+{
+    uint32_t beyond = step->beyond;
+    if (step->place != NOWHERE && beyond != MW_NONE && in->tri[mw__link_triangle(beyond)].user >= PLACE) {
+        in->placed[step->place] = half;
+        beyond = in->placed[in->tri[mw__link_triangle(beyond)].user - PLACE];
+    }
+    in->tri[mw__link_triangle(half)].link[mw__link_edge(half)] = beyond;
+    if (beyond != MW_NONE) in->tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = half;
+}
+
+/* The ear of a, b, c, which follow each other away from q, becomes triangle t. */
+static void write_ear(mw_insertion *in, hand side, uint32_t t, const mw_shore *a, const mw_shore *b, mw_shore *c)
+{
+    mw_triangle *tri = &in->tri[t];
+    tri->v[0] = tri->v[3] = b->vertex;
+    tri->v[1] = side == LEFT ? a->vertex : c->vertex;
+    tri->v[2] = side == LEFT ? c->vertex : a->vertex;
+    place(in, mw__link(t, side == LEFT ? 0 : 2), b);
+    place(in, mw__link(t, side == LEFT ? 2 : 0), c);
+    c->beyond = mw__link(t, 1);
+    c->place = NOWHERE;
+}
+
+/* Cut a chain as the search has done, into triangles made[*next], ...: what lies beside qs. */
+static uint32_t write_side(const search *s, hand side, mw_shore *chain, uint32_t count, uint32_t *next)
+{
+    mw_insertion *in = s->in;
+    uint32_t n = 1;
+    for (uint32_t i = 1; i < count; i++) {
+        mw_shore c = chain[i];
+        for (; n > 1 && is_good_ear(s, side, chain[n - 2].vertex, chain[n - 1].vertex, c.vertex); n--)
+            write_ear(in, side, in->made[(*next)++], &chain[n - 2], &chain[n - 1], &c);
+        chain[n++] = c;
+    }
+    return chain[1].beyond;
+}
+
+static mw_insertion_result exchange(const search *s, uint32_t t, uint32_t k, uint32_t found)
+{
+    mw_insertion *in = s->in;
+    if (!list_path(in, t, found)) return MW_INSERTION_MEMORY;
+    mw_shore *chain[2] = {in->shore, in->shore + in->made_count + 2};
+    uint32_t count[2], next = 0;
+    list_chains(s, k, chain, count);
+    uint32_t left = write_side(s, LEFT, chain[LEFT], count[LEFT], &next);
+    uint32_t right = write_side(s, RIGHT, chain[RIGHT], count[RIGHT], &next);
+    in->tri[mw__link_triangle(left)].link[mw__link_edge(left)] = right;
+    in->tri[mw__link_triangle(right)].link[mw__link_edge(right)] = left;
+    for (uint32_t i = 0; i < in->made_count; i++) in->tri[in->made[i]].user = MW_INSERTION_FREE;
+    in->work += in->made_count;
+    return MW_INSERTION_DONE;
+}
+
+mw_insertion_result mw__insert_edge(mw_insertion *in, uint32_t t, uint32_t k)
+{
+    const mw_triangle *tri = &in->tri[t];
+    uint32_t q = tri->v[k], p = tri->v[mw__next(k)], r = tri->v[mw__prev(k)], found;
+    search s = {.in = in, .q = q, .p = p, .r = r, .worst = mw__angle(in->point[p], in->point[q], in->point[r])};
+    set_turn(&s);
+    mw_insertion_result result = find(&s, tri->link[mw__next(k)], &found);
+    return result == MW_INSERTION_DONE ? exchange(&s, t, k, found) : result;
+}
