@@ -86,7 +86,7 @@ static void test_same_way(void **state)
     for (int i = 0; i < 4000; i++) {
         mw_point q = {(N + 2) * random_unit(&random) - 1, (N + 2) * random_unit(&random) - 1};
         uint32_t t = mw__random_below(&random, tiling->tri_count);
-        mw_walk barycentric = mw__walk_begin(tiling, q, t, 0, 0), direct = barycentric, stored = barycentric;
+        mw_walk barycentric = mw__walk_begin(tiling, q, t, 0, 0, NULL), direct = barycentric, stored = barycentric;
         for (uint32_t next = t; next != MW_NONE; steps++) {
             next = follow(&mw__barycentric, &barycentric, i % 2);
             assert_int_equal(follow(&mw__direct, &direct, i % 2), next);
@@ -168,13 +168,13 @@ static void test_steps_and_fuel(void **state)
     mw_query_options options = {.walk = MW_WALK_FAST_STOCHASTIC, .start = MW_START_CENTRE};
     mw_cursor cursor;
     assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
-    mw_walk walk = mw__depart(locator, &cursor, cursor.last, (mw_point){N - 1, N - 1}, &random);
+    mw_walk walk = mw__depart(locator, &cursor, cursor.last, (mw_point){N - 1, N - 1}, &random, NULL);
     assert_true(walk.steps > 1.7 * N / 2 * sqrt(2) && walk.steps < 2.5 * N / 2 * sqrt(2)); /* 2.16 a unit of length */
     assert_int_equal(walk.fuel, cursor.fuel + walk.steps);
-    walk = mw__depart(locator, &cursor, cursor.last, (mw_point){1e308, -1e308}, &random);
+    walk = mw__depart(locator, &cursor, cursor.last, (mw_point){1e308, -1e308}, &random, NULL);
     assert_int_equal(walk.steps, cursor.fuel);
     cursor.steps = UINT32_MAX;
-    walk = mw__depart(locator, &cursor, cursor.last, (mw_point){1, 1}, &random);
+    walk = mw__depart(locator, &cursor, cursor.last, (mw_point){1, 1}, &random, NULL);
     assert_true(walk.steps == cursor.fuel && walk.fuel == 2 * cursor.fuel);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
@@ -222,7 +222,7 @@ static bool parts(const mw_walk *walk, uint32_t t, uint32_t e)
 static void expect_sure(const mw_kernels *kernels, const mw_tiling *tiling, uint32_t t, const double q[2], int *crossed)
 {
     enum { STEPS = 300 };
-    mw_walk walk = mw__walk_begin(tiling, (mw_point){q[0], q[1]}, t, 0, 0);
+    mw_walk walk = mw__walk_begin(tiling, (mw_point){q[0], q[1]}, t, 0, 0, NULL);
     mw_verdict verdict = MW_DRY;
     for (int i = 0; i < STEPS && verdict == MW_DRY; i++) {
         walk.fuel = 1;

@@ -92,18 +92,18 @@ static void add_ghosts(maker *m, const mw_regions *regions)
     }
 }
 
-static uint32_t count_ghosts(const mw_cover *cover)
+uint32_t mw__ghosts_wanted(const mw_cover *cover)
 {
     uint32_t count = 0;
     for (uint32_t t = 0; t < cover->cell_count; t++) count += cover->degree[t] == 0;
     return count;
 }
 
-mw_status mw__complete(const mw_survey *survey, mw_tiling *tiling, mw_error *error)
+mw_status mw__complete(const mw_survey *survey, bool fill, mw_tiling *tiling, mw_error *error)
 {
     const mw_mesh *mesh = survey->mesh;
     maker m = {.outline = &survey->outline, .cover = &survey->cover, .tiling = tiling};
-    tiling->ghost_count = count_ghosts(m.cover);
+    tiling->ghost_count = fill ? mw__ghosts_wanted(m.cover) : 0;
     tiling->hole_count = survey->regions.hole_count;
     tiling->point_count = mesh->point_count;
     /* each split makes one tile more */
@@ -118,6 +118,6 @@ mw_status mw__complete(const mw_survey *survey, mw_tiling *tiling, mw_error *err
     if (mesh->point_count > 0) memcpy(tiling->point, mesh->point, mesh->point_count * sizeof *tiling->point);
     for (uint32_t t = 0; t < mesh->tri_count; t++)
         if (!mw__is_flat(m.outline, t)) add_user(&m, t);
-    add_ghosts(&m, &survey->regions);
+    if (fill) add_ghosts(&m, &survey->regions);
     return mw__connect(tiling->tri, tiling->tri_count, tiling->point_count, NULL) ? MW_OK : mw__fail_memory(error);
 }

@@ -40,26 +40,71 @@ static mw_status refuse(const mw_survey *survey, mw_error *error)
     return mw__fail_at(error, first->triangle, first->vertex == MW_NONE ? -1 : (int64_t)first->vertex, "%s", text);
 }
 
-static mw_status fill_tiling(const mw_survey *survey, bool any, mw_tiling *tiling, mw_error *error)
+/* Is the mesh its own tiling, but for ghosts: no flat triangles, and no two vertices of the outline at one place? */
+static bool stands_alone(const mw_survey *survey)
+{
+    const mw_outline *o = &survey->outline;
+    if (o->mesh->flat_count > 0 || survey->cover.split_count > 0) return false;
+    for (uint32_t v = 0; v < o->mesh->point_count; v++)
+        if (o->place[v] != MW_NONE && o->vertex[o->place[v]] != v) return false;
+    return true;
+}
+
+static mw_status leave_open(const mw_survey *survey, mw_tiling *tiling, mw_error *error)
+{
+    if (stands_alone(survey)) {
+        borrow(survey->mesh, tiling);
+    } else {
+        mw_status status = mw__complete(survey, false, tiling, error);
+        if (status) return status;
+    }
+    tiling->hole_count = survey->regions.hole_count;
+    tiling->rim = mw__rim_create(survey, tiling, &tiling->rim_count);
+    return tiling->rim ? MW_OK : mw__fail_memory(error);
+}
+
+static mw_status make_tiling(const mw_survey *survey, bool any, bool fill, mw_tiling *tiling, mw_error *error)
 {
     tiling->embedding = survey->embedding;
     if (!survey->embedding && !any) return refuse(survey, error);
-    if (survey->embedding && !survey->convex) return mw__complete(survey, tiling, error);
+    if (survey->embedding && !survey->convex)
+        return fill || mw__ghosts_wanted(&survey->cover) == 0 ? mw__complete(survey, true, tiling, error)
+                                                              : leave_open(survey, tiling, error);
     borrow(survey->mesh, tiling);
     if (!survey->embedding) tiling->defect = survey->defects.list[0];
     return MW_OK;
 }
 
-mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
+static mw_status create(const mw_mesh *mesh, bool any, bool fill, mw_tiling *tiling, mw_error *error)
 {
     *tiling = (mw_tiling){0};
     mw_survey survey;
     mw_status status = mw__survey_create(&survey, mesh, error);
-    if (!status) status = fill_tiling(&survey, any, tiling, error);
+    if (!status) status = make_tiling(&survey, any, fill, tiling, error);
     mw__survey_release(&survey);
     if (!status && !find_owners(tiling)) status = mw__fail_memory(error);
     if (status) mw__tiling_release(tiling);
     return status;
+}
+
+mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
+{
+    return create(mesh, any, true, tiling, error);
+}
+
+mw_status mw__tiling_create_open(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
+{
+    return create(mesh, any, false, tiling, error);
+}
+
+mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error)
+{
+    if (!tiling->rim) return MW_OK;
+    tiling->open = mw__calloc(1, sizeof *tiling->open);
+    bool done = tiling->open && mw__open_create(tiling->open, tiling, tiling->rim, tiling->rim_count);
+    free(tiling->rim);
+    tiling->rim = NULL;
+    return done ? MW_OK : mw__fail_memory(error);
 }
 
 static void release_arrays(mw_tiling *tiling)
@@ -77,15 +122,24 @@ void mw__tiling_release(mw_tiling *tiling)
     release_arrays(tiling);
     free(tiling->owner);
     free(tiling->area);
+    free(tiling->rim);
+    if (tiling->open) mw__open_release(tiling->open);
+    free(tiling->open);
     *tiling = (mw_tiling){0};
+}
+
+size_t mw__tiling_copy_bytes(const mw_tiling *tiling)
+{
+    if (tiling->borrowed) return 0;
+    return tiling->point_count * sizeof *tiling->point + tiling->tri_count * sizeof *tiling->tri;
 }
 
 size_t mw__tiling_bytes(const mw_tiling *tiling)
 {
-    size_t bytes = tiling->point_count * sizeof *tiling->owner;
+    size_t bytes = tiling->point_count * sizeof *tiling->owner + mw__tiling_copy_bytes(tiling);
     if (tiling->area) bytes += tiling->tri_count * sizeof *tiling->area;
-    if (tiling->borrowed) return bytes;
-    return bytes + tiling->point_count * sizeof *tiling->point + tiling->tri_count * sizeof *tiling->tri;
+    if (tiling->open) bytes += sizeof *tiling->open + mw__open_bytes(tiling->open, tiling);
+    return bytes;
 }
 
 /* place[order[i]] = i */
@@ -94,12 +148,16 @@ static void invert(const uint32_t *order, uint32_t n, uint32_t *place)
     for (uint32_t i = 0; i < n; i++) place[order[i]] = i;
 }
 
+static uint32_t renumber_half(uint32_t half, const uint32_t *triangle_place)
+{
+    return mw__link(triangle_place[mw__link_triangle(half)], mw__link_edge(half));
+}
+
 static void renumber(mw_triangle *t, const uint32_t *triangle_place, const uint32_t *vertex_place)
 {
     for (int k = 0; k < 4; k++) t->v[k] = vertex_place[t->v[k]];
     for (int k = 0; k < 3; k++)
-        if (t->link[k] != MW_NONE)
-            t->link[k] = mw__link(triangle_place[mw__link_triangle(t->link[k])], mw__link_edge(t->link[k]));
+        if (t->link[k] != MW_NONE) t->link[k] = renumber_half(t->link[k], triangle_place);
 }
 
 /* The four permutations of a new layout, and the arrays laid out by them. */
@@ -135,6 +193,10 @@ static bool order_all(layout *to, const mw_tiling *from)
 
 static void fill(layout *to, const mw_tiling *from)
 {
+    for (uint32_t i = 0; i < from->rim_count; i++) {
+        from->rim[i].half = renumber_half(from->rim[i].half, to->triangle_place);
+        from->rim[i].next = renumber_half(from->rim[i].next, to->triangle_place);
+    }
     for (uint32_t i = 0; i < from->tri_count; i++) {
         to->tri[i] = from->tri[to->triangle_order[i]];
         renumber(&to->tri[i], to->triangle_place, to->vertex_place);

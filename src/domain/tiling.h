@@ -6,10 +6,14 @@
  * fill the gap beside an edge that has vertices inside it, the user's triangle at that edge is cut into several tiles
  * of the same number.
  *
- * A convex mesh without flat triangles is its own tiling; its arrays are borrowed then. */
+ * A convex mesh without flat triangles is its own tiling; its arrays are borrowed then.
+ *
+ * A tiling may also be left open: without ghosts, so that links are MW_NONE on any border. Then a mesh without flat triangles
+ * whose vertices all lie at different places is its own tiling, convex or not. */
 #ifndef MW_SRC_TILING_H
 #define MW_SRC_TILING_H
 
+#include "domain/open.h"
 #include "mesh/mesh.h"
 
 /* The user's number of a tile, tri[t].user, is that of the triangle with MW_FLIPPED, or MW_GHOST and the number of the
@@ -25,14 +29,22 @@ typedef struct mw_tiling {
     bool embedding;   /* false: the mesh is no embedding (option any); the tiles are the mesh's own triangles, borrowed,
                        links are MW_NONE on any border, and nothing above is promised */
     mw_defect defect; /* the first one, where the mesh is no embedding */
+    mw_open *open;    /* NULL for a tiling that fills its hull         */
+    mw_rim_edge *rim; /* the border of an open tiling, until it is finished */
+    uint32_t rim_count;
 } mw_tiling;
 
 /* Tile the hull of `mesh`. Where the mesh is no embedding: with `any`, see mw_tiling.embedding; otherwise
  * MW_ERROR_INPUT, the error naming the first defect. A mesh without any triangle that has an area gives no tiles. Also
  * MW_ERROR_MEMORY, MW_ERROR_LIMIT. The mesh must outlive the tiling. */
 mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
+/* The same, left open; to be finished. Where the mesh fills its hull there is no difference. */
+mw_status mw__tiling_create_open(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
+/* When the tiles have their final order: find the loops and pieces of an open tiling. MW_ERROR_MEMORY. */
+mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error);
 void mw__tiling_release(mw_tiling *tiling);
-size_t mw__tiling_bytes(const mw_tiling *tiling); /* what it owns */
+size_t mw__tiling_bytes(const mw_tiling *tiling);      /* what it owns           */
+size_t mw__tiling_copy_bytes(const mw_tiling *tiling); /* of it, tiles and points */
 
 /* Compute the areas: rounded, thin tiles included, with a relative error below MW_AREA_ERROR or, among the subnormal
  * numbers, an absolute one below the smallest normal number; infinite above the doubles. MW_ERROR_MEMORY. Not before

@@ -36,6 +36,7 @@ typedef struct chunk {
     mw_feed feed;
     const batch *batch;
     uint32_t next[MW_MAX_LANES], end[MW_MAX_LANES], query[MW_MAX_LANES], last[MW_MAX_LANES];
+    mw_work work[MW_MAX_LANES];
     mw_counters counters;
 } chunk;
 
@@ -65,7 +66,7 @@ static bool depart(chunk *c, uint32_t lane, mw_walk *walk)
             continue;
         }
         uint64_t random = mw__random_seed(b->seed, query);
-        *walk = mw__depart(b->locator, &b->cursor, c->last[lane], q, &random);
+        *walk = mw__depart(b->locator, &b->cursor, c->last[lane], q, &random, &c->work[lane]);
         c->query[lane] = query;
         return true;
     }
@@ -86,7 +87,10 @@ static bool deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verd
 /* Answer the queries first .. first + count - 1 (of the order). */
 static mw_counters answer(const batch *b, uint32_t first, uint32_t count)
 {
-    chunk c = {.feed.deliver = deliver, .batch = b};
+    chunk c;
+    c.feed.deliver = deliver;
+    c.batch = b;
+    c.counters = (mw_counters){0};
     uint32_t lanes = b->lanes < count ? b->lanes : count;
     for (uint32_t i = 0; i < lanes; i++) {
         c.next[i] = first + (uint32_t)((uint64_t)count * i / lanes);
@@ -105,20 +109,33 @@ static mw_counters answer(const batch *b, uint32_t first, uint32_t count)
     return c.counters;
 }
 
+static void raise(uint64_t *most, uint64_t value)
+{
+    if (value > *most) *most = value;
+}
+
 void mw_counters_add(mw_counters *sum, const mw_counters *more)
 {
     sum->queries += more->queries;
     sum->triangles_visited += more->triangles_visited;
-    if (more->triangles_max > sum->triangles_max) sum->triangles_max = more->triangles_max;
+    raise(&sum->triangles_max, more->triangles_max);
     sum->triangles_init += more->triangles_init;
     sum->triangles += more->triangles;
+    raise(&sum->triangles_walk_max, more->triangles_walk_max);
     sum->triangles_final += more->triangles_final;
-    if (more->triangles_final_max > sum->triangles_final_max) sum->triangles_final_max = more->triangles_final_max;
+    raise(&sum->triangles_final_max, more->triangles_final_max);
     sum->orient_init += more->orient_init;
     sum->orient += more->orient;
     sum->orient_final += more->orient_final;
     sum->implicit += more->implicit;
     sum->comparisons += more->comparisons;
+    sum->walk_runs += more->walk_runs;
+    sum->border_runs += more->border_runs;
+    sum->triangles_border += more->triangles_border;
+    raise(&sum->triangles_border_max, more->triangles_border_max);
+    sum->orient_border += more->orient_border;
+    sum->border_edges += more->border_edges;
+    raise(&sum->border_edges_max, more->border_edges_max);
     sum->cycles += more->cycles;
     sum->handovers += more->handovers;
 }

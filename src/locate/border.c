@@ -72,62 +72,31 @@ static bool sort_edges(mw_border *border, const mw_tiling *tiling)
     return key && sorted;
 }
 
-static mw_box edge_box(const mw_border_edge *e)
+static mw_box edge_box(const void *edges, uint32_t i)
 {
+    const mw_border_edge *e = (const mw_border_edge *)edges + i;
     return (mw_box){{fmin(e->a.x, e->b.x), fmin(e->a.y, e->b.y)}, {fmax(e->a.x, e->b.x), fmax(e->a.y, e->b.y)}};
-}
-
-static void join(mw_box *box, mw_box other)
-{
-    for (int k = 0; k < 2; k++) {
-        box->low[k] = fmin(box->low[k], other.low[k]);
-        box->high[k] = fmax(box->high[k], other.high[k]);
-    }
-}
-
-static void build_level(mw_border *border, uint32_t level)
-{
-    uint32_t below = level ? border->count[level - 1] : border->edge_count;
-    for (uint32_t i = 0; i < border->count[level]; i++) {
-        mw_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-        for (uint32_t j = i * MW_BORDER_FAN; j < below && j < (i + 1) * MW_BORDER_FAN; j++)
-            join(&box, level ? border->box[border->first[level - 1] + j] : edge_box(&border->edge[j]));
-        border->box[border->first[level] + i] = box;
-    }
 }
 
 bool mw__border_create(mw_border *border, const mw_mesh *mesh, const mw_tiling *tiling)
 {
     *border = (mw_border){.edge_count = collect(mesh, tiling, NULL)};
-    uint32_t boxes = 0, below = border->edge_count;
-    do {
-        uint32_t here = (below + MW_BORDER_FAN - 1) / MW_BORDER_FAN;
-        border->first[border->level_count] = boxes;
-        border->count[border->level_count++] = here;
-        boxes += here;
-        below = here;
-    } while (below > 1);
     border->edge = mw__alloc(border->edge_count, sizeof *border->edge);
-    border->box = mw__alloc(boxes, sizeof *border->box);
-    if (!border->edge || !border->box) return false;
+    if (!border->edge) return false;
     collect(mesh, tiling, border->edge);
-    if (!sort_edges(border, tiling)) return false;
-    for (uint32_t level = 0; level < border->level_count; level++) build_level(border, level);
-    return true;
+    return sort_edges(border, tiling) && mw__boxes_create(&border->tree, border->edge_count, edge_box, border->edge);
 }
 
 void mw__border_release(mw_border *border)
 {
     free(border->edge);
-    free(border->box);
+    mw__boxes_release(&border->tree);
     *border = (mw_border){0};
 }
 
 size_t mw__border_bytes(const mw_border *border)
 {
-    size_t boxes = 0;
-    for (uint32_t level = 0; level < border->level_count; level++) boxes += border->count[level];
-    return border->edge_count * sizeof *border->edge + boxes * sizeof *border->box;
+    return border->edge_count * sizeof *border->edge + mw__boxes_bytes(&border->tree);
 }
 
 /* --- searching --------------------------------------------------------------------------------------------------- */
@@ -268,16 +237,17 @@ static double box_distance(const mw_box *box, mw_point q)
 static void descend(search *s, uint32_t level, uint32_t index)
 {
     const mw_border *border = s->border;
-    uint32_t below = level ? border->count[level - 1] : border->edge_count;
-    uint32_t first = index * MW_BORDER_FAN, n = below - first < MW_BORDER_FAN ? below - first : MW_BORDER_FAN;
+    const mw_boxes *tree = &border->tree;
+    uint32_t below = level ? tree->level_boxes[level - 1] : border->edge_count;
+    uint32_t first = index * MW_BOXES_FAN, n = below - first < MW_BOXES_FAN ? below - first : MW_BOXES_FAN;
     if (level == 0) {
         for (uint32_t i = 0; i < n; i++) consider(s, &border->edge[first + i]);
         return;
     }
-    uint32_t child[MW_BORDER_FAN];
-    double least[MW_BORDER_FAN];
+    uint32_t child[MW_BOXES_FAN];
+    double least[MW_BOXES_FAN];
     for (uint32_t i = 0; i < n; i++) { /* nearest first */
-        double d = box_distance(&border->box[border->first[level - 1] + first + i], s->q);
+        double d = box_distance(&tree->box[tree->first[level - 1] + first + i], s->q);
         uint32_t k = i;
         for (; k > 0 && least[k - 1] > d; k--) {
             least[k] = least[k - 1];
@@ -292,7 +262,7 @@ static void descend(search *s, uint32_t level, uint32_t index)
 static const mw_border_edge *nearest(const mw_border *border, mw_point q)
 {
     search s = {.border = border, .q = q, .most = INFINITY};
-    if (border->edge_count) descend(&s, border->level_count - 1, 0);
+    if (border->edge_count) descend(&s, border->tree.level_count - 1, 0);
     return s.best;
 }
 

@@ -3,6 +3,7 @@
 #ifndef MW_SRC_BORDER_H
 #define MW_SRC_BORDER_H
 
+#include "domain/boxes.h"
 #include "domain/tiling.h"
 
 #include <meshwalk/locate.h>
@@ -13,20 +14,11 @@ typedef struct mw_border_edge {
     uint32_t edge;     /* as the user numbers it */
 } mw_border_edge;
 
-typedef struct mw_box {
-    double low[2], high[2];
-} mw_box;
-
-/* Edges in Hilbert order; box 0 of level 0 holds the first MW_BORDER_FAN edges, and so on; box i of level k + 1 holds
- * boxes MW_BORDER_FAN * i ... of level k. The top level has one box. */
-#define MW_BORDER_FAN 8u
-#define MW_BORDER_LEVELS 12
+/* Edges in Hilbert order, and a tree of boxes over them. */
 typedef struct mw_border {
     mw_border_edge *edge;
-    mw_box *box;
-    uint32_t edge_count, level_count;
-    uint32_t first[MW_BORDER_LEVELS]; /* of the boxes of a level */
-    uint32_t count[MW_BORDER_LEVELS];
+    mw_boxes tree;
+    uint32_t edge_count;
 } mw_border;
 
 /* Returns false when out of memory. */

@@ -51,6 +51,7 @@ static void choose_walks(mw_locator *locator)
         }
     locator->auto_walk = failing * FEW > edges ? MW_WALK_CELESTIAL : MW_WALK_REMEMBERING;
     locator->finish = failing == 0 ? MW_WALK_REMEMBERING : MW_WALK_STOCHASTIC;
+    if (tiling->open) locator->auto_walk = MW_WALK_BORDER;
 }
 
 /* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean length 32 / (9 pi)
@@ -61,12 +62,28 @@ static double expect_pace(uint32_t tiles, double width, double height)
     return crossings * sqrt(tiles / 2.0) / sqrt(width) / sqrt(height);
 }
 
+/* Few queries do not pay for the time that ghosts take: FEW of them for this many triangles. */
+static bool wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
+{
+    enum { FEW = 16 };
+    if (options->fill) return options->fill == 1;
+    return options->queries == 0 || options->queries > mesh->tri_count / FEW;
+}
+
+static mw_status make_tiling(mw_locator *locator, const mw_locator_options *options, mw_error *error)
+{
+    return wants_ghosts(locator->mesh, options)
+               ? mw__tiling_create(locator->mesh, options->any, &locator->tiling, error)
+               : mw__tiling_create_open(locator->mesh, options->any, &locator->tiling, error);
+}
+
 static mw_status prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
     mw_tiling *tiling = &locator->tiling;
-    mw_status status = mw__tiling_create(locator->mesh, options->any, tiling, error);
+    mw_status status = make_tiling(locator, options, error);
     if (status) return status;
     if (options->layout == 1 || (options->layout == 0 && scattered(tiling))) status = mw__tiling_order(tiling, error);
+    if (status == MW_OK) status = mw__tiling_finish(tiling, error);
     if (status == MW_OK && options->areas) status = mw__tiling_areas(tiling, error);
     if (status) return status;
     if (!tiling->embedding) {
@@ -98,6 +115,7 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
     if (options->layout < 0 || options->layout > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
+    if (options->fill < 0 || options->fill > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
     mw_locator *locator = mw__calloc(1, sizeof *locator);
@@ -121,15 +139,19 @@ void mw_locator_destroy(mw_locator *locator)
 
 void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
 {
+    const mw_tiling *tiling = &locator->tiling;
     size_t border = mw__border_bytes(&locator->border);
     *info = (mw_locator_info){
-        .bytes = sizeof *locator + mw__tiling_bytes(&locator->tiling) + border,
+        .bytes = sizeof *locator + mw__tiling_bytes(tiling) + border,
         .border_bytes = border,
-        .area_bytes = locator->tiling.area ? locator->tiling.tri_count * sizeof(double) : 0,
-        .ghost_triangles = locator->tiling.ghost_count,
-        .holes = locator->tiling.hole_count,
-        .copied = !locator->tiling.borrowed,
-        .embedding = locator->tiling.embedding,
+        .area_bytes = tiling->area ? tiling->tri_count * sizeof(double) : 0,
+        .fill_bytes = tiling->ghost_count ? mw__tiling_copy_bytes(tiling) : 0,
+        .ghost_triangles = tiling->ghost_count,
+        .holes = tiling->hole_count,
+        .pieces = tiling->open ? tiling->open->piece_count : 1,
+        .copied = !tiling->borrowed,
+        .embedding = tiling->embedding,
+        .open = tiling->open != NULL,
     };
 }
 

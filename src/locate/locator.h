@@ -28,8 +28,9 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
                          mw_counters *counters);
 
 /* The walk of one query: first tile by the cursor's start; `last` is where the query before it ended, MW_NONE if there is
- * none: then the start is MW_START_SAMPLE. */
-mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random);
+ * none: then the start is MW_START_SAMPLE. If the cursor counts, *work is where; it must last as long as the walk. */
+mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
+                   mw_work *work);
 
 /* A location that names no triangle. */
 static MW_INLINE mw_location mw__nowhere(mw_where where)

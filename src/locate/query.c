@@ -67,6 +67,7 @@ static void count(mw_counters *counters, const mw_work *work, bool cycle, bool h
                                   .triangles_max = work->visited,
                                   .triangles_init = work->triangles[MW_STAGE_INIT],
                                   .triangles = work->triangles[MW_STAGE_WALK],
+                                  .triangles_walk_max = work->triangles[MW_STAGE_WALK],
                                   .triangles_final = work->triangles[MW_STAGE_FINAL],
                                   .triangles_final_max = work->triangles[MW_STAGE_FINAL],
                                   .orient_init = work->orient[MW_STAGE_INIT],
@@ -74,6 +75,13 @@ static void count(mw_counters *counters, const mw_work *work, bool cycle, bool h
                                   .orient_final = work->orient[MW_STAGE_FINAL],
                                   .implicit = work->implicit,
                                   .comparisons = work->comparisons,
+                                  .walk_runs = work->walk_runs,
+                                  .border_runs = work->border_runs,
+                                  .triangles_border = work->triangles[MW_STAGE_BORDER],
+                                  .triangles_border_max = work->triangles[MW_STAGE_BORDER],
+                                  .orient_border = work->orient[MW_STAGE_BORDER],
+                                  .border_edges = work->border_edges,
+                                  .border_edges_max = work->border_edges,
                                   .cycles = cycle,
                                   .handovers = handover,
                               });
@@ -82,6 +90,7 @@ static void count(mw_counters *counters, const mw_work *work, bool cycle, bool h
 /* A walk in doubles says that q lies beyond a hull edge of its last tile: does it? */
 static bool has_left(const mw_tiling *tiling, const mw_walk *walk)
 {
+    if (tiling->open) return false; /* beyond a border there may be more tiles */
     const mw_triangle *tile = &tiling->tri[walk->t];
     for (int k = 0; k < 3; k++)
         if (tile->link[k] == MW_NONE &&
@@ -90,20 +99,75 @@ static bool has_left(const mw_tiling *tiling, const mw_walk *walk)
     return false;
 }
 
-/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was right costs no step
- * more, and does not count as handed over: *changed tells. */
+/* Count what the walk that took over did as the final location. */
+static void add_final(mw_work *sum, const mw_work *more)
+{
+    sum->visited += more->visited - 1; /* it began where the other one ended */
+    for (int stage = 0; stage < MW_STAGES; stage++) {
+        sum->triangles[MW_STAGE_FINAL] += more->triangles[stage];
+        sum->orient[MW_STAGE_FINAL] += more->orient[stage];
+    }
+}
+
+/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was right does not count as
+ * handed over: *changed tells. */
 static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
 {
-    uint32_t fuel = mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling);
-    mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, fuel, 0);
-    mw_verdict verdict = mw__celestial.run[true][counted](&end);
-    *changed = end.t != walk->t || verdict != before;
-    if (end.t != walk->t) {
-        walk->work.visited += end.work.visited - 1;
-        walk->work.triangles[MW_STAGE_FINAL] += end.work.triangles[MW_STAGE_WALK];
-        walk->work.orient[MW_STAGE_FINAL] += end.work.orient[MW_STAGE_WALK];
-        walk->t = end.t;
+    mw_walk_kind sure = tiling->open ? MW_WALK_BORDER : MW_WALK_CELESTIAL;
+    uint32_t fuel = mw__walk_fuel(sure, MW_EXACT, tiling);
+    mw_work more = {0};
+    mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, fuel, 0, counted ? &more : NULL);
+    mw_verdict verdict = mw__walk_kernels(sure, tiling)->run[true][counted](&end);
+    bool round = tiling->open && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */
+    *changed = verdict != before || (end.t != walk->t && !round);
+    if (*changed && counted) add_final(walk->work, &more);
+    walk->t = end.t;
+    walk->lowest = end.lowest;
+    return verdict;
+}
+
+/* The smallest face of a piece that q is known to lie in. */
+typedef struct face {
+    uint32_t hole; /* MW_NONE: none is known */
+    mw_box box;    /* of the piece           */
+} face;
+
+static bool is_inside(const mw_box *box, const mw_box *other)
+{
+    return box->low[0] >= other->low[0] && box->low[1] >= other->low[1] && box->high[0] <= other->high[0] &&
+           box->high[1] <= other->high[1];
+}
+
+/* q lies beyond the border round which the walk went last. Pieces of which a face holds q lie in one another. */
+static void note_face(face *f, const mw_open *open, uint32_t lowest, mw_box box)
+{
+    uint32_t hole = mw__open_hole(open, lowest);
+    if (hole != MW_NONE && (f->hole == MW_NONE || is_inside(&box, &f->box))) *f = (face){hole, box};
+}
+
+/* q is not in the piece of an open tiling where the walk ended: look in the others whose boxes hold it, small ones first.
+ * *hole: where q lies if it is in none. */
+static mw_verdict try_pieces(const mw_tiling *tiling, mw_walk *walk, bool counted, uint32_t *hole)
+{
+    const mw_open *open = tiling->open;
+    face f = {.hole = MW_NONE};
+    mw_verdict verdict = MW_LEFT;
+    if (!open->piece_of) {
+        *hole = mw__open_hole(open, walk->lowest);
+        return verdict;
     }
+    uint32_t here = open->piece_of[tiling->tri[walk->t].v[0]];
+    uint32_t fuel = mw__walk_fuel(MW_WALK_BORDER, MW_EXACT, tiling);
+    note_face(&f, open, walk->lowest, open->piece[here].box);
+    uint32_t i = mw__boxes_next(&open->boxes, 0, walk->q);
+    for (; verdict != MW_FOUND && i < open->piece_count; i = mw__boxes_next(&open->boxes, i + 1, walk->q)) {
+        const mw_part *piece = &open->piece[i];
+        if (i == here || !mw__box_contains(&piece->box, walk->q)) continue;
+        *walk = mw__walk_begin(tiling, walk->q, piece->first, fuel, 0, counted ? walk->work : NULL);
+        verdict = mw__border_walk.run[true][counted](walk);
+        if (verdict == MW_LEFT) note_face(&f, open, walk->lowest, piece->box);
+    }
+    *hole = f.hole;
     return verdict;
 }
 
@@ -112,12 +176,15 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
 {
     const mw_tiling *tiling = &locator->tiling;
     bool exact = cursor->arithmetic == MW_EXACT;
+    uint32_t hole = MW_NONE;
     if (verdict == MW_CLOSE)
         verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact, cursor->count);
     bool dry = verdict == MW_DRY, changed = false, sure = exact || (verdict == MW_LEFT && has_left(tiling, walk));
     if (MW_UNLIKELY(dry || !sure)) verdict = hand_over(tiling, walk, verdict, cursor->count, &changed);
-    if (cursor->count) count(counters, &walk->work, dry, changed);
-    if (MW_UNLIKELY(verdict != MW_FOUND)) return outside(locator, 0, walk->q, cursor->tolerance);
+    if (tiling->open && verdict == MW_LEFT) verdict = try_pieces(tiling, walk, cursor->count, &hole);
+    if (cursor->count) count(counters, walk->work, dry, changed);
+    if (MW_UNLIKELY(verdict != MW_FOUND))
+        return outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q, cursor->tolerance);
     return settle(locator, walk->t, walk->q, cursor->tolerance);
 }
 
@@ -146,30 +213,26 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     return last;
 }
 
-/* Add what the index did to what the walk will do. */
-static void add_work(mw_work *sum, const mw_work *more)
+/* Begin in the piece of an open tiling that is likeliest to hold q: that of tile t, or one whose box tells more. */
+static uint32_t in_likely_piece(const mw_tiling *tiling, uint32_t t, mw_point q)
 {
-    sum->visited += more->visited;
-    for (int stage = 0; stage < MW_STAGES; stage++) {
-        sum->triangles[stage] += more->triangles[stage];
-        sum->orient[stage] += more->orient[stage];
-    }
-    sum->implicit += more->implicit;
-    sum->comparisons += more->comparisons;
+    const mw_open *open = tiling->open;
+    if (mw__box_contains(&open->piece[open->piece_of[tiling->tri[t].v[0]]].box, q)) return t;
+    uint32_t i = mw__boxes_next(&open->boxes, 0, q);
+    while (i < open->piece_count && !mw__box_contains(&open->piece[i].box, q))
+        i = mw__boxes_next(&open->boxes, i + 1, q);
+    return i < open->piece_count ? open->piece[i].first : t;
 }
 
-static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random)
+static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
+                     mw_work *work)
 {
     const mw_tiling *tiling = &locator->tiling;
-    if (!cursor->index) {
-        uint32_t t = first_tile(locator, cursor, last, q, random);
-        return mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random));
-    }
-    mw_work work = {0};
-    uint32_t t = mw__index_first(tiling, cursor, q, random, &work);
-    mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random));
-    if (cursor->count) add_work(&walk.work, &work);
-    return walk;
+    if (cursor->count) *work = (mw_work){0};
+    uint32_t t =
+        cursor->index ? mw__index_first(tiling, cursor, q, random, work) : first_tile(locator, cursor, last, q, random);
+    if (MW_UNLIKELY(tiling->open && tiling->open->piece_of)) t = in_likely_piece(tiling, t, q);
+    return mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
 }
 
 /* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed by the line to q, by
@@ -187,9 +250,10 @@ static void allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t given
     walk->fuel += walk->steps; /* at most 4096 + 45 sqrt(2^30), twice */
 }
 
-mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random)
+mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
+                   mw_work *work)
 {
-    mw_walk walk = begin(locator, cursor, last, q, random);
+    mw_walk walk = begin(locator, cursor, last, q, random, work);
     if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) allow_steps(&walk, locator, cursor->steps);
     return walk;
 }
@@ -230,6 +294,10 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
     if (options->tolerance > 0 && !locator->has_border)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a tolerance needs a locator with options.border");
     mw_walk_kind walk = options->walk ? options->walk : locator->auto_walk;
+    if (locator->tiling.open && walk != MW_WALK_BORDER)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "where pockets and holes are not filled only the border walk finds its way, not %s",
+                        mw_walk_name(walk));
     *cursor = (mw_cursor){
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),
@@ -250,7 +318,8 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
 mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y)
 {
     if (MW_UNLIKELY(!isfinite(x) || !isfinite(y))) return mw__nowhere(MW_BAD);
-    mw_walk walk = mw__depart(locator, cursor, cursor->last, (mw_point){x, y}, &cursor->random);
+    mw_work work;
+    mw_walk walk = mw__depart(locator, cursor, cursor->last, (mw_point){x, y}, &cursor->random, &work);
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
     mw_location location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);

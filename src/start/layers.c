@@ -207,14 +207,6 @@ static bool has_coordinates(mw_walk_kind walk)
     return walk == MW_WALK_DIRECT || walk == MW_WALK_BARYCENTRIC;
 }
 
-/* Let a walk that begins count from *work on. */
-static void count_on(mw_walk *walk, const mw_work *work)
-{
-    walk->work = *work;
-    walk->work.visited++;
-    walk->work.triangles[walk->stage]++;
-}
-
 /* The tile of q in a layer, from the tile where *walk begins; in *walk. */
 static void find(const mw_tiling *tiling, const mw_layer_walk *how, mw_walk *walk)
 {
@@ -241,8 +233,8 @@ static uint32_t most_weight(mw_walk *walk, const mw_layer_walk *how)
     const uint32_t *v = walk->tri[walk->t].v;
     const mw_point *p = walk->point;
     double at0 = mw__orient2d_double(p[v[1]], p[v[2]], walk->q), at1 = mw__orient2d_double(p[v[2]], p[v[0]], walk->q);
-    double at2 = walk->area[walk->t] - at0 - at1;
-    if (how->count && !has_coordinates(how->walk)) walk->work.orient[MW_STAGE_WALK] += 2;
+    double at2 = walk->tiling->area[walk->t] - at0 - at1;
+    if (how->count && !has_coordinates(how->walk)) walk->work->orient[MW_STAGE_WALK] += 2;
     if (at0 >= at1 && at0 >= at2) return v[0];
     return at1 >= at2 ? v[1] : v[2];
 }
@@ -258,11 +250,9 @@ uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_wa
     for (uint32_t i = top; i-- > 0;) {
         const mw_layer *layer = &layers->layer[i];
         uint32_t fuel = mw__walk_fuel(how->walk, arithmetic, &layer->tiling);
-        mw_walk walk = mw__walk_begin(&layer->tiling, q, t, fuel, mw__random(random));
-        if (how->count) count_on(&walk, work);
+        mw_walk walk = mw__walk_begin(&layer->tiling, q, t, fuel, mw__random(random), how->count ? work : NULL);
         find(&layer->tiling, how, &walk);
         t = layer->below[by_weight ? most_weight(&walk, how) : nearest(&walk)];
-        if (how->count) *work = walk.work;
     }
     return t;
 }

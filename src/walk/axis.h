@@ -28,7 +28,7 @@ static MW_INLINE double aside(const mw_walk *w, mw_point s)
 
 static MW_INLINE bool compared(mw_walk *w, bool result, mw_policy P)
 {
-    if (P.count) w->work.comparisons++;
+    if (P.count) w->work->comparisons++;
     return result;
 }
 

@@ -28,7 +28,7 @@ static MW_INLINE double side(mw_walk *w, uint32_t e, double *off, mw_policy P)
 static MW_INLINE double double_area(mw_walk *w, bool stored, double *off, mw_policy P)
 {
     if (!stored) return value(w, corner(w, 0), corner(w, 1), corner(w, 2), off, P);
-    double area = w->area[w->t];
+    double area = w->tiling->area[w->t];
     if (P.exact) *off += MW_AREA_ERROR * area;
     return area;
 }

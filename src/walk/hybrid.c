@@ -24,14 +24,14 @@ enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
 /* y'_s > y'_q = 0: s lies to the left of the line. */
 static MW_INLINE bool above(mw_walk *w, mw_point s, mw_policy P)
 {
-    if (P.count) w->work.comparisons++;
+    if (P.count) w->work->comparisons++;
     return leftward(w, w->p, s) > 0;
 }
 
 /* x'_s >= x'_q. Not a number counts as past it. */
 static MW_INLINE bool past(mw_walk *w, mw_point s, mw_policy P)
 {
-    if (P.count) w->work.comparisons++;
+    if (P.count) w->work->comparisons++;
     return !(ahead(w, w->p, s) < ahead(w, w->p, w->q));
 }
 

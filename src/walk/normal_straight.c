@@ -24,14 +24,14 @@
 /* position(lambda, s) > 0: s lies to the left of the line. */
 static MW_INLINE bool left_of_line(mw_walk *w, mw_point s, mw_policy P)
 {
-    if (P.count) w->work.implicit++;
+    if (P.count) w->work->implicit++;
     return leftward(w, w->q, s) > 0;
 }
 
 /* position(lambda_n, s): s lies on the normal or on its far side. Not a number counts as past it. */
 static MW_INLINE bool past_normal(mw_walk *w, mw_point s, mw_policy P)
 {
-    if (P.count) w->work.implicit++;
+    if (P.count) w->work->implicit++;
     return !(ahead(w, w->q, s) < 0);
 }
 

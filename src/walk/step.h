@@ -14,26 +14,26 @@ static MW_INLINE void begin_stage(mw_walk *w, uint32_t stage, mw_policy P)
 {
     if (!P.count) return;
     w->stage = stage;
-    w->work.triangles[stage]++;
+    w->work->triangles[stage]++;
 }
 
 /* In the first tile: what comes belongs to the initialisation, and so does this tile. */
 static MW_INLINE void initialise(mw_walk *w, mw_policy P)
 {
-    if (P.count) w->work.triangles[MW_STAGE_WALK]--;
+    if (P.count) w->work->triangles[MW_STAGE_WALK]--;
     begin_stage(w, MW_STAGE_INIT, P);
 }
 
 static MW_INLINE double orient(mw_walk *w, mw_point a, mw_point b, mw_point c, mw_policy P)
 {
-    if (P.count) w->work.orient[w->stage]++;
+    if (P.count) w->work->orient[w->stage]++;
     return P.exact ? mw__orient2d(a, b, c) : mw__orient2d_double(a, b, c);
 }
 
 /* Sign of (b - a) . (c - a). */
 static MW_INLINE double dot(mw_walk *w, mw_point a, mw_point b, mw_point c, mw_policy P)
 {
-    if (P.count) w->work.orient[w->stage]++;
+    if (P.count) w->work->orient[w->stage]++;
     return P.exact ? mw__dot2d(a, b, c) : (b.x - a.x) * (c.x - a.x) + (b.y - a.y) * (c.y - a.y);
 }
 
@@ -92,8 +92,8 @@ static MW_INLINE mw_verdict cross(mw_walk *w, uint32_t e, mw_policy P)
     w->t = mw__link_triangle(link);
     w->e = mw__link_edge(link);
     if (P.count) {
-        w->work.visited++;
-        w->work.triangles[w->stage]++;
+        w->work->visited++;
+        w->work->triangles[w->stage]++;
     }
     return MW_GO;
 }

@@ -13,7 +13,7 @@
 static MW_INLINE double value(mw_walk *w, mw_point a, mw_point b, mw_point c, double *off, mw_policy P)
 {
     if (!P.exact) return orient(w, a, b, c, P);
-    if (P.count) w->work.orient[w->stage]++;
+    if (P.count) w->work->orient[w->stage]++;
     double bound, at = mw__orient2d_rounded(a, b, c, &bound);
     if (MW_UNLIKELY(!(fabs(at) > bound))) {
         at = mw__orient2d_exact(a, b, c);

@@ -57,14 +57,20 @@ mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, co
     walk->e = MW_NO_EDGE; /* the cheap walk was not sure of the edge it came by */
     walk->fuel = fuel;
     walk->stage = MW_STAGE_FINAL;
-    walk->work.triangles[MW_STAGE_FINAL] += count;
+    if (count) walk->work->triangles[MW_STAGE_FINAL]++;
     return mw__walk_kernels(finish, tiling)->run[exact][count](walk);
+}
+
+/* The border walk may go along every border many times; in doubles, or where the mesh is no embedding, some times must do. */
+static double border_steps(bool ends, double tiles)
+{
+    return ends ? UINT32_MAX : 4096 + 16 * tiles;
 }
 
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling)
 {
     double tiles = tiling->tri_count;
-    double steps =
-        kernels[kind]->ends && arithmetic == MW_EXACT && tiling->embedding ? tiles + 1 : 4096 + 45 * sqrt(tiles);
+    bool ends = kernels[kind]->ends && arithmetic == MW_EXACT && tiling->embedding;
+    double steps = kind == MW_WALK_BORDER ? border_steps(ends, tiles) : ends ? tiles + 1 : 4096 + 45 * sqrt(tiles);
     return steps < UINT32_MAX ? (uint32_t)steps : UINT32_MAX;
 }

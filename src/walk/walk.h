@@ -20,32 +20,39 @@ typedef enum mw_verdict {
 
 #define MW_NO_EDGE 3u
 
-/* The stages of a search, counted apart: turning round the first vertex, the walk, and the final location that ends the
- * cheap walks. Each counts the tile it begins in. */
-enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGES };
+/* The stages of a search, counted apart: turning round the first vertex, the walk, the final location that ends the
+ * cheap walks, and the way along a border. Each counts the tile it begins in. */
+enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGE_BORDER, MW_STAGES };
 
 /* What a search did; counted only by counting kernels. */
 typedef struct mw_work {
     uint32_t visited; /* tiles entered, the first one included */
     uint32_t triangles[MW_STAGES], orient[MW_STAGES];
     uint32_t implicit, comparisons;
+    uint32_t walk_runs, border_runs, border_edges; /* of the border walk */
 } mw_work;
 
 /* Everything one walk remembers. */
 typedef struct mw_walk {
     const mw_point *point;
     const mw_triangle *tri;
-    mw_point q;         /* the point looked for                                                   */
-    mw_point p, d;      /* where the line to q begins, and its direction; see the walks that have one */
-    uint32_t t, e;      /* current tile, and its edge by which it was entered; MW_NO_EDGE at first */
-    uint32_t phase;     /* of the walks that have some; 0 at first                                */
-    uint32_t fuel;      /* steps left                                                             */
-    uint64_t random;    /* of the stochastic walks                                                */
-    const double *area; /* direct: twice the area of each tile, or NULL                        */
-    double c;           /* direct: orientation coordinate of the edge just crossed                */
-    uint32_t steps;     /* fast stochastic: with one test each, that are left                     */
-    uint32_t stage;     /* that counts                                                            */
-    mw_work work;
+    mw_point q;      /* the point looked for                                                   */
+    mw_point p, d;   /* where the line to q begins, and its direction; see the walks that have one */
+    uint32_t t, e;   /* current tile, and its edge by which it was entered; MW_NO_EDGE at first */
+    uint32_t phase;  /* of the walks that have some; 0 at first                                */
+    uint32_t fuel;   /* steps left                                                             */
+    uint64_t random; /* of the stochastic walks                                                */
+    const mw_tiling *tiling;
+    union {
+        double c; /* direct: orientation coordinate of the edge just crossed               */
+        struct {
+            uint32_t exit;   /* border: where it left the mesh, 4 * tile + edge             */
+            uint32_t lowest; /* border: the lowest of the border edges it met since then    */
+        };
+    };
+    uint32_t steps; /* fast stochastic: with one test each, that are left                     */
+    uint32_t stage; /* that counts                                                            */
+    mw_work *work;  /* of counting kernels                                                    */
 } mw_walk;
 
 /* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict MW_GO: there is none
@@ -58,7 +65,9 @@ typedef struct mw_feed {
 typedef struct mw_kernels {
     mw_verdict (*run[2][2])(mw_walk *walk);                 /* one walk, from its t to its end  */
     void (*ring[2][2])(mw_feed *feed, uint32_t lane_count); /* up to MW_MAX_LANES walks in turn */
-    bool ends; /* with exact arithmetic it enters no tile of a tiling twice, by the argument in its file */
+    bool
+        ends; /* with exact arithmetic it ends on every tiling, by the argument in its file: after as many steps as there are
+                  tiles at most, but for the border walk */
 } mw_kernels;
 
 #define MW_WALK_ENTRY(id, symbol, name, source, help) extern const mw_kernels mw__##symbol;
@@ -68,7 +77,8 @@ extern const mw_kernels mw__direct_stored; /* the direct walk where areas are st
 /* The kernels of a walk on this tiling; not for MW_WALK_AUTO. */
 const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling);
 
-/* Steps after which a walk hands over. Walks that end get what they can need at most; the others about 45 times the
+/* Steps after which a walk hands over. Walks that end get what they can need at most; the border walk, where it may not end,
+ * 16 times the number of tiles; the others about 45 times the
  * square root of the number of tiles, far above the length of any walk on Delaunay meshes of spread points, plus a
  * constant for small meshes. */
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling);
@@ -77,9 +87,14 @@ uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_til
 mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
                            bool count);
 
-/* A walk to q from tile t. Touches no mesh memory. */
-static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uint32_t t, uint32_t fuel, uint64_t random)
+/* A walk to q from tile t, which is counted in *work, unless that is NULL. Touches no mesh memory. */
+static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uint32_t t, uint32_t fuel, uint64_t random,
+                                        mw_work *work)
 {
+    if (work) {
+        work->visited++;
+        work->triangles[MW_STAGE_WALK]++;
+    }
     return (mw_walk){.point = tiling->point,
                      .tri = tiling->tri,
                      .q = q,
@@ -87,9 +102,9 @@ static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uin
                      .e = MW_NO_EDGE,
                      .fuel = fuel,
                      .random = random,
-                     .area = tiling->area,
+                     .tiling = tiling,
                      .stage = MW_STAGE_WALK,
-                     .work = {.visited = 1, .triangles = {[MW_STAGE_WALK] = 1}}};
+                     .work = work};
 }
 
 #endif
