@@ -1,0 +1,344 @@
+/* lmt_diamond.c - edges with the diamond property: candidates for a triangulation of least weight.
+ *
+ *            apex            An edge pq of a triangulation of least weight has no point in one, at least, of the two
+ *           /    \           isosceles triangles with base pq and base angle a = pi / 4.6 [Das, Joseph 1989; Drysdale,
+ *         /  r     \         McElfresh, Snoeyink 2001].
+ *       p ---------- q       A point r at distance d from p, in direction t, lies in the left triangle of every edge
+ *         \        /         from p that leaves between the directions t - a and t and is longer than 2 d cos a, and
+ *           \    /           likewise in the right triangle of those between t and t + a. So each point makes two arcs
+ *            apex            of directions dead on one side; what lies in a direction that is dead on both sides, far
+ *                            enough away, is no candidate [Beirouti, Snoeyink 1998; Haas 2018].
+ *
+ * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that lie in dead directions
+ * are left out whole. What is found so is tested once more against the triangles themselves and the nearest points.
+ * All in rounded numbers, with margins: an edge is left out only if points lie surely in both triangles. */
+#include "triangulate/lmt.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define PI 3.14159265358979323846
+#define BASE_ANGLE (PI / 4.6)
+
+/* Angles of doubles are off by some 2^-51; the margin of 2^-40 is on the safe side. */
+#define ANGLE_MARGIN 0x1p-40
+#define LENGTH_MARGIN 0x1p-40
+
+enum { LEAF = 8, NEAREST = 64, ARCS = 24 };
+
+typedef struct box {
+    double low[2], high[2];
+    uint32_t begin, end; /* of the vertices in `order` */
+} box;
+
+typedef struct item {
+    double square; /* of the distance: of a box, to its nearest place */
+    uint32_t number;
+    bool is_box;
+} item;
+
+typedef struct arcs {
+    struct {
+        double from, to;
+    } arc[ARCS];
+    uint32_t count;
+} arcs;
+
+typedef struct seen {
+    double square, angle;
+} seen;
+
+typedef struct seeker {
+    const mw_scaled *points;
+    uint32_t *order;
+    box *node;
+    uint32_t node_count, first_leaf;
+    item *heap;
+    uint32_t heap_count;
+    seen *seen; /* points visited, not before `active` of them have made their directions dead */
+    uint32_t seen_count, active;
+    arcs left, right;
+    mw_point nearest[NEAREST];
+    uint32_t nearest_count;
+    double tangent, reach; /* of the base angle; the square of 2 cos a: both with margins */
+} seeker;
+
+bool mw__edge_push(mw_edge_list *list, uint64_t key)
+{
+    if (list->count == list->capacity) {
+        size_t capacity = list->capacity + list->capacity / 2 + 1024;
+        uint64_t *grown = mw__realloc(list->key, capacity, sizeof *grown);
+        if (!grown) return false;
+        list->key = grown;
+        list->capacity = capacity;
+    }
+    list->key[list->count++] = key;
+    return true;
+}
+
+/* --- the tree of boxes: node i has the children 2 i + 1 and 2 i + 2 --- */
+
+static double coordinate(const seeker *s, uint32_t i, int axis)
+{
+    mw_point p = s->points->scaled[s->order[i]];
+    return axis == 0 ? p.x : p.y;
+}
+
+static void exchange(uint32_t *a, uint32_t *b)
+{
+    uint32_t t = *a;
+    *a = *b;
+    *b = t;
+}
+
+/* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare 1961]. */
+static void select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_t middle, int axis)
+{
+    int64_t low = begin, high = (int64_t)end - 1;
+    while (low < high) {
+        double pivot = coordinate(s, (uint32_t)(low + (high - low) / 2), axis);
+        int64_t i = low, j = high;
+        while (i <= j) {
+            while (coordinate(s, (uint32_t)i, axis) < pivot) i++;
+            while (coordinate(s, (uint32_t)j, axis) > pivot) j--;
+            if (i <= j) exchange(&s->order[i++], &s->order[j--]);
+        }
+        if (middle <= j)
+            high = j;
+        else if (middle >= i)
+            low = i;
+        else
+            return;
+    }
+}
+
+static void bound(seeker *s, box *b)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        b->low[axis] = INFINITY;
+        b->high[axis] = -INFINITY;
+        for (uint32_t i = b->begin; i < b->end; i++) {
+            b->low[axis] = fmin(b->low[axis], coordinate(s, i, axis));
+            b->high[axis] = fmax(b->high[axis], coordinate(s, i, axis));
+        }
+    }
+}
+
+static void build(seeker *s, uint32_t vertex_count)
+{
+    s->node[0].begin = 0;
+    s->node[0].end = vertex_count;
+    for (uint32_t i = 0; i < s->node_count; i++) {
+        box *b = &s->node[i];
+        bound(s, b);
+        if (i >= s->first_leaf) continue;
+        uint32_t middle = b->begin + (b->end - b->begin) / 2;
+        select_middle(s, b->begin, b->end, middle, b->high[0] - b->low[0] < b->high[1] - b->low[1]);
+        s->node[2 * i + 1].begin = b->begin;
+        s->node[2 * i + 1].end = s->node[2 * i + 2].begin = middle;
+        s->node[2 * i + 2].end = b->end;
+    }
+}
+
+static bool prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_count)
+{
+    uint32_t leaves = 1;
+    while (vertex_count / leaves > LEAF) leaves *= 2;
+    s->node_count = 2 * leaves - 1;
+    s->first_leaf = leaves - 1;
+    s->order = mw__alloc(vertex_count, sizeof *s->order);
+    s->node = mw__alloc(s->node_count, sizeof *s->node);
+    s->heap = mw__alloc((size_t)vertex_count + s->node_count, sizeof *s->heap);
+    s->seen = mw__alloc(vertex_count, sizeof *s->seen);
+    if (!s->order || !s->node || !s->heap || !s->seen) return false;
+    for (uint32_t i = 0; i < vertex_count; i++) s->order[i] = vertex[i];
+    build(s, vertex_count);
+    double cosine = cos(BASE_ANGLE);
+    s->reach = 4 * cosine * cosine * (1 + LENGTH_MARGIN);
+    s->tangent = tan(BASE_ANGLE) * (1 - LENGTH_MARGIN);
+    return true;
+}
+
+/* --- a heap, the nearest first --- */
+
+static void push(seeker *s, item it)
+{
+    uint32_t i = s->heap_count++;
+    for (; i > 0 && s->heap[(i - 1) / 2].square > it.square; i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
+    s->heap[i] = it;
+}
+
+static item pop(seeker *s)
+{
+    item top = s->heap[0], last = s->heap[--s->heap_count];
+    uint32_t i = 0;
+    for (uint32_t child = 1; child < s->heap_count; child = 2 * i + 1) {
+        if (child + 1 < s->heap_count && s->heap[child + 1].square < s->heap[child].square) child++;
+        if (last.square <= s->heap[child].square) break;
+        s->heap[i] = s->heap[child];
+        i = child;
+    }
+    s->heap[i] = last;
+    return top;
+}
+
+/* --- dead directions: arcs within -pi..pi; one that goes beyond is cut there, and an end of 4 or -4 stands for no end --- */
+
+static void add_arc(arcs *a, double from, double to)
+{
+    for (uint32_t i = 0; i < a->count;)
+        if (a->arc[i].from < to && from < a->arc[i].to) {
+            from = fmin(from, a->arc[i].from);
+            to = fmax(to, a->arc[i].to);
+            a->arc[i] = a->arc[--a->count];
+        } else {
+            i++;
+        }
+    if (a->count == ARCS) return; /* cannot be: arcs apart from each other are at least half a radian long, but two */
+    a->arc[a->count].from = from;
+    a->arc[a->count++].to = to;
+}
+
+static void make_dead(arcs *a, double from, double to)
+{
+    from += ANGLE_MARGIN;
+    to -= ANGLE_MARGIN;
+    if (from < -PI) {
+        add_arc(a, from + 2 * PI, 4);
+        add_arc(a, -4, to);
+    } else if (to > PI) {
+        add_arc(a, from, 4);
+        add_arc(a, -4, to - 2 * PI);
+    } else {
+        add_arc(a, from, to);
+    }
+}
+
+static bool covers(const arcs *a, double from, double to)
+{
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->arc[i].from < from && to < a->arc[i].to) return true;
+    return false;
+}
+
+/* Are all directions dead from `from` counter-clockwise to `to`? */
+static bool all_dead(const seeker *s, double from, double to)
+{
+    if (from <= to) return covers(&s->left, from, to) && covers(&s->right, from, to);
+    return all_dead(s, from, PI) && all_dead(s, -PI, to);
+}
+
+/* The points at less than the square of a distance, divided by 2 cos a, make their directions dead from there on. */
+static void activate(seeker *s, double square)
+{
+    for (; s->active < s->seen_count && s->seen[s->active].square * s->reach < square; s->active++) {
+        double angle = s->seen[s->active].angle;
+        make_dead(&s->left, angle - BASE_ANGLE, angle);
+        make_dead(&s->right, angle, angle + BASE_ANGLE);
+    }
+}
+
+/* Do all directions from p to the box lie between dead ones? Its outermost corners, seen from p, tell. */
+static bool is_hidden(const seeker *s, mw_point p, const box *b)
+{
+    double x0 = b->low[0] - p.x, x1 = b->high[0] - p.x, y0 = b->low[1] - p.y, y1 = b->high[1] - p.y;
+    mw_point right, left;
+    if (x0 > 0) {
+        right = (mw_point){y0 > 0 ? x1 : x0, y0};
+        left = (mw_point){y1 < 0 ? x1 : x0, y1};
+    } else if (x1 < 0) {
+        right = (mw_point){y1 < 0 ? x0 : x1, y1};
+        left = (mw_point){y0 > 0 ? x0 : x1, y0};
+    } else if (y0 > 0) {
+        right = (mw_point){x1, y0};
+        left = (mw_point){x0, y0};
+    } else if (y1 < 0) {
+        right = (mw_point){x0, y1};
+        left = (mw_point){x1, y1};
+    } else {
+        return false; /* p is in the box */
+    }
+    return all_dead(s, atan2(right.y, right.x), atan2(left.y, left.x));
+}
+
+/* --- from one vertex --- */
+
+static double box_square(const box *b, mw_point p)
+{
+    double dx = fmax(0, fmax(b->low[0] - p.x, p.x - b->high[0]));
+    double dy = fmax(0, fmax(b->low[1] - p.y, p.y - b->high[1]));
+    return dx * dx + dy * dy;
+}
+
+static void open_box(seeker *s, uint32_t p, uint32_t number)
+{
+    mw_point at = s->points->scaled[p];
+    const box *b = &s->node[number];
+    if (is_hidden(s, at, b)) return;
+    if (number < s->first_leaf) {
+        for (uint32_t child = 2 * number + 1; child <= 2 * number + 2; child++)
+            push(s, (item){box_square(&s->node[child], at), child, true});
+        return;
+    }
+    for (uint32_t i = b->begin; i < b->end; i++)
+        if (s->order[i] != p) push(s, (item){mw__square(s->points, p, s->order[i]), s->order[i], false});
+}
+
+/* Do points near by lie surely in both triangles of the edge to u? */
+static bool fails(const seeker *s, mw_point u, double square)
+{
+    bool left = false, right = false;
+    for (uint32_t i = 0; i < s->nearest_count; i++) {
+        mw_point w = s->nearest[i];
+        double a = u.x * w.y, b = u.y * w.x, height = fabs(a - b), along = u.x * w.x + u.y * w.y;
+        bool inside = height > LENGTH_MARGIN * (fabs(a) + fabs(b)) && height < s->tangent * along &&
+                      height < s->tangent * (square - along - LENGTH_MARGIN * square);
+        left |= inside && a > b;
+        right |= inside && a < b;
+    }
+    return left && right;
+}
+
+/* Visit a point; is the edge to it a candidate? */
+static bool visit(seeker *s, uint32_t p, item it)
+{
+    mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};
+    double angle = atan2(u.y, u.x);
+    s->seen[s->seen_count++] = (seen){it.square, angle};
+    bool candidate = !all_dead(s, angle, angle) && !fails(s, u, it.square);
+    if (s->nearest_count < NEAREST) s->nearest[s->nearest_count++] = u;
+    return candidate;
+}
+
+static mw_lmt_result seek(seeker *s, uint32_t p, mw_effort *effort, mw_edge_list *list)
+{
+    s->heap_count = s->seen_count = s->active = s->nearest_count = 0;
+    s->left.count = s->right.count = 0;
+    push(s, (item){0, 0, true});
+    while (s->heap_count > 0) {
+        if (effort->steps == 0) return MW_LMT_SPENT;
+        effort->steps--;
+        item it = pop(s);
+        activate(s, it.square);
+        if (it.is_box) {
+            open_box(s, p, it.number);
+        } else if (visit(s, p, it)) {
+            if (list->count >= effort->candidates) return MW_LMT_SPENT;
+            if (!mw__edge_push(list, mw__edge_key(p, it.number))) return MW_LMT_MEMORY;
+        }
+    }
+    return MW_LMT_DONE;
+}
+
+mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint32_t vertex_count, mw_effort *effort,
+                          mw_edge_list *list)
+{
+    seeker s = {.points = points};
+    mw_lmt_result result = prepare(&s, vertex, vertex_count) ? MW_LMT_DONE : MW_LMT_MEMORY;
+    for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++) result = seek(&s, vertex[i], effort, list);
+    free(s.order);
+    free(s.node);
+    free(s.heap);
+    free(s.seen);
+    return result;
+}
