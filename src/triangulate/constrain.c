@@ -106,40 +106,54 @@ static double side(const mw_constrained *c, uint32_t a, uint32_t b, uint32_t p)
 
 /* Turns round a vertex: counter-clockwise to the hull or once round, then clockwise from the beginning. */
 typedef struct rotor {
-    uint32_t half, first; /* half-edges that leave the vertex */
+    uint32_t half, first; /* half-edges that leave the vertex; the triangle of `half` is looked at     */
     bool clockwise;
+    double right, left, first_right; /* the side of the target as seen along the two edges of the triangle, and of the
+                                        first one */
 } rotor;
 
-static rotor rotor_at(const mw_constrained *c, uint32_t vertex)
+/* On which side of v->p the target lies. Where p is the target no test is made: it would be decided exactly, slowly. */
+static double side_of(const mw_constrained *c, uint32_t v, uint32_t p, uint32_t target)
+{
+    return p == target ? 0 : side(c, v, p, target);
+}
+
+static rotor rotor_at(const mw_constrained *c, uint32_t vertex, uint32_t target)
 {
     uint32_t t = c->at[vertex], k = 0;
     while (c->tri[t].v[k] != vertex) k++;
-    return (rotor){mw__link(t, k), mw__link(t, k), false};
+    rotor r = {.half = mw__link(t, k), .first = mw__link(t, k)};
+    r.right = r.first_right = side_of(c, vertex, c->tri[t].v[k + 1], target);
+    r.left = side_of(c, vertex, c->tri[t].v[mw__prev(k)], target);
+    return r;
 }
 
-static void turn(const mw_constrained *c, rotor *r)
+static void turn(const mw_constrained *c, rotor *r, uint32_t vertex, uint32_t target)
 {
     if (!r->clockwise) {
         uint32_t half = *link_of(c, prev_of(r->half));
         if (half != MW_NONE) {
             r->half = half;
+            r->right = r->left;
+            r->left = side_of(c, vertex, start_of(c, prev_of(half)), target);
             return;
         }
         r->clockwise = true;
         r->half = r->first;
+        r->right = r->first_right;
     }
     r->half = next_of(*link_of(c, r->half));
+    r->left = r->right;
+    r->right = side_of(c, vertex, end_of(c, r->half), target);
 }
 
-/* Does the segment to `target` leave through the triangle of the rotor? Then *half is the edge that it runs along, as
+/* Does the segment to the target leave through the triangle of the rotor? Then *half is the edge that it runs along, as
  * it leaves the vertex (or as it comes back: the last edge at the hull), or the one across that it crosses. */
-static bool leaves_here(const mw_constrained *c, const rotor *r, uint32_t target, uint32_t *half, bool *along)
+static bool leaves_here(const rotor *r, uint32_t *half, bool *along)
 {
-    uint32_t v = start_of(c, r->half), p = end_of(c, r->half), q = start_of(c, prev_of(r->half));
-    double right = side(c, v, p, target), left = side(c, v, q, target);
-    *along = right == 0 || left == 0;
-    *half = right == 0 ? r->half : left == 0 ? prev_of(r->half) : next_of(r->half);
-    return (right >= 0 && left < 0) || (right > 0 && left == 0);
+    *along = r->right == 0 || r->left == 0;
+    *half = r->right == 0 ? r->half : r->left == 0 ? prev_of(r->half) : next_of(r->half);
+    return (r->right >= 0 && r->left < 0) || (r->right > 0 && r->left == 0);
 }
 
 /* --- the channel --- */
@@ -195,7 +209,7 @@ static mw_constrain_result open_channel(mw_constrained *c, uint32_t a, uint32_t 
         half = *link_of(c, half); /* its end is on the right now, its start on the left */
         c->channel[ch->triangle_count++] = mw__link_triangle(half);
         uint32_t w = start_of(c, prev_of(half));
-        double s = side(c, a, b, w);
+        double s = w == b ? 0 : side(c, a, b, w);
         if (s <= 0) add_rim(c, c->right, &ch->right_count, next_of(half));
         if (s >= 0) add_rim(c, c->left, &ch->left_count, prev_of(half));
         if (s == 0) {
@@ -444,16 +458,31 @@ static void mark(mw_constrained *c, uint32_t half, uint32_t *number)
     *number = *piece_of(c, half);
 }
 
+/* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two triangles were Delaunay, and
+ * now see fewer vertices. Returns whether it is so. */
+static bool cut_through_one(mw_constrained *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w, uint32_t *number)
+{
+    if (*piece_of(c, half) != MW_NONE) return false;
+    *w = start_of(c, prev_of(*link_of(c, half)));
+    if (*w != b && side(c, a, b, *w) != 0) return false;
+    flip(c, half);
+    mark(c, mw__link(mw__link_triangle(half), 1), number);
+    c->crossed += 2;
+    return true;
+}
+
 /* Make an edge from a towards b, through edge `half`. */
 static mw_constrain_result cut_through(mw_constrained *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
                                        uint32_t *number)
 {
+    if (cut_through_one(c, a, b, half, w, number)) return MW_CONSTRAIN_DONE;
     channel ch;
     mw_constrain_result result = open_channel(c, a, b, half, &ch, number);
     if (result != MW_CONSTRAIN_DONE) {
         c->wasted += ch.triangle_count;
         return result;
     }
+    c->crossed += ch.triangle_count;
     find_mates(c, &ch);
     size_t next = 0;
     uint32_t right = fill(c, c->right, ch.right_count, false, &next);
@@ -468,12 +497,12 @@ static mw_constrain_result cut_through(mw_constrained *c, uint32_t a, uint32_t b
 mw_constrain_result mw__constrain(mw_constrained *c, uint32_t *from, uint32_t *to, mw_piece *piece)
 {
     /* Turn round both ends at once: at a vertex of high degree this takes as long as its segments' other ends allow. */
-    rotor rotors[2] = {rotor_at(c, *from), rotor_at(c, *to)};
+    rotor rotors[2] = {rotor_at(c, *from, *to), rotor_at(c, *to, *from)};
     uint32_t *ends[2] = {from, to}, half;
     unsigned i = 0;
     bool along;
-    while (!leaves_here(c, &rotors[i], *ends[1 - i], &half, &along)) {
-        turn(c, &rotors[i]);
+    while (!leaves_here(&rotors[i], &half, &along)) {
+        turn(c, &rotors[i], *ends[i], *ends[1 - i]);
         i = 1 - i;
     }
     uint32_t w;
@@ -489,4 +518,35 @@ mw_constrain_result mw__constrain(mw_constrained *c, uint32_t *from, uint32_t *t
     piece->to = i == 0 ? w : *to;
     *ends[i] = w;
     return result;
+}
+
+/* From `from`, through edge `half`, to the first vertex on the segment; MW_NONE if `meet` will not go on. */
+static uint32_t follow_through(const mw_constrained *c, uint32_t from, uint32_t to, uint32_t half, mw_meet *meet,
+                               void *context)
+{
+    for (;;) {
+        uint32_t piece = *piece_of(c, half);
+        if (piece != MW_NONE && !meet(context, piece, MW_NONE)) return MW_NONE;
+        half = *link_of(c, half);
+        uint32_t w = start_of(c, prev_of(half));
+        double s = w == to ? 0 : side(c, from, to, w);
+        if (s == 0) return w;
+        half = s > 0 ? next_of(half) : prev_of(half);
+    }
+}
+
+bool mw__constrained_follow(const mw_constrained *c, uint32_t from, uint32_t to, mw_meet *meet, void *context)
+{
+    while (from != to) {
+        uint32_t half;
+        bool along;
+        rotor r = rotor_at(c, from, to);
+        while (!leaves_here(&r, &half, &along)) turn(c, &r, from, to);
+        if (along)
+            from = start_of(c, half) == from ? end_of(c, half) : start_of(c, half);
+        else
+            from = follow_through(c, from, to, half, meet, context);
+        if (from == MW_NONE || (from != to && !meet(context, MW_NONE, from))) return false;
+    }
+    return true;
 }

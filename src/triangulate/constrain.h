@@ -26,6 +26,7 @@ typedef struct mw_constrained {
     size_t rim_capacity, flip_capacity;
     size_t reach;  /* a segment may look through this many triangles for the end of a piece: SIZE_MAX unless changed */
     size_t wasted; /* triangles that segments have looked through without making a piece                             */
+    uint64_t crossed; /* triangles that the pieces made so far crossed */
 } mw_constrained;
 
 /* Prepare; `point` and `tri` stay the caller's and must outlive *c. Returns false when out of memory. Release *c in
@@ -51,5 +52,12 @@ typedef struct mw_piece {
  * there are; but segments that do not cross each other, forced in in random rounds, are expected to cross
  * O(n log n + b log^2 b) edges in all, for n vertices and b segments [Agarwal, Arge, Yi 2005; Shewchuk, Brown 2015]. */
 mw_constrain_result mw__constrain(mw_constrained *c, uint32_t *from, uint32_t *to, mw_piece *piece);
+
+/* Met by a segment: a piece that it crosses, or, piece being MW_NONE, a vertex that lies on it. Returns whether to go on. */
+typedef bool mw_meet(void *context, uint32_t piece, uint32_t vertex);
+
+/* Tell all that a segment meets between its ends, in order; the triangulation stays as it is. Returns false if `meet`
+ * did. */
+bool mw__constrained_follow(const mw_constrained *c, uint32_t from, uint32_t to, mw_meet *meet, void *context);
 
 #endif

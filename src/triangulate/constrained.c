@@ -1,7 +1,16 @@
-/* constrained.c - constrained Delaunay triangulation: not made yet. */
-#include "triangulate/constrain.h"
+/* constrained.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew 1989].
+ *
+ * A Delaunay triangulation of the points, the segments forced in one by one (constrain.c), the triangles that are to be
+ * kept (constrained_keep.c). Where segments cross and are to be split, points are put there (constrained_split.c) and
+ * all is made anew, until nothing crosses. */
+#include "triangulate/constrained.h"
 
-#include <meshwalk/triangulate.h>
+#include "base/hilbert.h"
+#include "base/random.h"
+#include "mesh/order.h"
+#include "triangulate/delaunay.h"
+
+#include <inttypes.h>
 #include <stdlib.h>
 
 void mw_pieces_release(mw_pieces *pieces)
@@ -12,15 +21,410 @@ void mw_pieces_release(mw_pieces *pieces)
     *pieces = (mw_pieces){0};
 }
 
+/* --- what is given --- */
+
+static mw_status check_segments(const mw_constraints *given, mw_error *error)
+{
+    for (size_t i = 0; i < 2 * given->segment_count; i++)
+        if (given->segments[i] >= given->point_count)
+            return mw__fail(error, MW_ERROR_ARGUMENT, "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
+                            given->segments[i], given->point_count);
+    for (size_t i = 0; i < given->hole_count; i++)
+        if (!isfinite(given->holes[2 * i]) || !isfinite(given->holes[2 * i + 1]))
+            return mw__fail(error, MW_ERROR_ARGUMENT, "the place of hole %zu is not finite", i);
+    return MW_OK;
+}
+
+static mw_status check_arguments(const mw_constraints *given, mw_keep keep, mw_error *error)
+{
+    if (!given) return mw__fail(error, MW_ERROR_ARGUMENT, "constraints are NULL");
+    if ((unsigned)keep > MW_KEEP_INSIDE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
+    if (given->stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+    if ((given->point_count && !given->points) || (given->segment_count && !given->segments) ||
+        (given->hole_count && !given->holes))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
+    if (given->point_count > MW_MAX_TRIANGLES / 2)
+        return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", given->point_count);
+    if (given->segment_count >= MW_NONE)
+        return mw__fail(error, MW_ERROR_LIMIT, "too many segments: %zu", given->segment_count);
+    return check_segments(given, error);
+}
+
+static void release(mw_constrained_making *m)
+{
+    mw__constrained_release(&m->net);
+    free(m->point);
+    free(m->twin);
+    free(m->tri);
+    free(m->stretches.item);
+    free(m->pieces.item);
+    free(m->crossing.item);
+    free(m->run);
+    free(m->kept);
+}
+
+/* --- lists --- */
+
+/* Room for one more record: the list, perhaps elsewhere now, or NULL when out of memory. */
+static void *grow(void *list, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity) return list;
+    size_t more = 2 * *capacity + 64;
+    void *grown = mw__realloc(list, more, size);
+    if (grown) *capacity = more;
+    return grown;
+}
+
+bool mw__stretches_add(mw_stretches *list, mw_stretch stretch)
+{
+    mw_stretch *item = grow(list->item, list->count, &list->capacity, sizeof *item);
+    if (!item) return false;
+    list->item = item;
+    item[list->count++] = stretch;
+    return true;
+}
+
+static bool add_run(mw_constrained_making *m, mw_run run)
+{
+    mw_run *list = grow(m->run, m->run_count, &m->run_capacity, sizeof *list);
+    if (!list) return false;
+    m->run = list;
+    list[m->run_count++] = run;
+    return true;
+}
+
+bool mw__runs_create(mw_runs *runs, const mw_constrained_making *m)
+{
+    size_t *first = mw__calloc(m->pieces.count + 1, sizeof *first);
+    uint32_t *segment = mw__alloc(m->run_count, sizeof *segment);
+    *runs = (mw_runs){first, segment};
+    if (!first || !segment) return false;
+    for (size_t i = 0; i < m->run_count; i++) first[m->run[i].piece]++;
+    size_t sum = 0;
+    for (size_t p = 0; p <= m->pieces.count; p++) {
+        sum += first[p];
+        first[p] = sum;
+    }
+    for (size_t i = m->run_count; i-- > 0;) segment[--first[m->run[i].piece]] = m->run[i].segment;
+    return true;
+}
+
+void mw__runs_release(mw_runs *runs)
+{
+    free(runs->first);
+    free(runs->segment);
+}
+
+/* --- forcing the stretches in --- */
+
+/* A piece is made, or one made before is a part of another stretch too. */
+static bool note_piece(mw_constrained_making *m, const mw_piece *piece, uint32_t segment)
+{
+    mw_stretch stretch = {piece->from, piece->to, segment};
+    if (piece->number == m->pieces.count) {
+        if (!mw__stretches_add(&m->pieces, stretch)) return false;
+    } else if (segment < m->pieces.item[piece->number].segment) {
+        m->pieces.item[piece->number] = stretch;
+    }
+    return add_run(m, (mw_run){piece->number, segment});
+}
+
+/* Force in a stretch, or as much of it as lies before what it crosses. Returns false when out of memory. */
+static bool force(mw_constrained_making *m, mw_stretch s)
+{
+    while (s.from != s.to) {
+        mw_piece piece;
+        mw_constrain_result result = mw__constrain(&m->net, &s.from, &s.to, &piece);
+        if (result == MW_CONSTRAIN_CROSSES) return mw__stretches_add(&m->crossing, s);
+        if (result != MW_CONSTRAIN_DONE || !note_piece(m, &piece, s.segment)) return false;
+    }
+    return true;
+}
+
+enum { ROUNDS = 32 };
+
+/* The round of a stretch: the last with probability 1/2, the one before with probability 1/4, and so on. */
+static uint32_t random_round(uint64_t *random)
+{
+    return (uint32_t)__builtin_clz((uint32_t)mw__random(random) | 1);
+}
+
+/* Stretches in random rounds [Amenta, Choi, Rote 2003], the same in every run, so that long ones are expected to be among
+ * the first, and to shield what lies behind them from those that follow; in each round along the Hilbert curve of the
+ * triangles, so that what is near is near in memory. NULL when out of memory. */
+static mw_key *order_stretches(const mw_constrained_making *m)
+{
+    size_t n = m->stretches.count, first[ROUNDS + 1] = {0};
+    mw_key *along = mw__alloc(n, sizeof *along), *order = mw__alloc(n, sizeof *order);
+    if (along && order) {
+        for (size_t i = 0; i < n; i++) along[i] = (mw_key){m->net.at[m->stretches.item[i].from], (uint32_t)i};
+        mw__sort_keys(along, order, n);
+        uint64_t random = 1;
+        for (size_t i = 0; i < n; i++) {
+            along[i].key = ROUNDS - 1 - random_round(&random);
+            first[along[i].key + 1]++;
+        }
+        for (size_t round = 1; round < ROUNDS; round++) first[round] += first[round - 1];
+        for (size_t i = 0; i < n; i++) order[first[along[i].key]++] = along[i];
+    } else {
+        free(order);
+        order = NULL;
+    }
+    free(along);
+    return order;
+}
+
+/* Triangulate the points and force the stretches in, as far as nothing crosses, or, if `all`, all that do not cross. */
+static mw_status make(mw_constrained_making *m, bool all, mw_triangulation_report *report, mw_error *error)
+{
+    uint32_t n = (uint32_t)m->point_count;
+    m->twin = mw__alloc(n, sizeof *m->twin);
+    if (!m->twin) return mw__fail_memory(error);
+    mw_status status = mw__delaunay_triangles(m->point, n, m->twin, report, &m->tri, &m->tri_count, error);
+    if (status) return status;
+    if (!mw__constrained_create(&m->net, m->point, n, m->tri, m->tri_count)) return mw__fail_memory(error);
+    for (size_t i = 0; i < m->stretches.count; i++) {
+        m->stretches.item[i].from = mw__vertex_of(m, m->stretches.item[i].from);
+        m->stretches.item[i].to = mw__vertex_of(m, m->stretches.item[i].to);
+    }
+    mw_key *order = order_stretches(m);
+    bool done = order;
+    for (size_t i = 0; i < m->stretches.count && done && (all || !m->crossing.count); i++)
+        done = force(m, m->stretches.item[order[i].item]);
+    free(order);
+    return done ? MW_OK : mw__fail_memory(error);
+}
+
+/* Forget what was made, but not the points and stretches. */
+static void unmake(mw_constrained_making *m)
+{
+    mw__constrained_release(&m->net);
+    free(m->twin);
+    free(m->tri);
+    m->twin = NULL;
+    m->tri = NULL;
+    m->pieces.count = m->crossing.count = m->run_count = 0;
+}
+
+/* --- segments that cross --- */
+
+typedef struct finder {
+    const mw_constrained_making *m;
+    uint32_t piece;
+} finder;
+
+static bool find_piece(void *context, uint32_t piece, uint32_t vertex)
+{
+    finder *f = context;
+    (void)vertex;
+    f->piece = piece;
+    return piece == MW_NONE;
+}
+
+/* Name the first pair found that crosses. */
+static mw_status fail_crossing(const mw_constrained_making *m, const char *why, mw_constrain_report *report,
+                               mw_error *error)
+{
+    const mw_stretch *s = &m->crossing.item[0];
+    finder f = {m, MW_NONE};
+    mw__constrained_follow(&m->net, s->from, s->to, find_piece, &f);
+    const mw_stretch *p = &m->pieces.item[f.piece];
+    report->cross[0] = s->segment < p->segment ? s->segment : p->segment;
+    report->cross[1] = s->segment < p->segment ? p->segment : s->segment;
+    const uint32_t *a = &m->given->segments[2 * (size_t)report->cross[0]];
+    const uint32_t *b = &m->given->segments[2 * (size_t)report->cross[1]];
+    mw_point place = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
+    return mw__fail(error, MW_ERROR_INPUT,
+                    "segments %" PRIu32 " (from point %" PRIu32 " to %" PRIu32 ") and %" PRIu32 " (from point %" PRIu32
+                    " to %" PRIu32 ") cross near %.9g %.9g%s",
+                    report->cross[0], a[0], a[1], report->cross[1], b[0], b[1], place.x, place.y, why);
+}
+
+/* Each round puts points where stretches cross. Most are then done; but points are rounded, so a stretch may come to
+ * cross another by that, and of many that cross one another each round lets some in, and parts the others. */
+static mw_status make_all(mw_constrained_making *m, bool split, mw_constrain_report *report, mw_error *error)
+{
+    enum { MOST_ROUNDS = 200 };
+    mw_status status = make(m, split, &report->delaunay, error);
+    for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS; round++) {
+        status = mw__split_crossings(m, error);
+        if (status) break;
+        unmake(m);
+        status = make(m, true, NULL, error);
+    }
+    if (status == MW_OK && m->crossing.count)
+        status =
+            fail_crossing(m, split ? ", and so close to others that rounding cannot part them" : "", report, error);
+    return status;
+}
+
+/* --- the result --- */
+
+/* Points made twice, or where one of the caller's lies, are not vertices: number those that are. NULL when out of
+ * memory. */
+static uint32_t *number_points(const mw_constrained_making *m, uint32_t *count)
+{
+    uint32_t *number = mw__alloc(m->point_count, sizeof *number);
+    *count = 0;
+    for (size_t i = 0; number && i < m->point_count; i++)
+        number[i] = i < m->given->point_count || m->twin[i] == MW_NONE ? (*count)++ : MW_NONE;
+    return number;
+}
+
+/* order: the triangles along a Hilbert curve; number, per triangle: its place among those kept, MW_NONE. */
+static bool number_triangles(const mw_constrained_making *m, uint32_t *order, uint32_t *number, uint32_t *count)
+{
+    if (!order || !number || !mw__order_triangles(m->point, m->tri, m->tri_count, order)) return false;
+    *count = 0;
+    for (uint32_t i = 0; i < m->tri_count; i++) {
+        uint32_t t = order[i];
+        number[t] = m->kept[t] ? *count : MW_NONE;
+        if (m->kept[t]) order[(*count)++] = t;
+    }
+    return true;
+}
+
+static void copy_triangles(const mw_constrained_making *m, const uint32_t *order, const uint32_t *number,
+                           const uint32_t *vertex, mw_mesh *mesh)
+{
+    for (uint32_t i = 0; i < mesh->tri_count; i++) {
+        const mw_triangle *from = &m->tri[order[i]];
+        mw_triangle *to = &mesh->tri[i];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t link = from->link[k], other = link == MW_NONE ? MW_NONE : number[mw__link_triangle(link)];
+            to->v[k] = vertex[from->v[k]];
+            to->link[k] = other == MW_NONE ? MW_NONE : mw__link(other, mw__link_edge(link));
+        }
+        to->v[3] = to->v[0];
+        to->user = i;
+    }
+}
+
+/* Pieces of the triangles kept, each once, in the order of the triangles. With out NULL they are only counted. */
+static size_t list_pieces(const mw_constrained_making *m, const uint32_t *order, uint32_t count, const uint32_t *number,
+                          const uint32_t *vertex, mw_pieces *out)
+{
+    size_t made = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t piece = m->net.piece[3 * (size_t)order[i] + k], link = m->tri[order[i]].link[k];
+            if (piece == MW_NONE) continue;
+            uint32_t other = link == MW_NONE ? MW_NONE : number[mw__link_triangle(link)];
+            if (other != MW_NONE && other < i) continue;
+            if (out) {
+                const mw_stretch *p = &m->pieces.item[piece];
+                out->edge[2 * made] = vertex[p->from];
+                out->edge[2 * made + 1] = vertex[p->to];
+                out->segment[made] = p->segment;
+            }
+            made++;
+        }
+    return made;
+}
+
+static bool give_pieces(const mw_constrained_making *m, const uint32_t *order, uint32_t count, const uint32_t *number,
+                        const uint32_t *vertex, size_t piece_count, mw_pieces *out)
+{
+    if (!out) return true;
+    out->edge = mw__alloc(2 * piece_count, sizeof *out->edge);
+    out->segment = mw__alloc(piece_count, sizeof *out->segment);
+    out->count = piece_count;
+    if (!out->edge || !out->segment) return false;
+    list_pieces(m, order, count, number, vertex, out);
+    return true;
+}
+
+/* Move what was made into a mesh. */
+static bool give_mesh(mw_constrained_making *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh *mesh)
+{
+    uint32_t *order = mw__alloc(m->tri_count, sizeof *order), *number = mw__alloc(m->tri_count, sizeof *number);
+    uint32_t *vertex = number_points(m, &mesh->point_count);
+    bool done = vertex && number_triangles(m, order, number, &mesh->tri_count);
+    if (done) {
+        report->removed = m->tri_count - mesh->tri_count;
+        report->added = mesh->point_count - m->given->point_count;
+        report->pieces = list_pieces(m, order, mesh->tri_count, number, vertex, NULL);
+        mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
+        done = mesh->tri && give_pieces(m, order, mesh->tri_count, number, vertex, report->pieces, pieces);
+    }
+    if (done) {
+        copy_triangles(m, order, number, vertex, mesh);
+        for (size_t i = 0; i < m->point_count; i++)
+            if (vertex[i] != MW_NONE) m->point[vertex[i]] = m->point[i];
+        mesh->point = m->point;
+        m->point = NULL;
+    }
+    free(order);
+    free(number);
+    free(vertex);
+    return done;
+}
+
+static mw_status give(mw_constrained_making *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out,
+                      mw_error *error)
+{
+    bool any = false;
+    for (uint32_t t = 0; t < m->tri_count && !any; t++) any = m->kept[t];
+    if (!any)
+        return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
+                        m->tri_count);
+    mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
+    if (mesh && give_mesh(m, report, pieces, mesh)) {
+        *out = mesh;
+        return MW_OK;
+    }
+    mw_mesh_destroy(mesh);
+    return mw__fail_memory(error);
+}
+
+/* --- all together --- */
+
+static mw_status take(mw_constrained_making *m, mw_error *error)
+{
+    const mw_constraints *given = m->given;
+    size_t stride = given->stride ? given->stride : 2;
+    m->point = mw__alloc_lines(given->point_count, sizeof *m->point);
+    m->stretches.item = mw__alloc(given->segment_count, sizeof *m->stretches.item);
+    if (!m->point || !m->stretches.item) return mw__fail_memory(error);
+    m->point_count = given->point_count;
+    for (size_t i = 0; i < given->point_count; i++)
+        m->point[i] = (mw_point){given->points[i * stride], given->points[i * stride + 1]};
+    m->stretches.count = m->stretches.capacity = given->segment_count;
+    for (size_t i = 0; i < given->segment_count; i++)
+        m->stretches.item[i] = (mw_stretch){given->segments[2 * i], given->segments[2 * i + 1], (uint32_t)i};
+    return MW_OK;
+}
+
+static mw_status build(mw_constrained_making *m, const mw_constrain_options *options, uint32_t *duplicate_of,
+                       mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error)
+{
+    mw_status status = take(m, error);
+    if (status == MW_OK) status = make_all(m, options->split, report, error);
+    report->crossed = m->net.crossed;
+    if (status == MW_OK) status = mw__keep_triangles(m, options->keep, error);
+    if (status == MW_OK) status = give(m, report, pieces, out, error);
+    if (duplicate_of && status == MW_OK)
+        for (size_t i = 0; i < m->given->point_count; i++) duplicate_of[i] = m->twin[i];
+    return status;
+}
+
 mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
                                   uint32_t *duplicate_of, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out,
                                   mw_error *error)
 {
-    (void)constraints;
-    (void)options;
-    (void)duplicate_of;
-    (void)report;
-    (void)pieces;
+    static const mw_constrain_options defaults;
+    mw_constrain_report unread;
+    if (!report) report = &unread;
+    *report = (mw_constrain_report){.cross = {MW_NONE, MW_NONE}};
+    if (pieces) *pieces = (mw_pieces){0};
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
-    return mw__fail(error, MW_ERROR_ARGUMENT, "not made yet");
+    if (!options) options = &defaults;
+    mw_status status = check_arguments(constraints, options->keep, error);
+    if (status) return status;
+    mw_constrained_making m = {.given = constraints};
+    status = build(&m, options, duplicate_of, report, pieces, out, error);
+    release(&m);
+    if (status && pieces) mw_pieces_release(pieces);
+    return status;
 }
