@@ -7,7 +7,7 @@ _meshwalk_options() {
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
         info | check) echo "--json $common" ;;
-        triangulate) echo "--kind --format --columns --class --json $common" ;;
+        triangulate) echo "--constraints --keep --split --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details $query $common" ;;
         sample) echo "--field --outside $query $common" ;;
         bench) echo "--queries --sizes --enclose --data --no-times --format --plot $common" ;;
@@ -34,7 +34,8 @@ _meshwalk_names() {
         --finish) echo 'auto remembering stochastic' ;;
         --sample) echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
-        --kind) echo 'delaunay' ;;
+        --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
+        --keep) echo 'auto hull inside' ;;
         --class)
             echo 'never-classified unclassified ground low-vegetation medium-vegetation high-vegetation building'
             echo 'low-noise water rail road wire-guard conductor tower connector bridge-deck high-noise'
@@ -63,7 +64,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --cells | --layers | --tolerance | --columns | --field | --queries | --sizes) return ;;
+        --threads | --seed | --steps | --cells | --layers | --tolerance | --columns | --field | --queries | --sizes | --limit) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

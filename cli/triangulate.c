@@ -1,27 +1,30 @@
-/* triangulate - a mesh of points. */
-#include "classes.h"
+/* triangulate - a mesh of points, of any kind, or with constraints. */
 #include "commands.h"
+#include "constraints.h"
 #include "files.h"
+#include "heights.h"
 #include "message.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
 #include "tally.h"
+#include "vertices.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 enum { FORMAT_BY_ENDING = 0 };
-static const char *const kinds[] = {"delaunay", "greedy", "min-weight", "min-max-angle", NULL};
 
 typedef struct triangulate_settings {
     common_settings common;
-    const char *columns, *classes;
-    int kind, format;
-    bool json;
+    const char *columns, *classes, *constraints;
+    int kind, format, keep;
+    uint32_t limit;
+    bool json, split;
 } triangulate_settings;
 
 static const char *format_name(int i)
@@ -30,18 +33,42 @@ static const char *format_name(int i)
 }
 static const char *kind_name(int i)
 {
-    return kinds[i];
+    return mw_kind_name((mw_triangulation_kind)i);
 }
 static const char *kind_help(int i)
 {
-    return i == 0 ? "no point inside the circle of a triangle" : NULL;
+    return mw_kind_help((mw_triangulation_kind)i);
+}
+static const char *keep_name(int i)
+{
+    return (const char *[]){"auto", "hull", "inside", NULL}[i];
+}
+static const char *keep_help(int i)
+{
+    return (const char *[]){"inside, where there are polygons or holes, or FILE is a .poly; else hull",
+                            "all triangles of the convex hull",
+                            "those inside a polygon, or without polygons those that constraints part from the outside "
+                            "and from the places of holes"}[i];
 }
 static const choices format_choices = {"format", format_name, NULL};
 static const choices kind_choices = {"kind of triangulation", kind_name, kind_help};
+static const choices keep_choices = {"part to keep", keep_name, keep_help};
 
 static const option triangulate_options[] = {
+    {"constraints", 0, OPTION_TEXT, offsetof(triangulate_settings, constraints), "FILE",
+     "make the points, lines and polygons of FILE vertices and edges of the mesh: GeoJSON, Triangle's .poly, or what "
+     "GDAL reads, where the program is built with it; POINTS may be missing then",
+     NULL},
+    {"keep", 0, OPTION_CHOICE, offsetof(triangulate_settings, keep), "NAME",
+     "with --constraints, the triangles to keep (default: auto):", &keep_choices},
+    {"split", 0, OPTION_FLAG, offsetof(triangulate_settings, split), NULL,
+     "with --constraints, put a vertex where some cross; without it that is an error", NULL},
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
-     "kind of triangulation (default: delaunay, the only one so far):", &kind_choices},
+     "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
+    {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
+     "--kind min-weight: fill faces of up to N corners optimally; min-max-angle: seek the optimum of up to N points; "
+     "beyond, a local optimum is made (default: 0, what takes seconds)",
+     NULL},
     {"format", 0, OPTION_CHOICE, offsetof(triangulate_settings, format), "NAME",
      "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &format_choices},
     {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
@@ -54,123 +81,127 @@ static const option triangulate_options[] = {
     {0},
 };
 
-/* The points, and then the mesh, as they are read and written. */
+/* What is read and made. */
 typedef struct work {
-    double *values; /* width per point */
-    size_t width;
-    mw_mesh_file file; /* its arrays belong to the work */
-    mw_triangulation_report report;
+    vertices vertices;
+    mw_constraint_file constraints;
+    uint32_t *duplicate_of; /* with constraints: as mw_constrained_delaunay tells */
+    mw_pieces pieces;
+    mw_constrain_report constrained;
+    mw_kind_report kind;
     double begin;
 } work;
 
 static void release(work *w)
 {
-    for (size_t i = 0; i < w->file.field_count; i++) {
-        if (w->file.field_names) free(w->file.field_names[i]);
-        if (w->file.fields) free(w->file.fields[i]);
-    }
-    free(w->file.field_names);
-    free(w->file.fields);
-    free(w->file.points);
-    free(w->file.triangles);
-    free(w->values);
+    vertices_release(&w->vertices);
+    mw_constraint_file_release(&w->constraints);
+    mw_pieces_release(&w->pieces);
+    free(w->duplicate_of);
 }
 
-static bool grow(work *w, size_t *capacity)
+/* The library's choice, but for a .poly, whose segments bound a domain as they do for Triangle. */
+static mw_keep keep_of(const triangulate_settings *s, const work *w)
 {
-    size_t wanted = *capacity ? 2 * *capacity : 4096;
-    if (wanted > SIZE_MAX / sizeof(double) / w->width) return false;
-    double *values = realloc(w->values, wanted * w->width * sizeof(double));
-    if (!values) return false;
-    w->values = values;
-    *capacity = wanted;
-    return true;
+    if (s->keep == MW_KEEP_AUTO && constraints_are_poly(&w->constraints)) return MW_KEEP_INSIDE;
+    return (mw_keep)s->keep;
 }
 
-static int read_all(work *w, mw_point_reader *reader)
+static int fail_constrained(const triangulate_settings *s, const char *points, const work *w, const mw_error *error)
 {
-    mw_error error;
-    size_t capacity = 0, count = 1;
-    while (count > 0) {
-        size_t *n = &w->file.point_count;
-        if (*n == capacity && !grow(w, &capacity)) return fail_memory();
-        if (mw_points_read(reader, w->values + *n * w->width, capacity - *n, &count, &error) != MW_OK)
-            return fail_reading(&error);
-        *n += count;
-        progress_points(*n);
-    }
-    return 0;
+    const uint32_t *cross = w->constrained.cross;
+    if (error->status == MW_ERROR_INPUT && cross[0] != MW_NONE)
+        return constraints_cross(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split, error);
+    bool given = points && error->vertex >= 0 && (size_t)error->vertex < w->vertices.points;
+    return fail_mesh(given ? points : s->constraints, error);
 }
 
-static char *copy_of(const char *name)
-{
-    size_t size = strlen(name) + 1;
-    char *copy = malloc(size);
-    return copy ? memcpy(copy, name, size) : NULL;
-}
-
-/* Turn the columns read into points x, y, z and fields. */
-static int split_columns(work *w, const mw_point_reader *reader)
-{
-    mw_mesh_file *file = &w->file;
-    size_t n = file->point_count, width = w->width;
-    file->has_z = width >= 3;
-    file->field_count = width > 3 ? width - 3 : 0;
-    file->field_names = calloc(file->field_count + 1, sizeof *file->field_names);
-    file->fields = calloc(file->field_count + 1, sizeof *file->fields);
-    if (!file->field_names || !file->fields) return fail_memory();
-    for (size_t k = 0; k < file->field_count; k++) {
-        file->field_names[k] = copy_of(mw_points_column(reader, 3 + k));
-        file->fields[k] = malloc((n + 1) * sizeof(double));
-        if (!file->field_names[k] || !file->fields[k]) return fail_memory();
-        for (size_t i = 0; i < n; i++) file->fields[k][i] = w->values[i * width + 3 + k];
-    }
-    if (width == 3) {
-        file->points = w->values;
-        w->values = NULL;
-        return 0;
-    }
-    if (n > SIZE_MAX / (3 * sizeof(double)) - 1) return fail_memory();
-    file->points = malloc((n + 1) * 3 * sizeof(double));
-    if (!file->points) return fail_memory();
-    for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < 3; k++) file->points[3 * i + k] = k < width ? w->values[i * width + k] : 0;
-    free(w->values);
-    w->values = NULL;
-    return 0;
-}
-
-static int read_points(const triangulate_settings *s, const char *path, work *w)
-{
-    mw_error error;
-    mw_points_options options = {.columns = s->columns};
-    mw_point_reader *reader;
-    int end = s->classes ? classes_parse(s->classes, options.classes) : 0;
-    if (end) return end;
-    progress_phase("reading", path);
-    if (mw_points_open(path, &options, &reader, &error) != MW_OK) return fail_reading(&error);
-    w->width = mw_points_width(reader);
-    end = read_all(w, reader);
-    if (end == 0) end = split_columns(w, reader);
-    mw_points_close(reader);
-    return end;
-}
-
-static int triangulate(const char *path, work *w)
+/* The triangulation of POINTS, if there are any, and the constraints. */
+static int constrain(const triangulate_settings *s, const char *points, work *w)
 {
     mw_error error;
     mw_mesh *mesh;
-    mw_mesh_file *file = &w->file;
-    progress_phase("triangulating", path);
-    if (mw_delaunay(file->points, file->point_count, 3, NULL, &w->report, &mesh, &error) != MW_OK)
-        return fail_mesh(path, &error);
-    uint32_t count = mw_mesh_triangle_count(mesh);
-    file->triangle_count = count;
-    file->triangles = malloc((size_t)count * 3 * sizeof(uint32_t));
-    if (file->triangles)
-        for (uint32_t t = 0; t < count; t++) mw_mesh_triangle(mesh, t, file->triangles + 3 * (size_t)t);
+    const mw_constraint_file *c = &w->constraints;
+    const mw_mesh_file *file = &w->vertices.file;
+    size_t count = file->point_count;
+    mw_constraints constraints = {.points = file->points,
+                                  .point_count = count,
+                                  .stride = 3,
+                                  .segments = c->segments,
+                                  .segment_count = c->segment_count,
+                                  .polygon = c->polygon,
+                                  .holes = c->holes,
+                                  .hole_count = c->hole_count};
+    mw_constrain_options options = {.keep = keep_of(s, w), .split = s->split};
+    w->duplicate_of = malloc((count + 1) * sizeof *w->duplicate_of);
+    w->constrained.cross[0] = w->constrained.cross[1] = MW_NONE;
+    if (!w->duplicate_of) return fail_memory();
+    progress_phase("triangulating", s->constraints);
+    if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->pieces, &mesh, &error) !=
+        MW_OK)
+        return fail_constrained(s, points, w, &error);
+    int end = vertices_complete(&w->vertices, mesh);
     mw_mesh_destroy(mesh);
-    return file->triangles ? 0 : fail_memory();
+    return end ? end : heights_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->pieces);
+}
+
+/* Of what is said to be optimal but is not: why. */
+static void warn_if_local(const triangulate_settings *s, const char *path, const mw_kind_report *kind)
+{
+    const char *name = kind_name(s->kind);
+    if (kind->optimal || s->common.quiet) return;
+    if (kind->local_faces > 0)
+        complain("%s: warning: this %s triangulation is a local optimum: of %zu faces, the largest of %zu corners, %zu "
+                 "are too large or hold points; --limit N takes larger ones",
+                 path, name, kind->faces, kind->largest_face, kind->local_faces);
+    else
+        complain(
+            "%s: warning: this %s triangulation is a local optimum: there are too many points to seek the best one; "
+            "--limit N seeks it for up to N points",
+            path, name);
+}
+
+static int triangulate(const triangulate_settings *s, const char *path, work *w)
+{
+    mw_error error;
+    mw_mesh *mesh;
+    const mw_mesh_file *file = &w->vertices.file;
+    mw_kind_options options = {.limit = s->limit};
+    progress_phase("triangulating", path);
+    if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
+                       &mesh, &error) != MW_OK)
+        return fail_mesh(path, &error);
+    int end = vertices_complete(&w->vertices, mesh);
+    mw_mesh_destroy(mesh);
+    if (end == 0) warn_if_local(s, path, &w->kind);
+    return end;
+}
+
+/* To three decimals. */
+static void report_rounded(report *r, const char *name, double value)
+{
+    report_number(r, name, (double)(int64_t)(value * 1000 + 0.5) / 1000);
+}
+
+static void report_constrained(report *r, const work *w)
+{
+    report_count(r, "constraints", w->constraints.segment_count);
+    report_count(r, "pieces", w->constrained.pieces);
+    report_count(r, "added", w->constrained.added);
+    report_count(r, "removed", w->constrained.removed);
+    report_count(r, "crossed", w->constrained.crossed);
+}
+
+static void report_kind(report *r, const triangulate_settings *s, const mw_kind_report *kind)
+{
+    report_string(r, "kind", kind_name(s->kind));
+    report_number(r, "edge_length", kind->edge_length);
+    report_number(r, "largest_angle", kind->largest_angle * (180 / acos(-1)));
+    report_flag(r, "optimal", kind->optimal);
+    if (s->kind != MW_MIN_WEIGHT) return;
+    report_count(r, "faces", kind->faces);
+    report_count(r, "largest_face", kind->largest_face);
+    report_count(r, "local_faces", kind->local_faces);
 }
 
 /* The report goes to standard output, unless the mesh does. */
@@ -179,12 +210,16 @@ static int print_report(const triangulate_settings *s, const work *w)
     report r;
     if (s->common.quiet) return 0;
     report_begin(&r, s->json);
-    report_count(&r, "points", w->report.points);
-    report_count(&r, "duplicates", w->report.duplicates);
-    report_count(&r, "triangles", w->file.triangle_count);
-    double visited = w->report.points ? (double)w->report.triangles_visited / (double)w->report.points : 0;
-    report_number(&r, "visited_per_point", (double)(int64_t)(visited * 1000 + 0.5) / 1000);
-    report_number(&r, "seconds", (double)(int64_t)((tally_clock() - w->begin) * 1000 + 0.5) / 1000);
+    const mw_triangulation_report *made = s->constraints ? &w->constrained.delaunay : &w->kind.delaunay;
+    report_count(&r, "points", made->points);
+    report_count(&r, "duplicates", made->duplicates);
+    report_count(&r, "triangles", w->vertices.file.triangle_count);
+    report_rounded(&r, "visited_per_point", made->points ? (double)made->triangles_visited / (double)made->points : 0);
+    if (s->constraints)
+        report_constrained(&r, w);
+    else
+        report_kind(&r, s, &w->kind);
+    report_rounded(&r, "seconds", tally_clock() - w->begin);
     report_end(&r);
     if (!files_is_stream(s->common.output)) return files_write_text(NULL, &r.text);
     progress_end();
@@ -200,7 +235,7 @@ static int write_mesh(const triangulate_settings *s, const work *w, bool named)
     const char *format = s->format == FORMAT_BY_ENDING ? NULL : format_name(s->format);
     progress_phase("writing", NULL);
     if (named) signals_hold(true);
-    mw_status status = mw_write_mesh(s->common.output, format, &w->file, &error);
+    mw_status status = mw_write_mesh(s->common.output, format, &w->vertices.file, &error);
     if (named) signals_hold(false);
     return status == MW_OK ? 0 : fail_writing(&error);
 }
@@ -216,38 +251,72 @@ static bool ending_is_known(const char *path)
     return strcasecmp(ending, ".ele") == 0;
 }
 
+static int refuse(const char *why)
+{
+    complain("triangulate: %s", why);
+    return END_USAGE;
+}
+
+/* Options that do not go together. */
+static int check_combination(const triangulate_settings *s, const char *points)
+{
+    if (!points && !s->constraints) return refuse("wants POINTS, or --constraints FILE");
+    if (!points && (s->columns || s->classes))
+        return refuse("--columns and --class are about POINTS, which are missing");
+    if (!s->constraints && (s->keep || s->split)) return refuse("--keep and --split are about --constraints");
+    if (s->constraints && s->kind != MW_DELAUNAY) return refuse("--constraints are for --kind delaunay only");
+    if (s->limit && s->kind != MW_MIN_WEIGHT && s->kind != MW_MIN_MAX_ANGLE)
+        return refuse("--limit is about --kind min-weight and min-max-angle");
+    return 0;
+}
+
+static bool writes_node(const triangulate_settings *s)
+{
+    if (s->format != FORMAT_BY_ENDING) return strcmp(format_name(s->format), "node") == 0;
+    const char *ending = strrchr(s->common.output, '.');
+    return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
+}
+
 /* What can be refused before the work begins. */
 static int check_settings(const triangulate_settings *s, const char *points)
 {
     const char *output = s->common.output;
-    if (s->kind != 0) {
-        complain("--kind %s is not available in this version; delaunay is", kinds[s->kind]);
-        return END_USAGE;
-    }
-    if (!output) {
-        complain("triangulate: -o MESH is missing: where should the mesh go?");
-        return END_USAGE;
-    }
-    if (files_is_stream(output) && s->format == FORMAT_BY_ENDING) {
-        complain("triangulate: a mesh on standard output wants --format");
-        return END_USAGE;
-    }
+    const char *inputs[2] = {points ? points : s->constraints, s->constraints};
+    int end = check_combination(s, points);
+    if (end) return end;
+    if (!output) return refuse("-o MESH is missing: where should the mesh go?");
+    if (files_is_stream(output) && s->format == FORMAT_BY_ENDING)
+        return refuse("a mesh on standard output wants --format");
     if (s->format == FORMAT_BY_ENDING && !ending_is_known(output)) {
         complain("%s: the name tells no format for meshes; --format does (off, ply, ...)", output);
         return END_USAGE;
     }
-    return files_check(output, &points, 1);
+    if (s->constraints && writes_node(s) && constraints_share_node(s->constraints, output)) {
+        complain("%s: its points may stand in the .node file that would be written: choose another output",
+                 s->constraints);
+        return END_USAGE;
+    }
+    return files_check(output, inputs, points && s->constraints ? 2 : 1);
+}
+
+static int read_input(const triangulate_settings *s, const char *points, work *w)
+{
+    int end = points ? vertices_read(&w->vertices, points, s->columns, s->classes) : 0;
+    if (end || !s->constraints) return end;
+    end = constraints_read(s->constraints, &w->constraints);
+    return end ? end : vertices_append(&w->vertices, &w->constraints);
 }
 
 static int run(const void *settings, const char *const *operands)
 {
     const triangulate_settings *s = settings;
+    const char *points = operands[0];
     work w = {.begin = tally_clock()};
     bool named = false;
-    int end = check_settings(s, operands[0]);
+    int end = check_settings(s, points);
     if (end == 0) end = files_try_output(s->common.output, &named);
-    if (end == 0) end = read_points(s, operands[0], &w);
-    if (end == 0) end = triangulate(operands[0], &w);
+    if (end == 0) end = read_input(s, points, &w);
+    if (end == 0) end = s->constraints ? constrain(s, points, &w) : triangulate(s, points, &w);
     if (end == 0) end = write_mesh(s, &w, named);
     if (end == 0) end = print_report(s, &w);
     release(&w);
@@ -258,12 +327,16 @@ static const option *const tables[] = {triangulate_options, common_options, NULL
 
 const command triangulate_command = {
     .name = "triangulate",
-    .operands = "POINTS -o MESH",
+    .operands = "[POINTS] -o MESH",
     .operand_count = 1,
-    .summary = "make a Delaunay triangulation of points",
-    .description = "Writes the Delaunay triangulation of POINTS to MESH. Vertex i of the mesh is point i, from 0. A "
-                   "point equal to an earlier one is counted in the report, and belongs to no triangle. A third "
-                   "column is the height, further columns become fields. '-' is standard input.",
+    .optional_operands = 1,
+    .summary = "make a triangulation of points, lines and polygons",
+    .description =
+        "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says otherwise. Vertex i of the mesh "
+        "is point i, from 0. A point equal to an earlier one is counted in the report, and belongs to no "
+        "triangle. A third column is the height, further columns become fields. With --constraints, "
+        "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
+        "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
     .settings_size = sizeof(triangulate_settings),
     .run = run,

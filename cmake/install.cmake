@@ -14,6 +14,10 @@ endforeach()
 install(DIRECTORY include/meshwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 
+set(needs_jansson OFF)
+if(TARGET PkgConfig::JANSSON)
+  set(needs_jansson ON)
+endif()
 configure_package_config_file(cmake/meshwalkConfig.cmake.in ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 # Until 1.0 a new minor version may change the interface.
@@ -24,7 +28,7 @@ install(FILES ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake ${PROJECT_BINARY_DIR}/m
 # pkg-config: the static library's own needs stand in Libs.private. The prefix is found from the place of the file.
 file(RELATIVE_PATH pc_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(pc_private "-lz -lm")
-if(JANSSON_FOUND)
+if(needs_jansson)
   string(APPEND pc_private " -ljansson")
 endif()
 foreach(name IN LISTS OpenMP_C_LIB_NAMES)
