@@ -1,10 +1,218 @@
-/* greedy.c - not made yet. */
+/* greedy.c - the greedy triangulation: edges by increasing length, each taken unless it crosses one taken before.
+ *
+ *            z            It grows in a constrained Delaunay triangulation of the edges taken so far, a thought of
+ *         . : : ` .       [Levcopoulos, Krznaric 1999]. Say an edge is open if it is not taken, crosses no edge taken, and
+ *       a---------b       has no vertex inside. The shortest open edge ab comes next, and it is found where few look:
+ *          :  :           it is an edge of the triangulation, or cuts off a corner z between two taken edges za and zb
+ *          q1 q2          that follow each other round z, with an angle of 90 degrees or more.
+ *
+ * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an edge of each constrained
+ * Delaunay triangulation. Otherwise let z be such a vertex. A rubber band from a to b round the obstacles on that side of
+ * ab, pulled over to z, lies in the triangle abz. It is a chain of edges, and bounds with ab a polygon without taken edges
+ * in it. Any two vertices of this polygon but a and b are less than |ab| apart, as the circle holds them; so each edge
+ * between two that see each other is taken, or it would come first. There is none in the polygon, so it has no
+ * diagonals, and is a triangle: za and zb are taken and nothing is between. (The edges that ab crosses then are a fan at z.)
+ *
+ * So the heap holds the open edges of the triangulation and what cuts off corners, and what has been either: taking an
+ * edge makes four corners at most and changes the triangles that it crosses. What comes out of the heap is taken if it is
+ * open. If it is not, it never will be again. */
+#include "triangulate/constrain.h"
+#include "triangulate/greedy_heap.h"
 #include "triangulate/kind.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct greedy {
+    mw_constrained net; /* the taken edges are its pieces */
+    mw_greedy_heap heap;
+    uint32_t (*seen)[3]; /* per triangle: its vertices, when its edges were put into the heap */
+    uint32_t *changed;   /* scratch: triangles that are others now */
+    size_t limit;        /* gather anew what waits when it is more than this */
+} greedy;
+
+/* --- half-edges, named by links --- */
+
+static bool is_taken(const greedy *g, uint32_t half)
+{
+    return g->net.piece[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)] != MW_NONE;
+}
+
+static uint32_t link_of(const greedy *g, uint32_t half)
+{
+    return g->net.tri[mw__link_triangle(half)].link[mw__link_edge(half)];
+}
+
+static uint32_t start_of(const greedy *g, uint32_t half)
+{
+    return g->net.tri[mw__link_triangle(half)].v[mw__link_edge(half)];
+}
+
+static uint32_t end_of(const greedy *g, uint32_t half)
+{
+    return g->net.tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1];
+}
+
+static uint32_t next_of(uint32_t half)
+{
+    return mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
+}
+
+static uint32_t prev_of(uint32_t half)
+{
+    return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
+}
+
+/* Turns round a vertex: counter-clockwise to the hull, then clockwise from the beginning. */
+typedef struct rotor {
+    uint32_t half, first; /* half-edges that leave the vertex */
+    bool clockwise;
+} rotor;
+
+static rotor rotor_at(const greedy *g, uint32_t vertex)
+{
+    uint32_t t = g->net.at[vertex], k = 0;
+    while (g->net.tri[t].v[k] != vertex) k++;
+    return (rotor){mw__link(t, k), mw__link(t, k), false};
+}
+
+/* Returns a half-edge between the vertex and `other`, or goes on to the next triangle and returns MW_NONE. */
+static uint32_t turn(const greedy *g, rotor *r, uint32_t other)
+{
+    uint32_t back = prev_of(r->half);
+    if (end_of(g, r->half) == other) return r->half;
+    if (start_of(g, back) == other) return back;
+    if (!r->clockwise && link_of(g, back) != MW_NONE) {
+        r->half = link_of(g, back);
+        return MW_NONE;
+    }
+    if (!r->clockwise) r->half = r->first;
+    r->clockwise = true;
+    r->half = next_of(link_of(g, r->half));
+    return MW_NONE;
+}
+
+/* A half-edge of the edge between a and b. Turns round both at once, for one of them may have a high degree. */
+static uint32_t half_between(const greedy *g, uint32_t a, uint32_t b)
+{
+    rotor at_a = rotor_at(g, a), at_b = rotor_at(g, b);
+    for (;;) {
+        uint32_t half = turn(g, &at_a, b);
+        if (half == MW_NONE) half = turn(g, &at_b, a);
+        if (half != MW_NONE) return half;
+    }
+}
+
+/* --- what waits --- */
+
+/* Edges a, z and z, b are taken and follow each other round z, the corner on the left of a, z, b. */
+static bool add_corner(greedy *g, uint32_t a, uint32_t z, uint32_t b)
+{
+    const mw_point *p = g->net.point;
+    if (mw__orient2d(p[a], p[z], p[b]) <= 0 || mw__dot2d(p[z], p[a], p[b]) > 0) return true;
+    return mw__greedy_push(&g->heap, a, b);
+}
+
+/* Add the corners on the left of a taken edge, at its end and at its start. */
+static bool add_corners(greedy *g, uint32_t half)
+{
+    uint32_t after = next_of(half), before = prev_of(half);
+    while (!is_taken(g, after) && link_of(g, after) != MW_NONE) after = next_of(link_of(g, after));
+    while (!is_taken(g, before) && link_of(g, before) != MW_NONE) before = prev_of(link_of(g, before));
+    if (is_taken(g, after) && !add_corner(g, start_of(g, half), end_of(g, half), end_of(g, after))) return false;
+    return !is_taken(g, before) || add_corner(g, start_of(g, before), start_of(g, half), end_of(g, half));
+}
+
+/* Add the open edges of a triangle: each from one of its two triangles only. */
+static bool add_edges(greedy *g, uint32_t t)
+{
+    memcpy(g->seen[t], g->net.tri[t].v, sizeof g->seen[t]);
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t half = mw__link(t, k);
+        if (half > link_of(g, half) || is_taken(g, half)) continue;
+        if (!mw__greedy_push(&g->heap, start_of(g, half), end_of(g, half))) return false;
+    }
+    return true;
+}
+
+/* Begin with an empty heap: all open edges, all corners. */
+static bool gather(greedy *g)
+{
+    g->heap.count = 0;
+    for (uint32_t t = 0; t < g->net.tri_count; t++) {
+        if (!add_edges(g, t)) return false;
+        for (uint32_t k = 0; k < 3; k++)
+            if (is_taken(g, mw__link(t, k)) && !add_corners(g, mw__link(t, k))) return false;
+    }
+    g->limit = 2 * g->heap.count + 64;
+    return true;
+}
+
+/* --- taking an edge --- */
+
+/* Put the triangle of a half-edge on the list if it is another than before. */
+static void visit(greedy *g, uint32_t half, uint32_t *count)
+{
+    if (half == MW_NONE) return;
+    uint32_t t = mw__link_triangle(half);
+    if (memcmp(g->seen[t], g->net.tri[t].v, sizeof g->seen[t]) == 0) return;
+    memcpy(g->seen[t], g->net.tri[t].v, sizeof g->seen[t]);
+    g->changed[(*count)++] = t;
+}
+
+/* An edge was forced in: add the edges of the triangles that this has changed. They hang together, on either side of it,
+ * and each has other vertices than what was there before. */
+static bool add_changes(greedy *g, uint32_t half)
+{
+    uint32_t count = 0;
+    visit(g, half, &count);
+    visit(g, link_of(g, half), &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!add_edges(g, g->changed[i])) return false;
+        for (uint32_t k = 0; k < 3; k++) visit(g, link_of(g, mw__link(g->changed[i], k)), &count);
+    }
+    return true;
+}
+
+/* Take an edge if it is open. One with a vertex inside is not: what is forced in first of it, up to a vertex, is shorter
+ * and therefore taken already, or crosses a taken edge. Returns false when out of memory. */
+static bool take(greedy *g, mw_greedy_edge edge)
+{
+    uint32_t from = edge.low, to = edge.high, taken = g->net.piece_count;
+    mw_piece piece;
+    if (mw__constrain(&g->net, &from, &to, &piece) == MW_CONSTRAIN_MEMORY) return false;
+    if (g->net.piece_count == taken) return true;
+    uint32_t half = half_between(g, piece.from, piece.to), twin = link_of(g, half);
+    return add_corners(g, half) && (twin == MW_NONE || add_corners(g, twin)) && add_changes(g, half);
+}
+
+static bool create(greedy *g, mw_triangulation *t)
+{
+    bool created = mw__constrained_create(&g->net, t->point, t->point_count, t->tri, t->tri_count);
+    g->heap.point = t->point;
+    g->seen = mw__alloc(t->tri_count, sizeof *g->seen);
+    g->changed = mw__alloc(t->tri_count, sizeof *g->changed);
+    return created && g->seen && g->changed;
+}
+
+static void release(greedy *g)
+{
+    mw__constrained_release(&g->net);
+    free(g->heap.item);
+    free(g->seen);
+    free(g->changed);
+}
 
 mw_status mw__make_greedy(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report, mw_error *error)
 {
-    (void)t;
     (void)options;
     (void)report;
-    return mw__fail(error, MW_ERROR_ARGUMENT, "not made yet");
+    greedy g = {0};
+    bool done = create(&g, t) && gather(&g);
+    while (done && g.heap.count > 0) {
+        done = take(&g, mw__greedy_pop(&g.heap));
+        if (done && g.heap.count > g.limit) done = gather(&g);
+    }
+    release(&g);
+    return done ? MW_OK : mw__fail_memory(error);
 }
