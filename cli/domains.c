@@ -25,7 +25,7 @@ static waves draw_waves(uint64_t *random)
 {
     waves w;
     for (size_t i = 0; i < WAVES; i++) {
-        w.size[i] = (2 * dataset_unit(random) - 1) / (double)(i + 2);
+        w.size[i] = (2 * dataset_unit(random) - 1) / sqrt((double)(i + 2));
         w.phase[i] = 2 * PI * dataset_unit(random);
     }
     return w;
@@ -103,22 +103,24 @@ static double hull_area(const star *s, double *hull)
     return area_of(hull, count);
 }
 
-/* The higher the waves, the less of its hull the outline fills. Returns the area of the hull. */
+/* Too high waves leave hardly more than one of them, which fills its own hull well. */
+#define GREATEST_HEIGHT 3.0
+#define HEIGHTS 300
+#define MOST_WAVES 100 /* drawn, until the last are taken as they are */
+
+/* The higher the waves, at first, the less of its hull the outline fills. Waves that never leave as little of it as wanted
+ * are drawn again. Returns the area of the hull. */
 static double shape_outline(star *s, double share, double *hull, uint64_t *random)
 {
-    waves w = draw_waves(random);
-    uint64_t noise = draw_seed(random);
-    double low = 0, high = 8, area = 0;
-    for (int i = 0; i < 40; i++) {
-        double middle = (low + high) / 2;
-        shape_star(s, &w, middle, noise);
-        area = hull_area(s, hull);
-        if (area_of(s->corner, s->count) > share * area)
-            low = middle;
-        else
-            high = middle;
+    for (int drawn = 0;; drawn++) {
+        waves w = draw_waves(random);
+        uint64_t noise = draw_seed(random);
+        for (int i = 0; i <= HEIGHTS; i++) {
+            shape_star(s, &w, GREATEST_HEIGHT * i / HEIGHTS, noise);
+            double area = hull_area(s, hull);
+            if (area_of(s->corner, s->count) <= share * area || (drawn == MOST_WAVES && i == HEIGHTS)) return area;
+        }
     }
-    return area;
 }
 
 static double distance_to_segment(const double p[2], const double a[2], const double b[2])
@@ -161,7 +163,7 @@ static void place_hole(domain *d, size_t i, double area, uint64_t *random)
 {
     star *s = &d->star[i];
     waves w = draw_waves(random);
-    shape_star(s, &w, 0.7, draw_seed(random));
+    shape_star(s, &w, 0.5, draw_seed(random));
     scale_star(s, sqrt(area / area_of(s->corner, s->count)));
     double p[2] = {0, 0};
     for (int drawn = 1;; drawn++) {
@@ -233,7 +235,7 @@ static void share_corners(domain *d, const domain_shape *shape)
 mw_status domain_make(const domain_shape *shape, uint64_t seed, mw_mesh **out, mw_error *error)
 {
     domain d = {.stars = shape->holes + 1, .corners = shape->border_edges, .count = shape->vertices};
-    uint64_t random = seed;
+    uint64_t random = seed + shape->vertices;
     d.star = calloc(d.stars, sizeof *d.star);
     d.points = calloc(d.count, 2 * sizeof *d.points);
     double *hull = calloc(d.corners + 1, 2 * sizeof *hull);

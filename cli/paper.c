@@ -22,14 +22,17 @@ double paper_sum(const paper *p, const paper_result *r, size_t i, int which, boo
     static const quantity parts[2][6] = {{TRIANGLES_INIT, TRIANGLES, TRIANGLES_FINAL, TRIANGLES_BORDER, QUANTITIES},
                                          {ORIENT_INIT, ORIENT, ORIENT_FINAL, ORIENT_BORDER, IMPLICIT, COMPARISONS}};
     const char *name = p->table->algorithms[i]->name;
-    bool known = published_prints(p->table->name, name, TRIANGLES);
-    double sum = 0;
+    double all = 0, printed = 0;
+    bool some = false;
     for (size_t k = 0; k < 6 && parts[which][k] != QUANTITIES; k++) {
         quantity q = parts[which][k];
-        if (known && !published_prints(p->table->name, name, q)) continue;
-        sum += published ? paper_published(p, r, i, q) : r->outcome.value[i][q];
+        double value = published ? paper_published(p, r, i, q) : r->outcome.value[i][q];
+        all += value;
+        if (!published_prints(p->table->name, name, q)) continue;
+        some = true;
+        printed += value;
     }
-    return sum;
+    return some ? printed : all;
 }
 
 /* The layers of App. C, Table 2, for sets of these sizes; 0 for others. */

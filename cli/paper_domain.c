@@ -31,7 +31,7 @@ static const struct {
 /* Other sizes look like land registers: border edges and holes as these have in the mean. */
 static domain_shape usual_shape(size_t vertices)
 {
-    domain_shape shape = {vertices, (size_t)(3.4 * sqrt((double)vertices)), vertices / 1200, 0.65};
+    domain_shape shape = {vertices, (size_t)(3.4 * sqrt((double)vertices)), vertices / 1200 + (vertices >= 100), 0.65};
     if (shape.border_edges > vertices) shape.border_edges = vertices;
     return shape;
 }

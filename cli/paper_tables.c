@@ -179,7 +179,7 @@ static const struct {
 } columns[] = {
     {"A1", &straight, TRIANGLES, TRIANGLES_INIT, 1},         {"A1", &straight, ORIENT, ORIENT_INIT, 0},
     {"A1", &normal_straight, TRIANGLES, TRIANGLES_FINAL, 0}, {"B1", &hybrid, TRIANGLES, TRIANGLES_INIT, 1},
-    {"B2", &hybrid, TRIANGLES, TRIANGLES_INIT, 1},           {"D1", &border, ORIENT, ORIENT_INIT, 0},
+    {"B2", &hybrid, TRIANGLES, TRIANGLES_INIT, 1},           {"D1", &border, TRIANGLES_TOTAL, WALK_RUNS, 1},
     {"E2", &orthogonal, TRIANGLES, TRIANGLES_INIT, 1},
 };
 
