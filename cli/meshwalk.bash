@@ -27,7 +27,7 @@ _meshwalk_names() {
         --enclose) echo 'auto yes no' ;;
         --walk)
             echo 'auto lawson remembering stochastic fast-stochastic barycentric direct straight normal-straight'
-            echo 'orthogonal improved-orthogonal hybrid celestial'
+            echo 'orthogonal improved-orthogonal hybrid celestial border'
             ;;
         --start) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
         --arithmetic) echo 'exact double' ;;

@@ -38,7 +38,7 @@ run info a b; refused 2 "wants MESH, not 2 arguments"
 run locate - -; refused 2 "can be read once"
 run triangulate a; refused 2 "-o MESH is missing"
 run triangulate a -o -; refused 2 "wants --format"
-run triangulate a -o b.ply --kind greedy; refused 2 "not available"
+run triangulate a -o b.ply --limit x; refused 2 "whole number"
 run triangulate a -o b.ply --kind gredy; refused 2 "did you mean 'greedy'\?"
 run triangulate a -o b.ply --class swamp; refused 2 "unknown class 'swamp'"
 run triangulate a -o b.ply --class 2,256; refused 2 "unknown class '256'"
@@ -128,7 +128,11 @@ done
 run triangulate --help
 holds "help and completion of --format differ" \
     test "$(complete_words meshwalk triangulate --format '')" == "$(row format)"
-holds "help and completion of --kind differ" test "$(complete_words meshwalk triangulate --kind '')" == "$(listed kind)"
+for option in kind keep; do
+    holds "help and completion of --$option differ" \
+        test "$(complete_words meshwalk triangulate --$option '')" == "$(listed $option)"
+    holds "the help lists names of --$option" test -n "$(listed $option)"
+done
 run bench --help
 for option in format enclose; do
     holds "help and completion of bench --$option differ" \
