@@ -26,7 +26,8 @@ struct mw_rim {
     uint32_t half;  /* the half-edge inside the channel: the old one, later the new one  */
     uint32_t outer; /* the half-edge beyond the rim; MW_NONE on the hull                 */
     uint32_t piece;
-    mw_rim *mate; /* the rim runs along both sides of this edge: the other side        */
+    uint32_t slot; /* a triangle of the channel, whose number an ear with this step and the one after it may take     */
+    mw_rim *mate;  /* the rim runs along both sides of this edge: the other side        */
     /* in the ring: */
     mw_rim *origin;         /* the step of the rim this is a copy of, NULL for the base of an ear        */
     uint32_t before, after; /* its neighbours, or MW_NONE                                                */
@@ -189,7 +190,8 @@ static void add_rim(const mw_constrained *c, mw_rim *rim, size_t *count, uint32_
                                .to = end_of(c, half),
                                .half = half,
                                .outer = *link_of(c, half),
-                               .piece = *piece_of(c, half)};
+                               .piece = *piece_of(c, half),
+                               .slot = mw__link_triangle(half)};
 }
 
 /* Follow the segment from a through edge `half` to the first vertex on it. Changes no triangle. */
@@ -265,7 +267,7 @@ static mw_rim cut_ear(mw_constrained *c, uint32_t t, const mw_rim *s0, const mw_
     join(c, mw__link(t, 0), s0);
     join(c, mw__link(t, 1), s1);
     *piece_of(c, mw__link(t, 2)) = MW_NONE;
-    return (mw_rim){.from = s0->from, .to = s1->to, .outer = mw__link(t, 2), .piece = MW_NONE};
+    return (mw_rim){.from = s0->from, .to = s1->to, .outer = mw__link(t, 2), .piece = MW_NONE, .slot = s1->slot};
 }
 
 /* c->ear is a heap, the ear with the shortest base first: cutting that first leaves few flips. */
@@ -340,8 +342,13 @@ static void lay_out(mw_constrained *c, mw_rim *rim, uint32_t n, bool backwards)
     for (uint32_t i = 0; i < n; i++) note_ear(c, i);
 }
 
-/* Fill the side of the channel along a rim with the triangles from c->channel[*next] on. Returns the half-edge along
- * the segment. */
+/* Fill the side of the channel along a rim; the ears are listed from c->channel[*next] on. Returns the half-edge along the
+ * segment.
+ *
+ * An ear takes the number of the triangle that its first step was an edge of, so what is near in the plane stays near in
+ * memory. That number is then free, and none is taken twice: only the triangles at either end of the channel were at two
+ * steps, and the last step's number is never taken; that is the triangle at w on the right rim, the one at a on the left
+ * rim, which runs the other way. */
 static uint32_t fill(mw_constrained *c, mw_rim *rim, size_t n, bool backwards, size_t *next)
 {
     lay_out(c, rim, (uint32_t)n, backwards);
@@ -350,7 +357,9 @@ static uint32_t fill(mw_constrained *c, mw_rim *rim, size_t n, bool backwards, s
         mw_rim *s0 = &c->ring[i], *s1 = &c->ring[s0->after];
         drop_ear(c, i);
         drop_ear(c, s0->after);
-        mw_rim base = cut_ear(c, c->channel[(*next)++], s0, s1);
+        uint32_t t = s0->slot;
+        c->channel[(*next)++] = t;
+        mw_rim base = cut_ear(c, t, s0, s1);
         base.ear = MW_NONE;
         base.before = s0->before;
         base.after = s1->after;
