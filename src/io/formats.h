@@ -41,7 +41,7 @@ mw_status mw__read_node(mw_source *node, mw_builder *builder, mw_error *error); 
 /* The same where more may follow them; tells how many coordinates they have: 2 or 3. */
 mw_status mw__read_node_rows(mw_source *node, mw_builder *builder, int64_t *dimension, mw_error *error);
 mw_status mw__read_node_file(const char *path, mw_builder *builder, mw_error *error); /* the .node of that name */
-mw_status mw__read_ele(mw_source *ele, mw_builder *builder, mw_error *error);   /* the triangles, after them */
+mw_status mw__read_ele(mw_source *ele, mw_builder *builder, mw_error *error);         /* the triangles, after them */
 mw_status mw__read_node_ele(const char *path, mw_builder *builder, mw_error *error);
 /* Is there PATH.node or PATH.node.gz? */
 mw_status mw__node_ele_exists(const char *path, bool *exists, mw_error *error);
