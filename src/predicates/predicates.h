@@ -169,17 +169,24 @@ static MW_INLINE mw_angle mw__angle(mw_point a, mw_point b, mw_point c)
 #define MW_ANGLE_ERROR ((8.0 + 128.0 * 0x1p-53) * 0x1p-53)
 #define MW_ANGLE_SUMS 0x1p100
 
+/* It as rounded, the sine of the difference of the angles times lengths. Its sign is sure where its magnitude is above
+ * *bound. */
+static MW_INLINE double mw__angle_difference_rounded(const mw_angle *s, const mw_angle *t, double *bound)
+{
+    double permanent = s->cross_sum * t->dot_sum + s->dot_sum * t->cross_sum;
+    bool small = s->cross_sum + s->dot_sum + t->cross_sum + t->dot_sum < MW_ANGLE_SUMS;
+    *bound = small ? MW_ANGLE_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
+    return s->cross * t->dot - s->dot * t->cross;
+}
+
 int mw__compare_angles_exact(const mw_angle *s, const mw_angle *t);
 
 /* Compare two angles, exactly: -1 where s is smaller, 0 where they are equal, 1 where s is larger. All coordinates are
  * finite, and a and c differ from b. */
 static MW_INLINE int mw__compare_angles(const mw_angle *s, const mw_angle *t)
 {
-    double sine = s->cross * t->dot - s->dot * t->cross;
-    double permanent = s->cross_sum * t->dot_sum + s->dot_sum * t->cross_sum;
-    bool small = s->cross_sum + s->dot_sum + t->cross_sum + t->dot_sum < MW_ANGLE_SUMS;
-    double bound = small ? MW_ANGLE_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
-    if (MW_LIKELY(fabs(sine) > bound)) return sine > 0 ? 1 : -1;
+    double bound, difference = mw__angle_difference_rounded(s, t, &bound);
+    if (MW_LIKELY(fabs(difference) > bound)) return difference > 0 ? 1 : -1;
     return mw__compare_angles_exact(s, t);
 }
 

@@ -84,10 +84,16 @@ static mw_point minus(mw_point a, mw_point b)
     return (mw_point){a.x - b.x, a.y - b.y};
 }
 
+/* An exact comparison counts as this many tests of an ear in doubles: some microseconds. */
+#define EXACT_WORK 128
+
 static bool is_smaller(const search *s, mw_point a, mw_point b, mw_point c)
 {
     mw_angle angle = mw__angle(a, b, c);
-    return mw__compare_angles(&angle, &s->worst) < 0;
+    double bound, difference = mw__angle_difference_rounded(&angle, &s->worst, &bound);
+    if (MW_LIKELY(fabs(difference) > bound)) return difference < 0;
+    s->in->work += EXACT_WORK;
+    return mw__compare_angles_exact(&angle, &s->worst) < 0;
 }
 
 /* May b, between a and c on a chain away from q, be cut off? */
@@ -96,6 +102,7 @@ static bool is_good_ear(const search *s, hand side, uint32_t va, uint32_t vb, ui
     const mw_point *point = s->in->point;
     mw_point a = point[va], b = point[vb], c = point[vc];
     double turn = mw__orient2d(a, b, c);
+    s->in->work++;
     if (side == LEFT ? turn >= 0 : turn <= 0) return false;
     return is_smaller(s, a, b, c) && is_smaller(s, c, a, b) && is_smaller(s, b, c, a);
 }
@@ -104,10 +111,8 @@ static bool is_good_ear(const search *s, hand side, uint32_t va, uint32_t vb, ui
 static uint32_t cut(const search *s, hand side, uint32_t top, uint32_t v)
 {
     const mw_chain *chain = s->in->chain;
-    while (chain[top].below != NOWHERE && is_good_ear(s, side, chain[chain[top].below].vertex, chain[top].vertex, v)) {
-        s->in->work++;
+    while (chain[top].below != NOWHERE && is_good_ear(s, side, chain[chain[top].below].vertex, chain[top].vertex, v))
         top = chain[top].below;
-    }
     return top;
 }
 

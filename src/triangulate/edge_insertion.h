@@ -15,7 +15,7 @@ typedef struct mw_insertion {
     const mw_point *point;
     mw_triangle *tri; /* fills the convex hull, counter-clockwise and linked; changed in place */
     uint32_t reach;   /* edges that an inserted one may cross at most */
-    uint64_t work;    /* triangles looked at, and ears: grows */
+    uint64_t work;    /* triangles looked at, and tests of ears: grows */
     uint32_t *made;   /* the triangles written by the last success */
     uint32_t made_count;
     /* scratch: */
