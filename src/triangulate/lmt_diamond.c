@@ -11,6 +11,8 @@
  *
  * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that lie in dead directions
  * are left out whole. What is found so is tested once more against the triangles themselves and the nearest points.
+ * Most vertices are closed by a few neighbours: no longer edge is left in any direction. The others, as on the hull or the
+ * border of a cluster, come last, and pass by what is closed and too far away.
  * All in rounded numbers, with margins: an edge is left out only if points lie surely in both triangles. */
 #include "triangulate/lmt.h"
 
@@ -24,11 +26,12 @@
 #define ANGLE_MARGIN 0x1p-40
 #define LENGTH_MARGIN 0x1p-40
 
-enum { LEAF = 8, NEAREST = 64, ARCS = 24 };
+enum { LEAF = 8, NEAREST = 64, ARCS = 24, FEW = 256 };
 
 typedef struct box {
     double low[2], high[2];
-    uint32_t begin, end; /* of the vertices in `order` */
+    uint32_t begin, end; /* of the vertices in `order`                                      */
+    double reach;        /* most of what `reach` has for its vertices                      */
 } box;
 
 typedef struct item {
@@ -50,6 +53,7 @@ typedef struct seen {
 
 typedef struct seeker {
     const mw_scaled *points;
+    double *reach; /* per point: the square of the length of the edges that may leave it, at most */
     uint32_t *order;
     box *node;
     uint32_t node_count, first_leaf;
@@ -58,9 +62,10 @@ typedef struct seeker {
     seen *seen; /* points visited, not before `active` of them have made their directions dead */
     uint32_t seen_count, active;
     arcs left, right;
-    mw_point nearest[NEAREST];
+    mw_point nearest[NEAREST]; /* as seen from the vertex */
+    uint32_t nearest_number[NEAREST];
     uint32_t nearest_count;
-    double tangent, reach; /* of the base angle; the square of 2 cos a: both with margins */
+    double tangent, stretch; /* of the base angle; the square of 2 cos a: both with margins */
 } seeker;
 
 bool mw__edge_push(mw_edge_list *list, uint64_t key)
@@ -126,6 +131,7 @@ static void bound(seeker *s, box *b)
 
 static void build(seeker *s, uint32_t vertex_count)
 {
+    s->node[0].reach = INFINITY;
     s->node[0].begin = 0;
     s->node[0].end = vertex_count;
     for (uint32_t i = 0; i < s->node_count; i++) {
@@ -134,6 +140,7 @@ static void build(seeker *s, uint32_t vertex_count)
         if (i >= s->first_leaf) continue;
         uint32_t middle = b->begin + (b->end - b->begin) / 2;
         select_middle(s, b->begin, b->end, middle, b->high[0] - b->low[0] < b->high[1] - b->low[1]);
+        s->node[2 * i + 1].reach = s->node[2 * i + 2].reach = INFINITY;
         s->node[2 * i + 1].begin = b->begin;
         s->node[2 * i + 1].end = s->node[2 * i + 2].begin = middle;
         s->node[2 * i + 2].end = b->end;
@@ -150,11 +157,15 @@ static bool prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_count)
     s->node = mw__alloc(s->node_count, sizeof *s->node);
     s->heap = mw__alloc((size_t)vertex_count + s->node_count, sizeof *s->heap);
     s->seen = mw__alloc(vertex_count, sizeof *s->seen);
-    if (!s->order || !s->node || !s->heap || !s->seen) return false;
-    for (uint32_t i = 0; i < vertex_count; i++) s->order[i] = vertex[i];
+    s->reach = mw__alloc(s->points->count, sizeof *s->reach);
+    if (!s->reach || !s->order || !s->node || !s->heap || !s->seen) return false;
+    for (uint32_t i = 0; i < vertex_count; i++) {
+        s->order[i] = vertex[i];
+        s->reach[vertex[i]] = INFINITY;
+    }
     build(s, vertex_count);
     double cosine = cos(BASE_ANGLE);
-    s->reach = 4 * cosine * cosine * (1 + LENGTH_MARGIN);
+    s->stretch = 4 * cosine * cosine * (1 + LENGTH_MARGIN);
     s->tangent = tan(BASE_ANGLE) * (1 - LENGTH_MARGIN);
     return true;
 }
@@ -231,7 +242,7 @@ static bool all_dead(const seeker *s, double from, double to)
 /* The points at less than the square of a distance, divided by 2 cos a, make their directions dead from there on. */
 static void activate(seeker *s, double square)
 {
-    for (; s->active < s->seen_count && s->seen[s->active].square * s->reach < square; s->active++) {
+    for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch < square; s->active++) {
         double angle = s->seen[s->active].angle;
         make_dead(&s->left, angle - BASE_ANGLE, angle);
         make_dead(&s->right, angle, angle + BASE_ANGLE);
@@ -275,24 +286,36 @@ static void open_box(seeker *s, uint32_t p, uint32_t number)
     mw_point at = s->points->scaled[p];
     const box *b = &s->node[number];
     if (is_hidden(s, at, b)) return;
-    if (number < s->first_leaf) {
-        for (uint32_t child = 2 * number + 1; child <= 2 * number + 2; child++)
-            push(s, (item){box_square(&s->node[child], at), child, true});
-        return;
+    for (uint32_t child = 2 * number + 1; number < s->first_leaf && child <= 2 * number + 2; child++) {
+        double square = box_square(&s->node[child], at);
+        if (square <= s->node[child].reach) push(s, (item){square, child, true});
     }
-    for (uint32_t i = b->begin; i < b->end; i++)
-        if (s->order[i] != p) push(s, (item){mw__square(s->points, p, s->order[i]), s->order[i], false});
+    for (uint32_t i = b->begin; number >= s->first_leaf && i < b->end; i++) {
+        double square = mw__square(s->points, p, s->order[i]);
+        if (s->order[i] != p && square <= s->reach[s->order[i]]) push(s, (item){square, s->order[i], false});
+    }
 }
 
-/* Do points near by lie surely in both triangles of the edge to u? */
-static bool fails(const seeker *s, mw_point u, double square)
+/* Is b, another point than a and c, on the way from a to c? Exact. */
+static bool is_between(mw_point a, mw_point b, mw_point c)
 {
+    return fmin(a.x, c.x) <= b.x && b.x <= fmax(a.x, c.x) && fmin(a.y, c.y) <= b.y && b.y <= fmax(a.y, c.y) &&
+           mw__orient2d(a, b, c) == 0;
+}
+
+/* Is a point near by on the way from p to q, or do such points lie surely in both triangles of that edge? */
+static bool fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double square)
+{
+    const mw_point *point = s->points->point;
     bool left = false, right = false;
     for (uint32_t i = 0; i < s->nearest_count; i++) {
         mw_point w = s->nearest[i];
         double a = u.x * w.y, b = u.y * w.x, height = fabs(a - b), along = u.x * w.x + u.y * w.y;
-        bool inside = height > LENGTH_MARGIN * (fabs(a) + fabs(b)) && height < s->tangent * along &&
-                      height < s->tangent * (square - along - LENGTH_MARGIN * square);
+        if (height <= LENGTH_MARGIN * (fabs(a) + fabs(b))) {
+            if (along > 0 && is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
+            continue;
+        }
+        bool inside = height < s->tangent * along && height < s->tangent * (square - along - LENGTH_MARGIN * square);
         left |= inside && a > b;
         right |= inside && a < b;
     }
@@ -305,13 +328,18 @@ static bool visit(seeker *s, uint32_t p, item it)
     mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};
     double angle = atan2(u.y, u.x);
     s->seen[s->seen_count++] = (seen){it.square, angle};
-    bool candidate = !all_dead(s, angle, angle) && !fails(s, u, it.square);
-    if (s->nearest_count < NEAREST) s->nearest[s->nearest_count++] = u;
+    bool candidate = !all_dead(s, angle, angle) && !fails(s, p, it.number, u, it.square);
+    if (s->nearest_count < NEAREST) {
+        s->nearest_number[s->nearest_count] = it.number;
+        s->nearest[s->nearest_count++] = u;
+    }
     return candidate;
 }
 
-static mw_lmt_result seek(seeker *s, uint32_t p, mw_effort *effort, mw_edge_list *list)
+/* Collect the candidates from p, unless more than `most` points come before it is closed. */
+static mw_lmt_result seek(seeker *s, uint32_t p, uint32_t most, mw_effort *effort, mw_edge_list *list)
 {
+    size_t before = list->count;
     s->heap_count = s->seen_count = s->active = s->nearest_count = 0;
     s->left.count = s->right.count = 0;
     push(s, (item){0, 0, true});
@@ -320,14 +348,34 @@ static mw_lmt_result seek(seeker *s, uint32_t p, mw_effort *effort, mw_edge_list
         effort->steps--;
         item it = pop(s);
         activate(s, it.square);
+        if (all_dead(s, -PI, PI)) {
+            s->reach[p] = it.square;
+            return MW_LMT_DONE;
+        }
         if (it.is_box) {
             open_box(s, p, it.number);
+        } else if (s->seen_count == most) {
+            list->count = before;
+            return MW_LMT_DONE;
         } else if (visit(s, p, it)) {
             if (list->count >= effort->candidates) return MW_LMT_SPENT;
             if (!mw__edge_push(list, mw__edge_key(p, it.number))) return MW_LMT_MEMORY;
         }
     }
+    s->reach[p] = DBL_MAX; /* never closed, but all are seen */
     return MW_LMT_DONE;
+}
+
+static void spread_reach(seeker *s)
+{
+    for (uint32_t i = s->node_count; i-- > 0;) {
+        box *b = &s->node[i];
+        b->reach = 0;
+        if (i < s->first_leaf)
+            b->reach = fmax(s->node[2 * i + 1].reach, s->node[2 * i + 2].reach);
+        else
+            for (uint32_t k = b->begin; k < b->end; k++) b->reach = fmax(b->reach, s->reach[s->order[k]]);
+    }
 }
 
 mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint32_t vertex_count, mw_effort *effort,
@@ -335,7 +383,12 @@ mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint3
 {
     seeker s = {.points = points};
     mw_lmt_result result = prepare(&s, vertex, vertex_count) ? MW_LMT_DONE : MW_LMT_MEMORY;
-    for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++) result = seek(&s, vertex[i], effort, list);
+    for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
+        result = seek(&s, s.order[i], FEW, effort, list);
+    if (result == MW_LMT_DONE) spread_reach(&s);
+    for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
+        if (s.reach[s.order[i]] == INFINITY) result = seek(&s, s.order[i], UINT32_MAX, effort, list);
+    free(s.reach);
     free(s.order);
     free(s.node);
     free(s.heap);
