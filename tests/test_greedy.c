@@ -349,21 +349,38 @@ static void test_definition(void **state)
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) mpz_clear(pairs[i].square);
 }
 
-/* Two curves that bulge towards each other make many corners that cannot be cut off: the heap is filled anew. */
+static void check_large(make_points *make, uint64_t seed)
+{
+    enum { N = 3000 };
+    static mw_point p[N];
+    uint64_t random = mw__random_seed(seed, 4);
+    make(p, N, &random);
+    mw_mesh *mesh = greedy_mesh(p, N, NULL, NULL);
+    assert_non_null(mesh);
+    check_sound(mesh, p, N);
+    check_diagonals(mesh, p);
+    mw_mesh_destroy(mesh);
+}
+
 static void test_larger(void **state)
 {
     (void)state;
-    enum { N = 3000 };
-    static mw_point p[N];
-    for (uint64_t seed = 1; seed <= 2 * MAKERS; seed++) {
-        uint64_t random = mw__random_seed(seed, 4);
-        makers[seed % MAKERS](p, N, &random);
-        mw_mesh *mesh = greedy_mesh(p, N, NULL, NULL);
-        assert_non_null(mesh);
-        check_sound(mesh, p, N);
-        check_diagonals(mesh, p);
-        mw_mesh_destroy(mesh);
+    for (uint64_t seed = 1; seed <= 2 * MAKERS; seed++) check_large(makers[seed % MAKERS], seed);
+}
+
+/* Two curves that bulge towards each other make many corners that cannot be cut off: the heap is filled anew. */
+static void bulges(mw_point *p, uint32_t n, uint64_t *random)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        double x = random_unit(random) - 0.5, y = 1 + x * x;
+        p[i] = (mw_point){x, i % 2 ? y : -y};
     }
+}
+
+static void test_many_corners(void **state)
+{
+    (void)state;
+    check_large(bulges, 1);
 }
 
 /* Of the two diagonals of a square, that with the lowest number wins; then lowest other end. */
@@ -406,10 +423,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_definition),
-        cmocka_unit_test(test_larger),
-        cmocka_unit_test(test_ties),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_definition), cmocka_unit_test(test_larger), cmocka_unit_test(test_many_corners),
+        cmocka_unit_test(test_ties),       cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests_name("greedy", tests, NULL, NULL);
 }

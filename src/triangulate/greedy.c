@@ -126,7 +126,6 @@ static bool add_corners(greedy *g, uint32_t half)
 /* Add the open edges of a triangle: each from one of its two triangles only. */
 static bool add_edges(greedy *g, uint32_t t)
 {
-    memcpy(g->seen[t], g->net.tri[t].v, sizeof g->seen[t]);
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t half = mw__link(t, k);
         if (half > link_of(g, half) || is_taken(g, half)) continue;
@@ -135,16 +134,18 @@ static bool add_edges(greedy *g, uint32_t t)
     return true;
 }
 
-/* Begin with an empty heap: all open edges, all corners. */
+/* Begin with an empty heap: all open edges, all corners. Done anew when half as many others as there are triangles may have
+ * gathered in it, so memory and time stay in proportion. */
 static bool gather(greedy *g)
 {
     g->heap.count = 0;
     for (uint32_t t = 0; t < g->net.tri_count; t++) {
+        memcpy(g->seen[t], g->net.tri[t].v, sizeof g->seen[t]);
         if (!add_edges(g, t)) return false;
         for (uint32_t k = 0; k < 3; k++)
             if (is_taken(g, mw__link(t, k)) && !add_corners(g, mw__link(t, k))) return false;
     }
-    g->limit = 2 * g->heap.count + 64;
+    g->limit = g->heap.count + g->net.tri_count / 2;
     return true;
 }
 
@@ -160,13 +161,12 @@ static void visit(greedy *g, uint32_t half, uint32_t *count)
     g->changed[(*count)++] = t;
 }
 
-/* An edge was forced in: add the edges of the triangles that this has changed. They hang together, on either side of it,
- * and each has other vertices than what was there before. */
+/* An edge was forced in: add the edges of the triangles that this has changed. They hang together, along the edge and on
+ * either side of it, and each has other vertices than the one it replaces. */
 static bool add_changes(greedy *g, uint32_t half)
 {
     uint32_t count = 0;
     visit(g, half, &count);
-    visit(g, link_of(g, half), &count);
     for (uint32_t i = 0; i < count; i++) {
         if (!add_edges(g, g->changed[i])) return false;
         for (uint32_t k = 0; k < 3; k++) visit(g, link_of(g, mw__link(g->changed[i], k)), &count);
