@@ -7,51 +7,9 @@
 #define CLI_MEASURE_H
 
 #include "datasets.h"
+#include "quantity.h"
 
 #include <meshwalk/meshwalk.h>
-
-/* Means per query; but of the names with `max` the most of one query, and of those from LAYERS on the thing itself. */
-typedef enum quantity {
-    TRIANGLES_INIT,
-    TRIANGLES,
-    TRIANGLES_FINAL,
-    TRIANGLES_FINAL_MAX,
-    ORIENT_INIT,
-    ORIENT,
-    ORIENT_FINAL,
-    IMPLICIT,
-    COMPARISONS,
-    WALK_RUNS,
-    TRIANGLES_WALK_MAX,
-    BORDER_RUNS,
-    TRIANGLES_BORDER,
-    ORIENT_BORDER,
-    TRIANGLES_BORDER_MAX,
-    BORDER_EDGES,
-    BORDER_EDGES_MAX,
-    TRIANGLES_TOTAL, /* entered by the walk, and looked at to find the first */
-    SAMPLE,          /* so many were looked at                               */
-    INSIDE_PERCENT,  /* of the queries, in the mesh                          */
-    LAYERS,
-    LOCATOR_BYTES, /* what the locator has built beside the mesh */
-    EDGE_LENGTH,   /* sum over the edges of the triangulation */
-    SIDE_LENGTH,   /* sum over the sides of the triangles: inner edges twice */
-    LARGEST_ANGLE, /* degrees */
-    OPTIMAL,       /* 1, or 0: a local optimum only */
-    LOCATOR_SECONDS,
-    TRIANGULATION_SECONDS,
-    TIME_US,       /* plain doubles, microseconds */
-    TIME_EXACT_US, /* exact arithmetic            */
-    MESH_TRIANGLES,
-    MESH_BORDER_EDGES,
-    MESH_HOLES,
-    HULL_PERCENT, /* of the convex hull, in the mesh */
-    CORRELATION,  /* of triangles and side length, over the kinds of triangulation */
-    QUANTITIES
-} quantity;
-
-const char *quantity_name(quantity q); /* "triangles_init", ... */
-bool quantity_is_time(quantity q);
 
 /* How a mesh is made ready for a walk. */
 typedef enum preparation {

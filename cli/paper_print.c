@@ -109,6 +109,7 @@ static int decimals_of(quantity q)
     if (q == LOCATOR_BYTES || q == MESH_TRIANGLES || q == MESH_BORDER_EDGES || q == MESH_HOLES || q == OPTIMAL ||
         q == SAMPLE)
         return 0;
+    if (q == LARGEST_ANGLE) return 4;
     return q == CORRELATION || q == LOCATOR_SECONDS || q == TRIANGULATION_SECONDS ? 3 : 2;
 }
 

@@ -369,7 +369,7 @@ typedef struct page {
 
 static page lay_out(const plot *p)
 {
-    page g = {.columns = p->count < MOST_COLUMNS ? p->count : MOST_COLUMNS};
+    page g = {.columns = p->count == 4 ? 2 : p->count < MOST_COLUMNS ? p->count : MOST_COLUMNS};
     g.rows = (p->count + g.columns - 1) / g.columns;
     g.width = (double)g.columns * (LEFT + PANEL_WIDTH + RIGHT) + LEGEND_WIDTH;
     g.height = HEAD + (double)g.rows * (ABOVE + PANEL_HEIGHT + BELOW);

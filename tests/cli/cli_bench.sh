@@ -112,6 +112,90 @@ for enclose in yes no; do run bench paper A1 --data empty.xyz --enclose $enclose
 printf '0 0\n1 1\n2 nan\n0 1\n' >nan.xyz
 run bench paper E2 --data nan.xyz "${few[@]}"; refused 3 'nan.xyz.*2'
 
+# Appendix D: of each domain its mesh, and four rows: queries in it or in its hull, from a random triangle or a sample.
+# Eighteen quantities a walk without times. The border walk and the filled mesh are compared by the program.
+run bench paper D1 --sizes 4897,500 "${few[@]}"; exits 0; says_nothing; sound 440
+publishes cadastre 4897 mesh mesh_triangles 9635
+publishes cadastre 4897 mesh hull_percent 75.53
+publishes cadastre-mesh-random 4897 border walk_runs 1.08
+publishes cadastre-hull-random 4897 border triangles_border 142.2
+publishes cadastre-mesh-sample 4897 border sample 17
+publishes cadastre-hull-sample 4897 border triangles_total 158.9
+holds "the mesh has as many triangles as the table's" test "$(ours cadastre 4897 mesh mesh_triangles)" == 9635
+holds "and border edges" test "$(ours cadastre 4897 mesh mesh_border_edges)" == 163
+holds "and fills as much of its hull" between 74 "$(ours cadastre 4897 mesh hull_percent)" 77
+holds "a hundred queries in the mesh" test "$(ours cadastre-mesh-random 4897 border inside_percent)" == 100
+holds "fewer of those in the hull" between 55 "$(ours cadastre-hull-random 4897 border inside_percent)" 95
+holds "the border walk builds less" test "$(ours cadastre-mesh-random 4897 border locator_bytes)" -lt \
+    "$(ours cadastre-mesh-random 4897 straight-filled locator_bytes)"
+holds "a filled mesh has no border to go round" test "$(ours cadastre-hull-random 500 auto-filled border_runs)" == 0
+holds "the border walk goes round some" \
+    between 0.1 "$(ours cadastre-hull-random 500 border border_runs)" "$(ours cadastre-hull-random 500 border border_edges)"
+walked=$(ours cadastre-hull-sample 4897 border triangles) round=$(ours cadastre-hull-sample 4897 border triangles_border)
+total=$(awk "BEGIN { print $walked + $round + 16 }")
+holds "all triangles are those of both phases and of the sample, $total" \
+    test "$(ours cadastre-hull-sample 4897 border triangles_total)" == "$total"
+run bench paper D1 --sizes 10,11,30,100 --seed 5 "${few[@]}"; exits 0; says_nothing; sound 880
+run bench paper D1 --sizes 300 "${few[@]}" --threads 1; cp "$logs/out" one.tsv
+run bench paper D1 --sizes 300 "${few[@]}" --threads 2
+holds "the number of threads changes nothing" same_text one.tsv "$logs/out"
+# A ring of eight triangles round a hole; the hull is a square of 16, the hole one of 4.
+ring='OFF
+8 8 0
+0 0 0
+4 0 0
+4 4 0
+0 4 0
+1 1 0
+3 1 0
+3 3 0
+1 3 0
+3 0 1 5
+3 0 5 4
+3 1 2 6
+3 1 6 5
+3 2 3 7
+3 2 7 6
+3 3 0 4
+3 3 4 7'
+printf '%s\n' "$ring" >ring.off
+run bench paper D1 --data ring.off --queries 4000 --no-times --format tsv; exits 0; says_nothing; sound 220
+holds "a hole" test "$(ours ring.off 8 mesh mesh_holes)" == 1
+holds "the mesh fills three quarters of its hull" test "$(ours ring.off 8 mesh hull_percent)" == 75
+holds "so many queries are inside" between 72 "$(ours ring.off-hull-random 8 border inside_percent)" 78
+run bench paper D1 --data ring.off --queries 100; exits 0; says_nothing
+prints_line '^  mesh +mesh_border_edges +8$'
+prints_line '^  border +border_runs +[0-9.]+$'
+prints_line '^  over those of straight-filled$'
+run bench paper D1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is no mesh'
+run bench paper D1 --data ring.off --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'
+printf 'OFF\n3 1 0\n0 0 0\n1 1 0\n2 2 0\n3 0 1 2\n' >flat.off
+run bench paper D1 --data flat.off "${few[@]}"; refused 3 'flat.off'
+rm flat.off one.tsv
+
+# Appendix E: four triangulations of the same points.
+run bench paper E1 --sizes 1000 "${few[@]}"; exits 0; says_nothing; sound 25
+for kind in greedy min-weight; do
+    holds "$kind has shorter edges than delaunay" \
+        between 1 "$(ours uniform 1000 $kind edge_length)" "$(ours uniform 1000 delaunay edge_length)"
+done
+holds "none is shorter than min-weight" \
+    between 1 "$(ours uniform 1000 min-weight edge_length)" "$(ours uniform 1000 greedy edge_length)"
+# The corners of the square are vertices: its sides are the only edges that count once.
+edges=$(ours uniform 1000 delaunay edge_length) sides=$(ours uniform 1000 delaunay side_length)
+holds "inner edges count twice: $edges, $sides" \
+    between -0.001 "$(awk "BEGIN { print 2 * $edges - 4 - $sides }")" 0.001
+run bench paper E1 --sizes 1e4 --queries 10 --no-times --format tsv; exits 0; sound 25
+publishes uniform 10000 delaunay side_length 723.09
+publishes uniform 10000 min-max-angle triangles 120.187
+publishes uniform 10000 kinds correlation 0.998
+holds "the edges are as long as published" \
+    between 716 "$(ours uniform 10000 delaunay side_length)" 730
+printf '0 0\n3 0\n3 3\n0 3\n1 1\n' >five.xyz
+run bench paper E1 --data five.xyz --enclose no --queries 100; exits 0; says_nothing
+prints_line '^  min-weight +MWT +optimal +1$'
+rm five.xyz
+
 # A strip along the diagonal: queries are drawn until enough are in it, however few that are of those drawn; but there is
 # an end. Points so far apart that their extent overflows.
 strip() { awk -v w="$1" 'BEGIN { for (i = 0; i <= 200; i++) print i / 200, i / 200 + (i % 2 ? w : 0) }'; }
@@ -178,7 +262,11 @@ else
     holds "the plot is a PNG" test "$(head -c 4 a2.PNG | tr -d '\211')" == PNG
     run bench paper B2 --plot b2.pdf --data p.xyz,m.off "${few[@]}"; exits 0
     holds "the plot is a PDF" test "$(head -c 4 b2.pdf)" == %PDF
-    rm e2.svg a2.PNG b2.pdf
+    run bench paper D1 --plot d1.svg --sizes 100,200 "${few[@]}"; exits 0; says_nothing
+    holds "the plot has the panels of Fig. 11 and 12" test "$(grep -c '<svg' d1.svg)" == 1
+    run bench paper D1 --plot d1.svg --data ring.off "${few[@]}"; exits 0; says_nothing
+    run bench paper E1 --plot e1.svg --sizes 50,60 "${few[@]}"; exits 0; says_nothing
+    rm e2.svg a2.PNG b2.pdf d1.svg e1.svg
     # Where the clock stands still all times are 0, which a logarithmic axis has no place for beside the published ones.
     # (Under a sanitizer no other clock can be loaded.)
     printf '#include <time.h>\nint clock_gettime(clockid_t c, struct timespec *t) { t->tv_sec = t->tv_nsec = c * 0; return 0; }' |
@@ -206,5 +294,5 @@ run bench near-vertices --data p.xyz; refused 2 'makes its own points'
 run bench near-vertices --no-times; refused 2 'leave out --no-times'
 run bench near-vertices --sizes 1e8 -o absent/near.tsv; exits 4; says 'absent/near.tsv'
 rm near.tsv
-only_files p.xyz m.off line.xyz empty.xyz nan.xyz
+only_files p.xyz m.off ring.off line.xyz empty.xyz nan.xyz
 finish
