@@ -64,7 +64,8 @@ typedef struct mw_kind_report {
 
 typedef struct mw_kind_options {
     uint32_t limit; /* MW_MIN_WEIGHT: corners of the largest face that is filled optimally; MW_MIN_MAX_ANGLE: most
-                       points for which the optimum is sought; 0 = what takes seconds                                  */
+                       points for which the optimum is sought, however long it takes; 0 = what takes seconds, at most
+                       about half a minute                                                                             */
     uint32_t reserved[7];
 } mw_kind_options;
 
@@ -74,8 +75,8 @@ typedef struct mw_kind_options {
  *   MW_MIN_WEIGHT     Sums of lengths are compared in doubles, so of triangulations that differ in the last digits any
  *                     may be made. Faces that are too large for dynamic programming, or hold points, get a local optimum:
  *                     no exchange of the diagonal of a quadrilateral shortens it.
- *   MW_MIN_MAX_ANGLE  Angles are compared exactly. Above the limit a local optimum: no exchange of a diagonal makes the
- *                     largest angle of its quadrilateral smaller. */
+ *   MW_MIN_MAX_ANGLE  Angles are compared exactly. Always a local optimum, and above the limit that only: no exchange of a
+ *                     diagonal makes the largest angle of its quadrilateral smaller. */
 MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,
                                 const mw_kind_options *options, uint32_t *duplicate_of, mw_kind_report *report,
                                 mw_mesh **out, mw_error *error);
