@@ -35,14 +35,29 @@ static MW_INLINE void begin_run(mw_walk *w, uint32_t phase, uint32_t stage, mw_p
     w->work->border_runs += stage == MW_STAGE_BORDER;
 }
 
+/* From border edge e on along the border: to the edge that begins at its end, or to a tile beyond a turn. */
+static MW_INLINE mw_verdict turn_corner(mw_walk *w, uint32_t e, mw_policy P)
+{
+    const mw_open *open = w->tiling->open;
+    uint32_t turn = open && MW_UNLIKELY(open->turn_count > 0) ? mw__open_turn(open, mw__link(w->t, e)) : MW_NONE;
+    w->e = mw__next(e);
+    if (MW_LIKELY(turn == MW_NONE)) return MW_GO;
+    w->t = mw__link_triangle(turn);
+    w->e = mw__link_edge(turn);
+    if (P.count) {
+        w->work->visited++;
+        w->work->triangles[MW_STAGE_BORDER]++;
+    }
+    return MW_GO;
+}
+
 /* Leave over edge e, whose end lies strictly to the left: into the next tile, or along the border. */
 static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (MW_LIKELY(w->tri[w->t].link[e] != MW_NONE)) return cross(w, e, P);
     w->exit = w->lowest = mw__link(w->t, e);
     begin_run(w, ROUND_LEFT, MW_STAGE_BORDER, P);
-    w->e = mw__next(e);
-    return MW_GO;
+    return turn_corner(w, e, P);
 }
 
 /* The first tile: the first edge that q lies beyond, and p on it. */
@@ -98,17 +113,7 @@ static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, mw_policy P)
         return MW_GO;
     }
     w->phase = s > 0 ? ROUND_LEFT : s < 0 ? ROUND_RIGHT : ROUND_ON;
-    const mw_open *open = w->tiling->open;
-    uint32_t turn = open && MW_UNLIKELY(open->turn_count > 0) ? mw__open_turn(open, half) : MW_NONE;
-    if (turn == MW_NONE) {
-        w->e = mw__next(e);
-    } else {
-        w->t = mw__link_triangle(turn);
-        w->e = mw__link_edge(turn);
-        if (P.count) w->work->visited++;
-        if (P.count) w->work->triangles[MW_STAGE_BORDER]++;
-    }
-    return MW_GO;
+    return turn_corner(w, e, P);
 }
 
 /* Edge e begins at the border's last vertex: it is the border's next edge, or the next tile round that vertex is behind it. */
