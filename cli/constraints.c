@@ -26,7 +26,7 @@ int constraints_read(const char *path, mw_constraint_file *file)
     bool unknown = status == MW_ERROR_INPUT && !files_is_stream(path) && !mw_constraints_known(path);
     if (vector_gdal_built() && (unknown || is_directory(path))) return vector_gdal_read(path, file);
     int end = fail_reading(&error);
-    if (unknown) complain("other vector files are read by a program that was built with GDAL");
+    if (unknown) complain("a program that was built with GDAL reads other vector files too");
     return end;
 }
 
@@ -67,7 +67,7 @@ static void crossing(const double *points, const uint32_t *one, const uint32_t *
 }
 
 int constraints_cross(const char *path, const mw_constraint_file *file, const double *points, const uint32_t cross[2],
-                      bool split, const mw_error *error)
+                      bool split)
 {
     const char *what = file->place_name;
     uint32_t one = file->place[cross[0]], other = file->place[cross[1]];
@@ -78,7 +78,7 @@ int constraints_cross(const char *path, const mw_constraint_file *file, const do
         snprintf(second, sizeof second, "itself");
     else
         snprintf(second, sizeof second, "%s %" PRIu32, what, other);
-    complain("%s: %s %" PRIu32 " crosses %s near %.6g %.6g; %s", path, what, one, second, at[0], at[1],
-             split ? error->message : "--split puts a vertex there");
+    complain("%s: %s %" PRIu32 " crosses %s near %.9g %.9g; %s", path, what, one, second, at[0], at[1],
+             split ? "others are so close there that rounding cannot part them" : "--split puts a vertex there");
     return END_INPUT;
 }

@@ -14,9 +14,9 @@ bool constraints_are_poly(const mw_constraint_file *file);
 /* The file may take its points from a .node file beside it. Would the output write that? */
 bool constraints_share_node(const char *path, const char *output);
 
-/* Complain of two segments that cross; `points` are the vertices that they name, 3 doubles each. `split`: even so,
- * because `error`. Returns the exit code. */
+/* Complain of two segments that cross; `points` are the vertices that they name, 3 doubles each. `split`: even though
+ * they were split. Returns the exit code. */
 int constraints_cross(const char *path, const mw_constraint_file *file, const double *points, const uint32_t cross[2],
-                      bool split, const mw_error *error);
+                      bool split);
 
 #endif

@@ -111,7 +111,7 @@ static int fail_constrained(const triangulate_settings *s, const char *points, c
 {
     const uint32_t *cross = w->constrained.cross;
     if (error->status == MW_ERROR_INPUT && cross[0] != MW_NONE)
-        return constraints_cross(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split, error);
+        return constraints_cross(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split);
     bool given = points && error->vertex >= 0 && (size_t)error->vertex < w->vertices.points;
     return fail_mesh(given ? points : s->constraints, error);
 }

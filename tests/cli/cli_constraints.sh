@@ -184,6 +184,11 @@ for kind in delaunay greedy min-weight; do holds "min-max-angle has small angles
 run triangulate r.xyz --kind min-max-angle --limit 20 -o r.off; exits 0; prints_line '^optimal +no$'
 says '^meshwalk: r\.xyz: warning: .*min-max-angle.*local optimum.*--limit'
 run triangulate r.xyz --kind min-max-angle --limit 20 -q -o r.off; exits 0; says_nothing; prints ''
+awk 'BEGIN { for (i = 0; i < 40; i++) printf "%.9g %.9g\n", cos(i * .157), sin(i * .157) }' >circle.xyz
+run triangulate circle.xyz --kind min-weight -o r.off; exits 0; says_nothing; prints_line '^optimal +yes$'
+prints_line '^faces +1$'; prints_line '^largest face +40$'; prints_line '^local faces +0$'
+run triangulate circle.xyz --kind min-weight --limit 10 -o r.off; exits 0; prints_line '^optimal +no$'
+says '^meshwalk: circle\.xyz: warning: .*min-weight.*local optimum: of 1 faces.*40 corners.*--limit'
 run triangulate r.xyz --kind min-weight -o r.off --json; holds "the report is JSON" is_json "$logs/out"
 prints_line '"largest_face": '
 run triangulate r.xyz --limit 20 -o r.off; refused 2 '--limit is about'
