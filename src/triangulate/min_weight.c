@@ -8,8 +8,9 @@
  *
  * A face is then a set of triangles of T, joined across marked edges. Where these edges join them to a tree, the face is a
  * polygon (its border may touch itself, as where an edge of the skeleton ends inside), all candidates that cross it are known,
- * with the corners where they begin and end, and dynamic programming finds its least weight. Where they make a ring,
- * the face holds a vertex or a part of the skeleton; it stays as it is in T, as do faces that are too large. */
+ * with the corners where they begin and end, and dynamic programming finds its least weight. Where they make rings, the face
+ * holds vertices or parts of the skeleton. It is cut open along as many edges of T as there are rings: the same gives the
+ * least weight with these edges, which is a local optimum. Faces that are too large stay as they are in T. */
 #include "triangulate/kind.h"
 #include "triangulate/lmt.h"
 
@@ -300,8 +301,12 @@ static mw_lmt_result make_skeleton(weigher *w, uint32_t limit)
 typedef struct face {
     uint32_t triangles; /* at the beginning of w->list */
     uint32_t border;    /* edges of it, those met twice counted twice */
-    bool is_polygon;
+    bool is_cut;
 } face;
+
+enum {
+    TREE_SHIFT = 4
+}; /* marked edges that join a triangle to one found before have a second mark, this much higher */
 
 static face find_face(weigher *w, uint32_t first)
 {
@@ -315,13 +320,35 @@ static face find_face(weigher *w, uint32_t first)
             if (!is_marked(w, t, k)) continue;
             uint32_t other = mw__link_triangle(w->t->tri[t].link[k]);
             joints++;
-            if (!w->seen[other]) w->list[f.triangles++] = other;
+            if (w->seen[other]) continue;
             w->seen[other] = true;
+            w->list[f.triangles++] = other;
+            w->mark[t] |= (uint8_t)(1u << (k + TREE_SHIFT));
+            w->mark[other] |= (uint8_t)(1u << (mw__link_edge(w->t->tri[t].link[k]) + TREE_SHIFT));
         }
     }
     f.border = 3 * f.triangles - joints;
-    f.is_polygon = joints == 2 * (f.triangles - 1);
+    f.is_cut = joints != 2 * (f.triangles - 1);
     return f;
+}
+
+/* Cut each ring: the marked edges that are not in the tree become border. */
+static void cut_open(const weigher *w, face *f)
+{
+    for (uint32_t i = 0; i < f->triangles; i++) w->mark[w->list[i]] >>= TREE_SHIFT;
+    f->border = f->triangles + 2;
+}
+
+/* Does a candidate cross none of the edges along which its face was cut? */
+static bool stays_inside(const weigher *w, const crossing *way)
+{
+    uint32_t u = start_of(w, way->from), v = start_of(w, way->to);
+    for (uint32_t half = next_of(way->from); has_mark(w, half);) {
+        uint32_t twin = link_of(w, half), apex = start_of(w, prev_of(twin));
+        if (apex == v) return true;
+        half = side(w, u, v, apex) > 0 ? next_of(twin) : prev_of(twin);
+    }
+    return false;
 }
 
 /* Number the corners along the border: at each vertex, turn through the face from one edge of the border to the next. */
@@ -359,18 +386,23 @@ static size_t count_chords(const weigher *w, const face *f)
     return count;
 }
 
-static void gather_chords(const weigher *w, const face *f, mw_chord *chord)
+static size_t gather_chords(const weigher *w, const face *f, mw_chord *chord)
 {
+    size_t count = 0;
     for (uint32_t i = 0; i < f->triangles; i++) {
         uint32_t t = w->list[i];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t half = mw__link(t, k);
             if (has_mark(w, half) && mw__link_triangle(link_of(w, half)) > t)
-                *chord++ = make_chord(w, corner_at(w, half), corner_at(w, next_of(half)));
+                chord[count++] = make_chord(w, corner_at(w, half), corner_at(w, next_of(half)));
         }
-        for (uint32_t c = w->chain[t]; c != MW_NONE; c = w->crossing[c].next)
-            *chord++ = make_chord(w, corner_at(w, w->crossing[c].from), corner_at(w, w->crossing[c].to));
+        for (uint32_t c = w->chain[t]; c != MW_NONE; c = w->crossing[c].next) {
+            const crossing *way = &w->crossing[c];
+            if (!f->is_cut || stays_inside(w, way))
+                chord[count++] = make_chord(w, corner_at(w, way->from), corner_at(w, way->to));
+        }
     }
+    return count;
 }
 
 /* May this polygon be filled, for what has been spent so far? */
@@ -397,19 +429,19 @@ static bool write_triangles(weigher *w, const face *f, const mw_polygon *p)
     return done;
 }
 
-/* A face of at least five corners. *filled tells whether it has its least weight. */
-static bool fill_face(weigher *w, const face *f, uint32_t limit, bool *filled)
+/* A face of more than two triangles. *filled tells whether it has its least weight. */
+static bool fill_face(weigher *w, face *f, uint32_t limit, bool *filled)
 {
     *filled = false;
-    if (w->whole || !f->is_polygon || (limit > 0 && f->border > limit)) return true;
-    size_t count = count_chords(w, f);
-    mw_chord *chord = mw__alloc(count, sizeof *chord);
+    if (f->is_cut) cut_open(w, f);
+    if (w->whole || (limit > 0 && f->border > limit)) return true;
+    mw_chord *chord = mw__alloc(count_chords(w, f), sizeof *chord);
     if (!chord) return false;
     number_corners(w, f);
-    gather_chords(w, f, chord);
-    mw_polygon p = {f->border, chord, count};
+    mw_polygon p = {f->border, chord, gather_chords(w, f, chord)};
     bool done = afford(w, limit, &p, filled);
     if (done && *filled) done = write_triangles(w, f, &p);
+    if (f->is_cut) *filled = false;
     free(chord);
     return done;
 }
