@@ -1,10 +1,11 @@
 /* greedy.c - the greedy triangulation: edges by increasing length, each taken unless it crosses one taken before.
  *
- *            z            It grows in a constrained Delaunay triangulation of the edges taken so far, a thought of
- *         . : : ` .       [Levcopoulos, Krznaric 1999]. Say an edge is open if it is not taken, crosses no edge taken, and
- *       a---------b       has no vertex inside. The shortest open edge ab comes next, and it is found where few look:
- *          :  :           it is an edge of the triangulation, or cuts off a corner z between two taken edges za and zb
- *          q1 q2          that follow each other round z, with an angle of 90 degrees or more.
+ *            z            It grows in a constrained Delaunay triangulation of the edges taken so far. (The Delaunay
+ *         . : : ` .       triangulation leads to it in linear time [Levcopoulos, Krznaric 1999], less simply.) Say an edge
+ *       a---------b       is open if it is not taken, crosses no edge taken, and has no vertex inside. The shortest open
+ *          :  :           edge ab comes next, and it is found where few look: it is an edge of the triangulation, or cuts
+ *          q1 q2          off a corner z between two taken edges za and zb that follow each other round z, with an angle of
+ *                         90 degrees or more.
  *
  * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an edge of each constrained
  * Delaunay triangulation. Otherwise let z be such a vertex. A rubber band from a to b round the obstacles on that side of
