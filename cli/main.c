@@ -29,10 +29,11 @@ static int print_help(void)
     text_string(&t, "\noptions:\n"
                     "      --help            print this help; 'meshwalk COMMAND --help' tells about a command\n"
                     "      --version         print the version\n\n");
-    options_wrap(&t,
-                 "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. Each also "
-                 "gzipped; '-' is standard input or output.",
-                 0);
+    options_wrap(
+        &t,
+        "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. Constraints: GeoJSON, "
+        "Triangle .poly. Each also gzipped; '-' is standard input or output.",
+        0);
     options_wrap(&t,
                  "Exit codes: 0 done; 1 done, but points have no answer and --strict was given; 2 wrong usage; 3 "
                  "input unreadable or invalid; 4 out of memory, a limit, or output that cannot be written.",

@@ -1,5 +1,5 @@
-/* vertices.h - the vertices of a triangulation to be made, with the values they have: those of POINTS, then those of the
- * constraints, then those added where constraints cross. */
+/* vertices.h - the vertices of a triangulation to be made, with the values they have: those of POINTS, then those of
+ * the constraints, then those added where constraints cross. */
 #ifndef CLI_VERTICES_H
 #define CLI_VERTICES_H
 

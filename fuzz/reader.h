@@ -67,7 +67,7 @@ static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const u
     mw__source_close(&source);
 }
 
-/* Segments name points that exist and polygons below their number, and nothing is there that the input does not hold. */
+/* Segments name points that exist and polygons below their number; nothing is there that the input does not hold. */
 static inline void require_constraints(const mw_constraint_file *file, size_t size)
 {
     require(file->point_count <= size && file->segment_count <= size && file->polygon_count <= size);

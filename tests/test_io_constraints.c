@@ -1,5 +1,5 @@
-/* test_io_constraints.c - constraints from .poly and GeoJSON: what is read, what is refused and with which message, what
- * happens without memory, and real files. */
+/* test_io_constraints.c - constraints from .poly and GeoJSON: what is read, what is refused and with which message,
+ * what happens without memory, and real files. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

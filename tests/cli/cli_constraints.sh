@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# triangulate --constraints: files and their mistakes, what is kept, crossings, heights and fields, GDAL, real files; and
-# the kinds of triangulation.
+# triangulate --constraints: files and their mistakes, what is kept, crossings, heights and fields, GDAL, real files;
+# and the kinds of triangulation.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 
@@ -128,7 +128,10 @@ run triangulate --constraints x.poly --keep hull --split -o m.off; exits 0; says
 prints_line '^added +1$'; prints_line '^pieces +4$'; prints_line '^triangles +4$'
 holds "the vertex comes last" test "$(sed -n 7p m.off)" == '2 2 0'
 if $geojson; then
-    square() { echo "{\"type\":\"Feature\",\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[$1,$1],[$2,$1],[$2,$2],[$1,$2],[$1,$1]]]}}"; }
+    square() { # square LOW HIGH: a feature
+        printf '{"type":"Feature","geometry":{"type":"Polygon","coordinates":'
+        printf '[[[%s,%s],[%s,%s],[%s,%s],[%s,%s],[%s,%s]]]}}' "$1" "$1" "$2" "$1" "$2" "$2" "$1" "$2" "$1" "$1"
+    }
     echo "{\"type\":\"FeatureCollection\",\"features\":[$(square 20 21),$(square 0 4),$(square 3 6)]}" >parcels.geojson
     run triangulate --constraints parcels.geojson -o x.off
     refused 3 'parcels\.geojson: feature [12] crosses feature [12] near [34] [34]; --split'
@@ -205,7 +208,12 @@ if $gdal; then
     run triangulate --constraints cross.csv -o m.off; refused 3 'cross\.csv: feature 0 crosses feature 1 near 2 2; '
     printf 'a,b\n1,2\n' >table.csv
     run triangulate --constraints table.csv -o none.off; refused 3 'no points, lines or polygons'; absent none.off
-    dxf() { printf '0\nSECTION\n2\nENTITIES\n'; for l in "$@"; do printf '0\nLINE\n8\n0\n10\n%s\n20\n%s\n11\n%s\n21\n%s\n' $l; done; printf '0\nENDSEC\n0\nEOF\n'; }
+    dxf() { # dxf "X Y X Y"...: lines
+        printf '0\nSECTION\n2\nENTITIES\n'
+        # shellcheck disable=SC2086 # four words
+        for line in "$@"; do printf '0\nLINE\n8\n0\n10\n%s\n20\n%s\n11\n%s\n21\n%s\n' $line; done
+        printf '0\nENDSEC\n0\nEOF\n'
+    }
     dxf '0 0 3 0' '3 0 3 3' '3 3 0 0' '3 3 0 3' >plate.dxf
     kept 2 9 plate.dxf
     # A shapefile: a polygon with a hole.
