@@ -531,7 +531,7 @@ static void test_grids(void **state)
     (void)state;
     uint64_t seed = 11;
     print_message("seed %llu\n", (unsigned long long)seed);
-    for (int round = 0; round < 1500; round++) {
+    for (int round = 0; round < 700; round++) {
         scene *s = new_scene(seed + (uint64_t)round);
         static const double scales[] = {1, 1, 1e-3, 0x1p-1000, 1e-300, 0x1p1000, 1e300};
         double scale = scales[round % 7], offset = round % 7 == 1 ? 1e6 : 0;
@@ -550,7 +550,7 @@ static void test_grids(void **state)
 static void test_uniform(void **state)
 {
     (void)state;
-    for (uint64_t round = 0; round < 20; round++) {
+    for (uint64_t round = 0; round < 8; round++) {
         scene *s = new_scene(100 + round);
         double offset = round % 2 ? 1e6 : 0;
         for (int i = 0; i < 300; i++) add_point(s, offset + uniform(s), offset + uniform(s));

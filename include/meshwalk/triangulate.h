@@ -93,8 +93,9 @@ typedef struct mw_constraints {
     const uint32_t *polygon; /* NULL, or per segment the number of the polygon whose ring it belongs to;
                                 MW_NONE: a line, which bounds nothing. A place is inside a polygon where an odd number of
                                 its segments lie on the way to infinity, so rings may come in any order and direction:
-                                outlines, holes, islands in them                                            */
-    const double *holes;     /* x, y of a place in each part that is to be removed, packed                 */
+                                outlines, holes, islands in them; a segment given twice counts twice       */
+    const double *holes;     /* x, y of a place in each part that is to be removed, packed. One outside the hull removes
+                                nothing, one on a constraint the parts on all its sides                    */
     size_t hole_count;
 } mw_constraints;
 
@@ -123,8 +124,8 @@ typedef struct mw_constrain_report {
     uint32_t reserved[6];
 } mw_constrain_report;
 
-/* The constrained edges of the result: piece i joins vertices edge[2 i] and edge[2 i + 1], and is a part of segment
- * segment[i], the lowest of those that share it. */
+/* The constrained edges of the result: piece i joins vertices edge[2 i] and edge[2 i + 1], in the direction of segment
+ * segment[i], of which it is a part: the lowest of those that share it. In the order of the triangles. */
 typedef struct mw_pieces {
     uint32_t *edge, *segment;
     size_t count;
@@ -139,10 +140,13 @@ MW_API void mw_pieces_release(mw_pieces *pieces); /* NULL and empty ones are all
  *   report        NULL or filled, after a failure too
  *   out           the mesh, as of mw_delaunay: vertex i is point i; vertices made by options.split come after the points.
  *                 Its neighbours across a constraint are linked as any others
+ * With options.split a point is rounded to doubles and a segment may be moved by as much; it is still an edge or a chain
+ * of edges between its ends. Ends, and vertices that lie on a segment, are no crossings.
  * MW_ERROR_INPUT as for mw_delaunay, and: segments that cross (report->cross) without options.split, or so close that
- * rounding cannot part them with it; nothing left to keep. MW_ERROR_ARGUMENT: a segment that names no point, or a place
- * of a hole that is not finite. Each segment walks along itself: time in proportion to the triangles it crosses, and
- * little more (docs/guarantees.md). One thread; thread-safe. */
+ * rounding cannot part them with it; a polygon whose rings are not closed, where polygons decide what is kept; nothing
+ * left to keep. MW_ERROR_ARGUMENT: a segment that names no point, or a place of a hole that is not finite. Each segment
+ * walks along itself: time in proportion to the triangles it crosses, and little more (docs/guarantees.md). One thread;
+ * thread-safe. */
 MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
                                          uint32_t *duplicate_of, mw_constrain_report *report, mw_pieces *pieces,
                                          mw_mesh **out, mw_error *error);
