@@ -511,6 +511,14 @@ static size_t check_split(const scene *s, double tolerance)
     assert_sound(s, &r);
     assert_fills_hull(s, &r);
     for (uint32_t i = 0; i < s->segments; i++) assert_led(s, &r, i, tolerance);
+    uint8_t *is_end = calloc(r.n, 1);
+    for (size_t i = 0; i < 2 * r.pieces.count; i++) is_end[r.pieces.edge[i]] = 1;
+    for (uint32_t i = 0; i < s->segments; i++)
+        for (uint32_t v = 0; v < s->points; v++)
+            if (lies_on(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]), r.point[v]) &&
+                !equal(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1])))
+                assert_true(is_end[v] || r.duplicate_of[v] != MW_NONE);
+    free(is_end);
     for (uint32_t v = s->points; v < r.n; v++) { /* made where two segments are near */
         uint32_t near = 0;
         for (uint32_t i = 0; i < s->segments; i++)
@@ -760,6 +768,23 @@ static void test_split_many(void **state)
         add_line(s, i, 0, i, 20);
     }
     assert_int_equal(check_split(s, 0), 361);
+}
+
+/* Few segments among many points, many of which lie on them. */
+static void test_split_among(void **state)
+{
+    (void)state;
+    for (uint64_t round = 0; round < 10; round++) {
+        scene *s = new_scene(600 + round);
+        enum { SIDE = 40, LINES = 20 };
+        for (int i = 0; i < SIDE * SIDE; i++) add_point(s, i % SIDE, i / SIDE);
+        for (int i = 0; i < LINES; i++) {
+            uint32_t a = mw__random_below(&s->random, SIDE * SIDE), b = mw__random_below(&s->random, SIDE * SIDE);
+            add_segment(s, a, b, MW_NONE);
+        }
+        add_line(s, uniform(s), 3 * uniform(s), SIDE, SIDE * uniform(s));
+        check_split(s, 1e-12);
+    }
 }
 
 /* Segments among few doubles: where they cross there is no double near, or an end. */
@@ -1028,25 +1053,16 @@ static void test_real(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grids),
-        cmocka_unit_test(test_uniform),
-        cmocka_unit_test(test_long),
-        cmocka_unit_test(test_fans),
-        cmocka_unit_test(test_polygons),
-        cmocka_unit_test(test_parcels),
-        cmocka_unit_test(test_touching),
-        cmocka_unit_test(test_flood),
-        cmocka_unit_test(test_union),
-        cmocka_unit_test(test_crossing_is_told),
-        cmocka_unit_test(test_split_counts),
-        cmocka_unit_test(test_split_many),
-        cmocka_unit_test(test_split_tight),
-        cmocka_unit_test(test_split_shallow),
-        cmocka_unit_test(test_wrong_arguments),
-        cmocka_unit_test(test_plain),
-        cmocka_unit_test(test_repeatable),
-        cmocka_unit_test(test_crossed),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_grids),         cmocka_unit_test(test_uniform),
+        cmocka_unit_test(test_long),          cmocka_unit_test(test_fans),
+        cmocka_unit_test(test_polygons),      cmocka_unit_test(test_parcels),
+        cmocka_unit_test(test_touching),      cmocka_unit_test(test_flood),
+        cmocka_unit_test(test_union),         cmocka_unit_test(test_crossing_is_told),
+        cmocka_unit_test(test_split_counts),  cmocka_unit_test(test_split_many),
+        cmocka_unit_test(test_split_among),   cmocka_unit_test(test_split_tight),
+        cmocka_unit_test(test_split_shallow), cmocka_unit_test(test_wrong_arguments),
+        cmocka_unit_test(test_plain),         cmocka_unit_test(test_repeatable),
+        cmocka_unit_test(test_crossed),       cmocka_unit_test(test_memory),
         cmocka_unit_test(test_real),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* constrained.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew 1989].
  *
  * A Delaunay triangulation of the points, the segments forced in one by one (constrain.c), the triangles that are to be
- * kept (constrained_keep.c). Where segments cross and are to be split, points are put there (constrained_split.c) and
+ * kept (constrained_keep.c) and become a mesh (constrained_result.c). Where segments cross and are to be split, points are put there (constrained_split.c) and
  * all is made anew, until nothing crosses. */
 #include "triangulate/constrained.h"
 
@@ -11,14 +11,6 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
-
-void mw_pieces_release(mw_pieces *pieces)
-{
-    if (!pieces) return;
-    free(pieces->edge);
-    free(pieces->segment);
-    *pieces = (mw_pieces){0};
-}
 
 /* --- what is given --- */
 
@@ -239,156 +231,101 @@ static mw_status fail_crossing(const mw_constrained_making *m, const char *why, 
                     report->cross[0], a[0], a[1], report->cross[1], b[0], b[1], place.x, place.y, why);
 }
 
+static mw_status make_all(mw_constrained_making *m, bool split, mw_triangulation_report *delaunay,
+                          mw_constrain_report *report, mw_error *error);
+
+/* The ends of stretches, in the order of their numbers: number[p] is the one of point p among them, or MW_NONE. */
+static uint32_t number_ends(const mw_constrained_making *m, uint32_t *number)
+{
+    uint32_t count = 0;
+    for (size_t p = 0; p < m->point_count; p++) number[p] = MW_NONE;
+    for (size_t i = 0; i < m->stretches.count; i++)
+        number[m->stretches.item[i].from] = number[m->stretches.item[i].to] = 0;
+    for (size_t p = 0; p < m->point_count; p++)
+        if (number[p] != MW_NONE) number[p] = count++;
+    return count;
+}
+
+/* Only the stretches and their ends, numbered as `number` says. */
+static bool take_ends(const mw_constrained_making *m, const uint32_t *number, uint32_t count,
+                      mw_constrained_making *ends)
+{
+    ends->point = mw__alloc_lines(count, sizeof *ends->point);
+    ends->stretches.item = mw__alloc(m->stretches.count, sizeof *ends->stretches.item);
+    if (!ends->point || !ends->stretches.item) return false;
+    ends->point_count = count;
+    ends->stretches.count = ends->stretches.capacity = m->stretches.count;
+    for (size_t p = 0; p < m->point_count; p++)
+        if (number[p] != MW_NONE) ends->point[number[p]] = m->point[p];
+    for (size_t i = 0; i < m->stretches.count; i++) {
+        mw_stretch s = m->stretches.item[i];
+        ends->stretches.item[i] = (mw_stretch){number[s.from], number[s.to], s.segment};
+    }
+    return true;
+}
+
+/* The other way: take the stretches of `ends`, and the points made there beyond the first `count`. */
+static bool take_back(mw_constrained_making *m, uint32_t *number, uint32_t count, mw_constrained_making *ends)
+{
+    size_t n = m->point_count, made = ends->point_count - count;
+    mw_point *point = mw__alloc_lines(n + made, sizeof *point);
+    if (!point) return false;
+    for (size_t p = 0; p < n + made; p++) point[p] = p < n ? m->point[p] : ends->point[count + (p - n)];
+    for (uint32_t p = 0; p < n; p++)
+        if (number[p] != MW_NONE)
+            number[number[p]] = p; /* no less than its own number, so read before it is overwritten */
+    for (size_t i = 0; i < ends->stretches.count; i++) {
+        mw_stretch *s = &ends->stretches.item[i];
+        s->from = s->from < count ? number[s->from] : (uint32_t)n + (s->from - count);
+        s->to = s->to < count ? number[s->to] : (uint32_t)n + (s->to - count);
+    }
+    free(m->point);
+    free(m->stretches.item);
+    m->point = point;
+    m->point_count = n + made;
+    m->stretches = ends->stretches;
+    ends->stretches = (mw_stretches){0};
+    return true;
+}
+
+/* Whether stretches cross has nothing to do with the other points. Where these are many, split the stretches without
+ * them, until nothing crosses. */
+static mw_status split_apart(mw_constrained_making *m, mw_constrain_report *report, mw_error *error)
+{
+    uint32_t *number = mw__alloc(m->point_count, sizeof *number);
+    if (!number) return mw__fail_memory(error);
+    uint32_t count = number_ends(m, number);
+    mw_constrained_making ends = {.given = m->given};
+    mw_status status = MW_OK;
+    if (count <= m->point_count / 2) {
+        status =
+            take_ends(m, number, count, &ends) ? make_all(&ends, true, NULL, report, error) : mw__fail_memory(error);
+        if (status == MW_OK && !take_back(m, number, count, &ends)) status = mw__fail_memory(error);
+    }
+    release(&ends);
+    free(number);
+    return status;
+}
+
 /* Each round puts points where stretches cross. Most are then done; but points are rounded, so a stretch may come to
  * cross another by that, and of many that cross one another each round lets some in, and parts the others. */
-static mw_status make_all(mw_constrained_making *m, bool split, mw_constrain_report *report, mw_error *error)
+static mw_status make_all(mw_constrained_making *m, bool split, mw_triangulation_report *delaunay,
+                          mw_constrain_report *report, mw_error *error)
 {
     enum { MOST_ROUNDS = 200 };
-    mw_status status = make(m, split, &report->delaunay, error);
+    mw_status status = make(m, split, delaunay, error);
     for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS; round++) {
         status = mw__split_crossings(m, error);
-        if (status) break;
-        unmake(m);
-        status = make(m, true, NULL, error);
+        if (status == MW_OK) {
+            unmake(m);
+            status = split_apart(m, report, error);
+        }
+        if (status == MW_OK) status = make(m, true, NULL, error);
     }
     if (status == MW_OK && m->crossing.count)
         status =
             fail_crossing(m, split ? ", and so close to others that rounding cannot part them" : "", report, error);
     return status;
-}
-
-/* --- the result --- */
-
-/* Points made twice, or where one of the caller's lies, are not vertices: number those that are. NULL when out of
- * memory. */
-static uint32_t *number_points(const mw_constrained_making *m, uint32_t *count)
-{
-    uint32_t *number = mw__alloc(m->point_count, sizeof *number);
-    *count = 0;
-    for (size_t i = 0; number && i < m->point_count; i++)
-        number[i] = i < m->given->point_count || m->twin[i] == MW_NONE ? (*count)++ : MW_NONE;
-    return number;
-}
-
-/* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve from the beginning. NULL
- * when out of memory. */
-static uint32_t *number_triangles(const mw_constrained_making *m, uint32_t *count)
-{
-    uint32_t *number = mw__alloc(m->tri_count, sizeof *number);
-    *count = 0;
-    for (uint32_t t = 0; number && t < m->tri_count; t++) number[t] = m->kept[t] ? (*count)++ : MW_NONE;
-    return number;
-}
-
-/* The triangles kept, with their new numbers, and those of their vertices. */
-static void copy_triangles(const mw_constrained_making *m, const uint32_t *number, const uint32_t *vertex,
-                           mw_triangle *out)
-{
-    for (uint32_t t = 0; t < m->tri_count; t++) {
-        if (!m->kept[t]) continue;
-        const mw_triangle *from = &m->tri[t];
-        mw_triangle *to = &out[number[t]];
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t other = from->link[k] == MW_NONE ? MW_NONE : number[mw__link_triangle(from->link[k])];
-            to->v[k] = vertex[from->v[k]];
-            to->link[k] = other == MW_NONE ? MW_NONE : mw__link(other, mw__link_edge(from->link[k]));
-        }
-        to->v[3] = to->v[0];
-        to->user = number[t];
-    }
-}
-
-/* Nothing has a new number: the triangles are moved. */
-static void move_triangles(mw_constrained_making *m, mw_mesh *mesh)
-{
-    for (uint32_t t = 0; t < m->tri_count; t++) m->tri[t].user = t;
-    mesh->tri = m->tri;
-    m->tri = NULL;
-}
-
-/* Pieces of the triangles kept, each once, in the order of the triangles. With out NULL they are only counted. */
-static size_t list_pieces(const mw_constrained_making *m, const uint32_t *vertex, mw_pieces *out)
-{
-    size_t made = 0;
-    for (uint32_t t = 0; t < m->tri_count; t++)
-        for (uint32_t k = 0; k < 3 && m->kept[t]; k++) {
-            uint32_t piece = m->net.piece[3 * (size_t)t + k], link = m->tri[t].link[k];
-            if (piece == MW_NONE) continue;
-            if (link != MW_NONE && mw__link_triangle(link) < t && m->kept[mw__link_triangle(link)]) continue;
-            if (out) {
-                const mw_stretch *p = &m->pieces.item[piece];
-                out->edge[2 * made] = vertex[p->from];
-                out->edge[2 * made + 1] = vertex[p->to];
-                out->segment[made] = p->segment;
-            }
-            made++;
-        }
-    return made;
-}
-
-static bool give_pieces(const mw_constrained_making *m, const uint32_t *vertex, size_t count, mw_pieces *out)
-{
-    if (!out) return true;
-    out->edge = mw__alloc(2 * count, sizeof *out->edge);
-    out->segment = mw__alloc(count, sizeof *out->segment);
-    out->count = count;
-    if (!out->edge || !out->segment) return false;
-    list_pieces(m, vertex, out);
-    return true;
-}
-
-static bool give_triangles(mw_constrained_making *m, const uint32_t *number, const uint32_t *vertex, mw_mesh *mesh)
-{
-    if (mesh->tri_count == m->tri_count && mesh->point_count == m->point_count) {
-        move_triangles(m, mesh);
-        return true;
-    }
-    mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
-    if (!mesh->tri) return false;
-    copy_triangles(m, number, vertex, mesh->tri);
-    return true;
-}
-
-static void give_points(mw_constrained_making *m, const uint32_t *vertex, mw_mesh *mesh)
-{
-    for (size_t i = 0; i < m->point_count; i++)
-        if (vertex[i] != MW_NONE) m->point[vertex[i]] = m->point[i];
-    mesh->point = m->point;
-    m->point = NULL;
-}
-
-/* Move what was made into a mesh. */
-static bool give_mesh(mw_constrained_making *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh *mesh)
-{
-    uint32_t *vertex = number_points(m, &mesh->point_count), *number = number_triangles(m, &mesh->tri_count);
-    bool done = vertex && number;
-    if (done) {
-        report->removed = m->tri_count - mesh->tri_count;
-        report->added = mesh->point_count - m->given->point_count;
-        report->pieces = list_pieces(m, vertex, NULL);
-        done = give_pieces(m, vertex, report->pieces, pieces) && give_triangles(m, number, vertex, mesh);
-    }
-    if (done) give_points(m, vertex, mesh);
-    free(vertex);
-    free(number);
-    return done;
-}
-
-static mw_status give(mw_constrained_making *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out,
-                      mw_error *error)
-{
-    bool any = false;
-    for (uint32_t t = 0; t < m->tri_count && !any; t++) any = m->kept[t];
-    if (!any)
-        return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
-                        m->tri_count);
-    mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
-    if (mesh && give_mesh(m, report, pieces, mesh)) {
-        *out = mesh;
-        return MW_OK;
-    }
-    mw_mesh_destroy(mesh);
-    return mw__fail_memory(error);
 }
 
 /* --- all together --- */
@@ -413,10 +350,10 @@ static mw_status build(mw_constrained_making *m, const mw_constrain_options *opt
                        mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error)
 {
     mw_status status = take(m, error);
-    if (status == MW_OK) status = make_all(m, options->split, report, error);
+    if (status == MW_OK) status = make_all(m, options->split, &report->delaunay, report, error);
     report->crossed = m->net.crossed;
     if (status == MW_OK) status = mw__keep_triangles(m, options->keep, error);
-    if (status == MW_OK) status = give(m, report, pieces, out, error);
+    if (status == MW_OK) status = mw__give_constrained(m, report, pieces, out, error);
     if (duplicate_of && status == MW_OK)
         for (size_t i = 0; i < m->given->point_count; i++) duplicate_of[i] = m->twin[i];
     return status;
