@@ -26,7 +26,7 @@
 #define ANGLE_MARGIN 0x1p-40
 #define LENGTH_MARGIN 0x1p-40
 
-enum { LEAF = 8, NEAREST = 64, ARCS = 24, FEW = 256 };
+enum { LEAF = 8, NEAREST = 64, ARCS = 24, FEW = 256, STEPS_PER_VISIT = 8 };
 
 typedef struct box {
     double low[2], high[2];
@@ -344,8 +344,8 @@ static mw_lmt_result seek(seeker *s, uint32_t p, uint32_t most, mw_effort *effor
     s->left.count = s->right.count = 0;
     push(s, (item){0, 0, true});
     while (s->heap_count > 0) {
-        if (effort->steps == 0) return MW_LMT_SPENT;
-        effort->steps--;
+        if (effort->steps < STEPS_PER_VISIT) return MW_LMT_SPENT;
+        effort->steps -= STEPS_PER_VISIT;
         item it = pop(s);
         activate(s, it.square);
         if (all_dead(s, -PI, PI)) {

@@ -237,6 +237,7 @@ void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort)
             enqueue_sides(lmt, &w, &left);
             enqueue_sides(lmt, &w, &right);
         }
+        steps += (uint64_t)left.count * right.count;
         if (effort->steps <= steps) return;
         effort->steps -= steps;
     }
