@@ -12,6 +12,8 @@
 
 /* A step of the border of the channel that a piece opens, see constrain.c. */
 typedef struct mw_rim mw_rim;
+/* Those of its places where a triangle may be cut off. */
+typedef struct mw_ears mw_ears;
 
 typedef struct mw_constrained {
     const mw_point *point;
@@ -21,8 +23,8 @@ typedef struct mw_constrained {
     uint32_t piece_count;        /* never more than the edges of the triangulation: tri_count + point_count - 1      */
     uint32_t *at;                /* per vertex: a triangle that has it                                               */
     mw_rim *right, *left, *ring; /* scratch */
-    uint32_t *channel, *ear, *flip;
-    uint32_t ear_count;
+    mw_ears *ears;
+    uint32_t *channel, *flip;
     size_t rim_capacity, flip_capacity;
     size_t reach;  /* a segment may look through this many triangles for the end of a piece: SIZE_MAX unless changed */
     size_t wasted; /* triangles that segments have looked through without making a piece                             */
@@ -47,7 +49,7 @@ typedef struct mw_piece {
 } mw_piece;
 
 /* Force in one piece at either end of the segment, and shorten the segment by it: the segment is in when *from and *to
- * have become equal. Time: about the lower degree of the two ends, plus O(m log m) for the m edges that the piece
+ * have become equal. Time: about the lower degree of the two ends, plus O(m) for the m edges that the piece
  * crosses, plus the flips that restore the Delaunay property, in practice about m. A segment may cross as many edges as
  * there are; but segments that do not cross each other, forced in in random rounds, are expected to cross
  * O(n log n + b log^2 b) edges in all, for n vertices and b segments [Agarwal, Arge, Yi 2005; Shewchuk, Brown 2015]. */
