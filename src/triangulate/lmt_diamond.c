@@ -26,7 +26,7 @@
 #define ANGLE_MARGIN 0x1p-40
 #define LENGTH_MARGIN 0x1p-40
 
-enum { LEAF = 8, NEAREST = 64, ARCS = 24, FEW = 256, STEPS_PER_VISIT = 8 };
+enum { LEAF = 8, NEAREST = 24, ARCS = 24, FEW = 256, STEPS_PER_VISIT = 8 };
 
 typedef struct box {
     double low[2], high[2];
