@@ -184,13 +184,14 @@ static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_
     }
 }
 
-static bool is_minimal(const mw_lmt *lmt, uint32_t e, const apexes *left, const apexes *right)
+static bool is_minimal(const mw_lmt *lmt, uint32_t e, const apexes *left, const apexes *right, uint64_t *steps)
 {
     if (left->overflow || right->overflow) return true;
     uint32_t a = lmt->from[2 * e], b = lmt->from[2 * e + 1];
     double square = mw__square(lmt->points, a, b);
     for (uint32_t i = 0; i < left->count; i++)
         for (uint32_t j = 0; j < right->count; j++) {
+            ++*steps;
             uint32_t l = left->apex[i].vertex, r = right->apex[j].vertex;
             if (!mw__surely_longer(square, mw__square(lmt->points, l, r))) return true;
             if (side(lmt, l, a, r) <= 0 || side(lmt, r, b, l) <= 0) return true;
@@ -232,12 +233,11 @@ void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort)
         uint64_t steps = 0;
         find_apexes(lmt, 2 * e, &left, &steps);
         find_apexes(lmt, 2 * e + 1, &right, &steps);
-        if (!is_minimal(lmt, e, &left, &right)) {
+        if (!is_minimal(lmt, e, &left, &right, &steps)) {
             lmt->state[e] &= (uint8_t)~MW_LMT_ALIVE;
             enqueue_sides(lmt, &w, &left);
             enqueue_sides(lmt, &w, &right);
         }
-        steps += (uint64_t)left.count * right.count;
         if (effort->steps <= steps) return;
         effort->steps -= steps;
     }
