@@ -2,7 +2,7 @@
 
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
-    local query='--walk --start --arithmetic --finish --steps --areas --sample --cells --layers --tolerance --columns'
+    local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --tolerance --columns'
     query="$query --any --strict --stats --json"
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
@@ -32,6 +32,7 @@ _meshwalk_names() {
         --start) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
         --arithmetic) echo 'exact double' ;;
         --finish) echo 'auto remembering stochastic' ;;
+        --fill) echo 'auto yes no' ;;
         --sample) echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;

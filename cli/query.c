@@ -40,9 +40,18 @@ static const char *finish_name(int i)
     return i < (int)(sizeof finishes / sizeof *finishes) ? mw_walk_name(finishes[i]) : NULL;
 }
 
+/* What becomes of pockets and holes: the numbers of mw_locator_options.fill. */
+enum { FILL_AUTO, FILL_YES, FILL_NO };
+static const char *fill_name(int i)
+{
+    static const char *const names[] = {"auto", "yes", "no", NULL};
+    return names[i];
+}
+
 static const choices walks = {"walk", walk_name, walk_help};
 static const choices starts = {"start", start_name, start_help};
 static const choices arithmetics = {"arithmetic", arithmetic_name, NULL};
+static const choices fill_choices = {"way to fill", fill_name, NULL};
 static const choices finish_choices = {"way to finish", finish_name, NULL};
 
 const option query_options[] = {
@@ -54,6 +63,11 @@ const option query_options[] = {
      "how walks decide their turns (default: exact); the triangle found is exact in either case:", &arithmetics},
     {"finish", 0, OPTION_CHOICE, offsetof(query_settings, finish), "NAME",
      "the walk that ends those whose own tests are only a guide (default: auto, by the mesh):", &finish_choices},
+    {"fill", 0, OPTION_CHOICE, offsetof(query_settings, fill), "NAME",
+     "fill pockets and holes of the mesh with triangles that count as outside, so that every walk can cross them; "
+     "without "
+     "them only --walk border finds its way (default: auto: no with --walk border, else yes):",
+     &fill_choices},
     {"steps", 0, OPTION_COUNT, offsetof(query_settings, steps), "K",
      "--walk fast-stochastic: steps with one test (default: 0, estimated)", NULL},
     {"areas", 0, OPTION_FLAG, offsetof(query_settings, areas), NULL,
@@ -109,8 +123,11 @@ static int make_locator(query *q, const char *path, bool border, bool area)
 {
     mw_error error;
     const query_settings *settings = q->settings;
-    mw_locator_options options = {
-        .any = settings->any, .border = border || settings->tolerance > 0, .areas = settings->areas};
+    mw_locator_options options = {.any = settings->any,
+                                  .border = border || settings->tolerance > 0,
+                                  .areas = settings->areas,
+                                  .fill = settings->fill};
+    if (settings->walk == MW_WALK_BORDER && settings->fill == FILL_AUTO) options.fill = FILL_NO;
     if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK) return fail_defect(q, path, area, &error);
     warn_if_void(q, path);
     return 0;
@@ -133,6 +150,14 @@ static int check_index(const query_settings *settings)
     return settings->cells > most_cells || settings->layers > MW_MAX_LAYERS ? END_USAGE : 0;
 }
 
+/* Only the border walk does without what fills pockets and holes. */
+static int check_fill(const query_settings *settings)
+{
+    if (settings->fill != FILL_NO || settings->walk == MW_WALK_AUTO || settings->walk == MW_WALK_BORDER) return 0;
+    complain("--fill no wants --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
+    return END_USAGE;
+}
+
 /* Build what the start needs, if it needs something. */
 static int make_index(query *q)
 {
@@ -152,6 +177,7 @@ int query_open(query *q, const query_settings *settings, const char *const *oper
     *q = (query){.settings = settings, .begin = tally_clock()};
     int end = files_check(settings->common.output, operands, 2);
     if (end == 0) end = check_index(settings);
+    if (end == 0) end = check_fill(settings);
     if (end == 0) end = files_read_mesh(path, &file);
     if (end) return end;
     bool area = files_has_area(&file);

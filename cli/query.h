@@ -12,7 +12,7 @@ typedef struct query_settings {
     double tolerance;
     uint32_t sample, steps, cells, layers;
     int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
-    int finish;                  /* number of a name of --finish */
+    int finish, fill;            /* numbers of names of --finish and --fill */
     bool areas, any, strict, stats, json;
 } query_settings;
 

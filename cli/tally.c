@@ -51,6 +51,11 @@ static double rounded(double value)
     return (double)(int64_t)(value * 1000 + 0.5) / 1000;
 }
 
+static uint64_t tests_of(const mw_counters *c)
+{
+    return c->orient_init + c->orient + c->orient_final + c->orient_border;
+}
+
 static void report_walks(report *r, const tally *t)
 {
     const mw_counters *c = &t->counters;
@@ -60,12 +65,20 @@ static void report_walks(report *r, const tally *t)
     report_number(r, "triangles", rounded(per(c->triangles, c->queries)));
     report_number(r, "triangles_final", rounded(per(c->triangles_final, c->queries)));
     report_count(r, "triangles_final_max", c->triangles_final_max);
-    report_number(r, "tests_per_query", rounded(per(c->orient_init + c->orient + c->orient_final, c->queries)));
+    report_number(r, "tests_per_query", rounded(per(tests_of(c), c->queries)));
     report_number(r, "orient_init", rounded(per(c->orient_init, c->queries)));
     report_number(r, "orient", rounded(per(c->orient, c->queries)));
     report_number(r, "orient_final", rounded(per(c->orient_final, c->queries)));
     report_number(r, "implicit", rounded(per(c->implicit, c->queries)));
     report_number(r, "comparisons", rounded(per(c->comparisons, c->queries)));
+    report_number(r, "walk_runs", rounded(per(c->walk_runs, c->queries)));
+    report_count(r, "triangles_walk_max", c->triangles_walk_max);
+    report_number(r, "border_runs", rounded(per(c->border_runs, c->queries)));
+    report_number(r, "triangles_border", rounded(per(c->triangles_border, c->queries)));
+    report_count(r, "triangles_border_max", c->triangles_border_max);
+    report_number(r, "orient_border", rounded(per(c->orient_border, c->queries)));
+    report_number(r, "border_edges", rounded(per(c->border_edges, c->queries)));
+    report_count(r, "border_edges_max", c->border_edges_max);
     report_count(r, "cycles", c->cycles);
     report_count(r, "handovers", c->handovers);
 }
@@ -82,6 +95,8 @@ static void report_memory(report *r, const query *q)
     report_count(r, "start_bytes", index.bytes);
     report_number(r, "start_seconds", rounded(index.seconds));
     report_count(r, "ghost_triangles", locator.ghost_triangles);
+    report_count(r, "fill_bytes", locator.fill_bytes);
+    report_count(r, "pieces", locator.pieces);
 }
 
 /* The whole, and of it reading and preparing the mesh, and locating; the rest is reading points and writing rows. */

@@ -410,12 +410,90 @@ static void test_counters(void **state)
     arrays_free(&a);
 }
 
+/* --- the length of the way along borders ----------------------------------------------------------------------------- */
+
+/* Two triangles for each '#', the last row on top. */
+static arrays cells_mesh(const char *const *row, uint32_t rows, uint32_t columns)
+{
+    arrays a = arrays_make((rows + 1) * (columns + 1), 2 * rows * columns);
+    for (uint32_t y = 0; y <= rows; y++)
+        for (uint32_t x = 0; x <= columns; x++) arrays_point(&a, x, y);
+    for (uint32_t y = 0; y < rows; y++)
+        for (uint32_t x = 0; x < columns; x++) {
+            uint32_t p = y * (columns + 1) + x, q = p + columns + 1;
+            if (row[y][x] != '#') continue;
+            arrays_triangle(&a, p, p + 1, q + 1);
+            arrays_triangle(&a, p, q + 1, q);
+        }
+    return a;
+}
+
+/* The most edges of the border that a walk from any triangle to one of these points tests: inside, outside, as shares of
+ * all border edges. */
+static void longest(const arrays *a, const double *q, size_t n, double most[2])
+{
+    mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
+    mw_locator *open = locator_of(mesh, OPEN, 2);
+    mw_mesh_info info;
+    assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
+    mw_query_options options = {.start = MW_START_LAST, .count = 1};
+    most[0] = most[1] = 0;
+    for (uint32_t t = 0; t < a->triangle_count; t++)
+        for (size_t i = 0; i < n; i++) {
+            mw_cursor cursor;
+            assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+            cursor.last = t;
+            mw_location at = mw_locate(open, &cursor, q[2 * i], q[2 * i + 1]);
+            double share = (double)cursor.counters.border_edges / info.border_edges;
+            bool outside = at.triangle == MW_NONE;
+            assert_int_equal(cursor.counters.cycles, 0);
+            assert_true(cursor.counters.border_runs <= cursor.counters.walk_runs);
+            if (share > most[outside]) most[outside] = share;
+        }
+    mw_locator_destroy(open);
+    mw_mesh_destroy(mesh);
+}
+
+/* The thesis says that a walk visits at most all border edges once if the point is inside, twice if it is outside. So it
+ * does in spirals, combs and fans; but a border can be so folded that it does not. */
+static void test_published_bound(void **state)
+{
+    (void)state;
+    static const char *const folded[2][6] = {{".#...#", ".###.#", "...#.#", "####.#", "...###", "...#.#"},
+                                             {".#..#.", ".#####", "....#.", ".#.###", "####.#", ".#.#.#"}};
+    uint64_t random = 29;
+    enum { N = 200 };
+    double q[2 * N], most[2];
+    arrays fan = fan_mesh(12), shapes[] = {band(60, spiral), comb(12), fan};
+    fan.triangle_count = 9; /* three quarters of it */
+    shapes[2] = fan;
+    const double size[] = {45, 24, 1};
+    for (size_t i = 0; i < 3; i++) {
+        for (int k = 0; k < N; k++) {
+            q[2 * k] = size[i] * (i == 1 ? random_unit(&random) : 2 * random_unit(&random) - 1);
+            q[2 * k + 1] = i == 1 ? 100 * random_unit(&random) : size[i] * (2 * random_unit(&random) - 1);
+        }
+        longest(&shapes[i], q, N, most);
+        assert_true(most[0] <= 1 && most[1] <= 2 && most[1] > 0.5);
+        arrays_free(&shapes[i]);
+    }
+    for (int i = 0; i < 2; i++) {
+        arrays a = cells_mesh(folded[i], 6, 6);
+        for (int k = 0; k < 2 * N; k++) q[k] = 6 * random_unit(&random);
+        longest(&a, q, N, most);
+        assert_true(i == 0 ? most[0] > 1.5 : most[1] > 2);
+        arrays_free(&a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_punched),          cmocka_unit_test(test_torn),     cmocka_unit_test(test_shapes),
-        cmocka_unit_test(test_offset_and_scale), cmocka_unit_test(test_slivers),  cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_options),          cmocka_unit_test(test_counters),
+        cmocka_unit_test(test_punched),         cmocka_unit_test(test_torn),
+        cmocka_unit_test(test_shapes),          cmocka_unit_test(test_offset_and_scale),
+        cmocka_unit_test(test_slivers),         cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_options),         cmocka_unit_test(test_counters),
+        cmocka_unit_test(test_published_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

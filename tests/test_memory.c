@@ -65,6 +65,18 @@ static mw_status locator_job(const mw_arrays *view, mw_error *error)
     return status;
 }
 
+static mw_status open_job(const mw_arrays *view, mw_error *error)
+{
+    mw_status status;
+    mw_mesh *mesh = make(view, &status, error);
+    mw_locator *locator = NULL;
+    if (!status)
+        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .layout = 1, .fill = 2}, &locator, error);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    return status;
+}
+
 static mw_status batch_job(const mw_arrays *view, mw_error *error)
 {
     static mw_location at[200];
@@ -125,6 +137,7 @@ static void exhaust_all(arrays *a)
     exhaust(describe_job, a);
     exhaust(tile_job, a);
     exhaust(locator_job, a);
+    exhaust(open_job, a);
     exhaust(batch_job, a);
     exhaust(order_job, a);
     exhaust(delaunay_job, a);
