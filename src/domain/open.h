@@ -37,7 +37,7 @@ typedef struct mw_part {
 typedef struct mw_open {
     mw_turn *turn;      /* by `from`   */
     mw_hole_loop *loop; /* by `lowest` */
-    mw_part *piece;    /* small before large ones, those near each other together */
+    mw_part *piece;     /* small before large ones, those near each other together */
     uint32_t *piece_of; /* per vertex its piece; NULL where there is one           */
     mw_boxes boxes;     /* of the pieces */
     uint32_t turn_count, loop_count, piece_count;

@@ -39,28 +39,25 @@ mw_status mw__make_delaunay(mw_triangulation *t, const mw_kind_options *options,
     return MW_OK;
 }
 
-static double length(mw_point a, mw_point b)
-{
-    return hypot(b.x - a.x, b.y - a.y);
-}
-
-/* The angle at corner b. */
-static double angle(mw_point a, mw_point b, mw_point c)
+/* Of the angle at corner b: its cotangent, the smaller the larger the angle is. */
+static double cotangent(mw_point a, mw_point b, mw_point c)
 {
     double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
-    return atan2(fabs(ux * vy - uy * vx), ux * vx + uy * vy);
+    return (ux * vx + uy * vy) / fabs(ux * vy - uy * vx);
 }
 
 static void measure(const mw_triangulation *t, mw_kind_report *report)
 {
+    double least = INFINITY;
     for (uint32_t i = 0; i < t->tri_count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             const mw_triangle *tri = &t->tri[i];
             mw_point a = t->point[tri->v[k]], b = t->point[tri->v[k + 1]], c = t->point[tri->v[mw__prev(k)]];
             bool twice = tri->link[k] != MW_NONE && mw__link_triangle(tri->link[k]) < i;
-            if (!twice) report->edge_length += length(a, b);
-            report->largest_angle = fmax(report->largest_angle, angle(a, b, c));
+            if (!twice) report->edge_length += hypot(b.x - a.x, b.y - a.y);
+            least = fmin(least, cotangent(a, b, c));
         }
+    report->largest_angle = atan2(1, least);
 }
 
 /* Number the records along a Hilbert curve, and link them anew. */
