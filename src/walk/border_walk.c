@@ -116,13 +116,13 @@ static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, mw_policy P)
     return turn_corner(w, e, P);
 }
 
-/* Edge e begins at the border's last vertex: it is the border's next edge, or the next tile round that vertex is behind it. */
+/* Edge e begins at the border's last vertex: turn round that through tiles to the border's next edge. Ends: the turn began at
+ * a border edge, and no tile has two tiles before it. */
 static MW_INLINE mw_verdict go_round(mw_walk *w, mw_policy P)
 {
-    if (w->tri[w->t].link[w->e] != MW_NONE) {
+    while (w->tri[w->t].link[w->e] != MW_NONE) {
         cross(w, w->e, P);
         w->e = mw__next(w->e);
-        return MW_GO;
     }
     return mw__link(w->t, w->e) == w->exit ? MW_LEFT : pass_border(w, w->e, P);
 }
