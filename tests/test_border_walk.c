@@ -161,6 +161,15 @@ static void spiral(uint32_t i, uint32_t n, double left[2], double right[2])
     right[1] = (radius + 3) * sin(angle);
 }
 
+/* The same, mirrored: the border runs the other way round, and from each way out nearly all of it comes before the way in
+ * that is next on the line. */
+static void mirrored_spiral(uint32_t i, uint32_t n, double left[2], double right[2])
+{
+    spiral(i, n, right, left);
+    left[1] = -left[1];
+    right[1] = -right[1];
+}
+
 /* Teeth of height 100 on a back: the line to a point in the next tooth leaves and comes back over and over. */
 static arrays comb(uint32_t teeth)
 {
@@ -455,33 +464,126 @@ static void longest(const arrays *a, const double *q, size_t n, double most[2])
 }
 
 /* The thesis says that a walk visits at most all border edges once if the point is inside, twice if it is outside. So it
- * does in spirals, combs and fans; but a border can be so folded that it does not. */
+ * does in combs, fans, and spirals of one hand; but not in those of the other, nor in some small polyominoes. */
 static void test_published_bound(void **state)
 {
     (void)state;
     static const char *const folded[2][6] = {{".#...#", ".###.#", "...#.#", "####.#", "...###", "...#.#"},
                                              {".#..#.", ".#####", "....#.", ".#.###", "####.#", ".#.#.#"}};
     uint64_t random = 29;
-    enum { N = 200 };
+    enum { N = 200, COMB = 1, MIRRORED = 3, FOLDED = 4, SHAPES = 6 };
     double q[2 * N], most[2];
-    arrays fan = fan_mesh(12), shapes[] = {band(60, spiral), comb(12), fan};
+    arrays fan = fan_mesh(12);
     fan.triangle_count = 9; /* three quarters of it */
-    shapes[2] = fan;
-    const double size[] = {45, 24, 1};
-    for (size_t i = 0; i < 3; i++) {
+    arrays shapes[SHAPES] = {
+        band(60, spiral),           comb(12), fan, band(200, mirrored_spiral), cells_mesh(folded[0], 6, 6),
+        cells_mesh(folded[1], 6, 6)};
+    for (size_t i = 0; i < SHAPES; i++) {
+        const double size[SHAPES] = {45, 24, 1, 45, 6, 6};
         for (int k = 0; k < N; k++) {
-            q[2 * k] = size[i] * (i == 1 ? random_unit(&random) : 2 * random_unit(&random) - 1);
-            q[2 * k + 1] = i == 1 ? 100 * random_unit(&random) : size[i] * (2 * random_unit(&random) - 1);
+            bool centred = i == 0 || i == 2 || i == MIRRORED;
+            q[2 * k] = size[i] * (centred ? 2 * random_unit(&random) - 1 : random_unit(&random));
+            q[2 * k + 1] =
+                (i == COMB ? 100 : size[i]) * (centred ? 2 * random_unit(&random) - 1 : random_unit(&random));
         }
         longest(&shapes[i], q, N, most);
-        assert_true(most[0] <= 1 && most[1] <= 2 && most[1] > 0.5);
+        if (i < MIRRORED) assert_true(most[0] <= 1 && most[1] <= 2 && most[1] > 0.5);
+        if (i == MIRRORED) assert_true(most[0] > 2 && most[1] > 2);
+        if (i == FOLDED) assert_true(most[0] > 1.5);
+        if (i == FOLDED + 1) assert_true(most[1] > 2);
         arrays_free(&shapes[i]);
     }
+}
+
+/* There is no bound in terms of the border alone; so walks that go on too long hand over to one that goes along no border
+ * more than twice. */
+static void long_spiral(uint32_t i, uint32_t n, double left[2], double right[2])
+{
+    double angle = 400.0 * i / n, radius = 1 + angle;
+    left[0] = (radius + 3) * cos(angle);
+    left[1] = -(radius + 3) * sin(angle);
+    right[0] = radius * cos(angle);
+    right[1] = -radius * sin(angle);
+}
+
+static void test_long_ways(void **state)
+{
+    (void)state;
+    enum { N = 400, POINTS = 8000 };
+    uint64_t random = 30;
+    double q[2 * N];
+    arrays a = band(POINTS, long_spiral);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_locator *open = locator_of(mesh, OPEN, 2);
+    mw_mesh_info info;
+    assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
+    for (int i = 0; i < 2 * N; i++) q[i] = 800 * random_unit(&random) - 400;
+    mw_location *want = expect(&a, mesh, q, N, 0);
+    for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
+        mw_query_options options = {
+            .start = MW_START_RANDOM, .arithmetic = (mw_arithmetic)arithmetic, .count = 1, .seed = 3};
+        mw_cursor cursor;
+        assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+        for (int i = 0; i < N; i++) {
+            mw_location at = mw_locate(open, &cursor, q[2 * i], q[2 * i + 1]);
+            compare(&at, &want[i], q + 2 * i, "long spiral");
+        }
+        assert_true(cursor.counters.cycles > 0 && cursor.counters.handovers > 0);
+        /* four times the border before handing over, with what a walk may take; twice it then, of triangles too */
+        assert_true(cursor.counters.border_edges_max < 5 * (uint64_t)info.border_edges);
+        assert_true(cursor.counters.triangles_max < 40 * (uint64_t)info.triangles);
+    }
+    free(want);
+    mw_locator_destroy(open);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
+/* Outside all boxes nothing is walked to; in a mesh that fills its hull no border is gone round. */
+static void test_short_ways(void **state)
+{
+    (void)state;
+    uint64_t random = 31;
+    arrays pieces = nested(3), convex = grid_mesh(20, 0.5, &random);
+    transform(&pieces, 0.5, 0, 0);
     for (int i = 0; i < 2; i++) {
-        arrays a = cells_mesh(folded[i], 6, 6);
-        for (int k = 0; k < 2 * N; k++) q[k] = 6 * random_unit(&random);
-        longest(&a, q, N, most);
-        assert_true(i == 0 ? most[0] > 1.5 : most[1] > 2);
+        mw_mesh *mesh = arrays_mesh(i == 0 ? &pieces : &convex, (mw_mesh_options){0});
+        mw_locator *open = locator_of(mesh, OPEN, 0);
+        mw_query_options options = {.walk = MW_WALK_BORDER, .start = MW_START_RANDOM, .count = 1};
+        mw_cursor cursor;
+        assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+        for (int k = 0; k < 50; k++) {
+            mw_location at = mw_locate(open, &cursor, 30 + 20 * random_unit(&random), 50 * random_unit(&random));
+            assert_int_equal(at.where, MW_OUTSIDE);
+        }
+        assert_int_equal(cursor.counters.queries, 50);
+        assert_int_equal(cursor.counters.border_edges, 0);
+        if (i == 0) assert_int_equal(cursor.counters.triangles_visited, 50);
+        mw_locator_destroy(open);
+        mw_mesh_destroy(mesh);
+    }
+    arrays_free(&pieces);
+    arrays_free(&convex);
+}
+
+/* The start `centre` is where the middle lies, whatever borders are on the way. */
+static void test_centre(void **state)
+{
+    (void)state;
+    uint64_t random = 32;
+    for (int i = 0; i < 10; i++) {
+        arrays a = grid_mesh(31, 0.3, &random);
+        punch(&a, 0.1, &random);
+        scramble(&a, 0, &random);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+        mw_locator *open = locator_of(mesh, OPEN, 0);
+        mw_query_options options = {.start = MW_START_CENTRE, .count = 1};
+        mw_cursor cursor;
+        assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+        mw_location at = mw_locate(open, &cursor, 15.5, 15.5);
+        if (at.where == MW_INSIDE) assert_int_equal(cursor.counters.triangles_visited, 1);
+        mw_locator_destroy(open);
+        mw_mesh_destroy(mesh);
         arrays_free(&a);
     }
 }
@@ -493,7 +595,8 @@ int main(void)
         cmocka_unit_test(test_shapes),          cmocka_unit_test(test_offset_and_scale),
         cmocka_unit_test(test_slivers),         cmocka_unit_test(test_flat),
         cmocka_unit_test(test_options),         cmocka_unit_test(test_counters),
-        cmocka_unit_test(test_published_bound),
+        cmocka_unit_test(test_published_bound), cmocka_unit_test(test_long_ways),
+        cmocka_unit_test(test_short_ways),      cmocka_unit_test(test_centre),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -282,7 +282,7 @@ static double mean_walk(const mw_tiling *tiling, const mw_layers *layers, const 
             mw__walk_begin(tiling, q, t, mw__walk_fuel(how->walk, arithmetic, tiling), mw__random(random), &work);
         work = (mw_work){.visited = 1};
         mw__walk_kernels(how->walk, tiling)->run[how->exact][true](&walk);
-        sum += work.visited;
+        sum += (double)work.visited;
     }
     return sum / QUERIES;
 }

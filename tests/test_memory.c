@@ -156,9 +156,11 @@ static void test_punched(void **state)
 {
     (void)state;
     uint64_t random = 2;
-    arrays a = grid_mesh(9, 0.6, &random);
-    punch(&a, 0.3, &random);
-    exhaust_all(&a);
+    for (int sparse = 0; sparse < 2; sparse++) { /* sparse: several pieces */
+        arrays a = grid_mesh(9, 0.4, &random);
+        punch(&a, sparse ? 0.75 : 0.3, &random);
+        exhaust_all(&a);
+    }
 }
 
 /* A vertex inside an edge, joined by a flat triangle. */

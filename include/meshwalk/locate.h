@@ -1,8 +1,8 @@
 /* locate.h - which triangle contains a point.
  *
  * A locator prepares one mesh for queries: it decides whether the mesh is an embedding, and, where the mesh is not
- * convex, fills the pockets and holes with marked ghost triangles of its own, so that every walk can cross them. It is
- * const while it is queried; what a query changes sits in a cursor that each thread owns.
+ * convex, fills the pockets and holes with marked ghost triangles of its own, so that every walk can cross them; or leaves them
+ * open on request, for the border walk. It is const while it is queried; what a query changes sits in a cursor that each thread owns.
  *
  * The answer is exact and unique: a point on an edge or a vertex belongs to the lowest-numbered triangle that contains
  * it. It does not depend on walk, start, arithmetic, seed, threads or the order of the queries. */
@@ -80,11 +80,11 @@ typedef struct mw_locator_options {
     int border; /* 1: build the index that nearest-border queries and a tolerance need                        */
     int layout; /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
     int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
-    int fill;   /* pockets and holes of a mesh that is not convex: 1: fill them with ghost triangles, so that every walk
-                   can cross them; 2: leave them open and build nothing: only MW_WALK_BORDER walks there; 0: decide   */
+    int fill; /* pockets and holes of an embedding that is not convex: 1: fill them with ghost triangles, so that every
+                   walk can cross them; 2: leave them open: then only MW_WALK_BORDER (and AUTO) walks there; 0: 1, unless
+                   `queries` makes it 2                                                                           */
     uint32_t reserved[3];
-    uint64_t
-        queries; /* about so many are to come, for `fill` 0: filling takes time that few do not pay for; 0 = many */
+    uint64_t queries; /* with `fill` 0: about so many are to come; few do not pay for what filling takes. 0 = many */
 } mw_locator_options;
 
 /* Prepare a mesh for queries.
@@ -108,7 +108,8 @@ typedef struct mw_locator_info {
     int embedding;   /* 0: only with options.any                          */
     int open;        /* 1: not convex, and pockets and holes are not filled                  */
     uint32_t pieces; /* parts of the mesh that share no vertex; only where open, else 1      */
-    size_t fill_bytes; /* of the bytes, what filling takes: ghosts, and the copy they need     */
+    size_t
+        fill_bytes; /* of the bytes, the ghosts and the copy of triangles and points that they are in; 0 without ghosts */
 } mw_locator_info;
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
 
@@ -180,8 +181,9 @@ typedef struct mw_query_options {
 #define MW_SAMPLE_FOURTH_ROOT UINT32_MAX /* 2 times the fourth root of it                                         */
 
 /* What the walks did, summed over queries; filled where options.count says so. A search has up to three stages:
- * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks. Each beginning
- * of a stage counts the triangle it begins in again; triangles_visited counts each entry once.
+ * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks; the border walk
+ * alternates between the walk and the border. Each beginning of a stage but the border counts the triangle it begins in again;
+ * triangles_visited counts each entry once.
  * Layers (MW_START_LAYERS) are counted like the mesh itself. Independent of threads; where queries begin at the one
  * before (last, sorted, auto), they depend on lanes. */
 typedef struct mw_counters {
@@ -199,8 +201,10 @@ typedef struct mw_counters {
     uint64_t walk_runs, border_runs;
     uint64_t triangles_border, triangles_border_max, orient_border;
     uint64_t border_edges, border_edges_max; /* edges of the border that were tested */
-    uint64_t cycles;    /* walks that ran out of steps: in a cycle or, in a long thin mesh, on a long way  */
-    uint64_t handovers; /* walks that the celestial walk ended: those, and such as in doubles ended wrongly */
+    uint64_t cycles; /* walks that ran out of steps: in a cycle or, in a long thin mesh, on a long way  */
+    uint64_t
+        handovers; /* walks that an exact walk ended that surely ends (celestial; border, all along each): those, and such as
+                           in doubles ended wrongly. What it did is part of the final stage  */
 } mw_counters;
 
 /* Add `more` to `sum`: for the cursors of several threads. */
@@ -223,7 +227,8 @@ typedef struct mw_cursor {
 
 /* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a finish that is neither remembering nor
  * stochastic, a start without its index, an index of another start, a tolerance that is negative, NaN or infinite, or
- * one without the border index. With an index and MW_START_AUTO the start is the index's. MW_START_SORTED in single
+ * one without the border index, another walk than the border walk where pockets and holes are open
+ * (mw_locator_info.open). With an index and MW_START_AUTO the start is the index's. MW_START_SORTED in single
  * queries means MW_START_LAST. */
 MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options,
                                 mw_error *error);

@@ -62,7 +62,7 @@ uint32_t mw__boxes_next(const mw_boxes *boxes, uint32_t i, mw_point q)
     for (uint64_t at = i; at < boxes->count;) {
         uint64_t passed = 0;
         for (uint32_t level = levels_begun(boxes, (uint32_t)at); level-- > 0 && !passed;) {
-            uint32_t shift = 3 * (level + 1); /* MW_BOXES_FAN is 8 */
+            uint32_t shift = MW_BOXES_BITS * (level + 1);
             if (!mw__box_contains(&boxes->box[boxes->first[level] + (at >> shift)], q)) passed = UINT64_C(1) << shift;
         }
         if (!passed) return (uint32_t)at;

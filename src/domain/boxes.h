@@ -11,8 +11,9 @@ typedef struct mw_box {
 
 /* Box 0 of level 0 holds the first MW_BOXES_FAN things, and so on; box i of level k + 1 holds boxes MW_BOXES_FAN * i ... of
  * level k. The top level has one box. */
-#define MW_BOXES_FAN 8u
-#define MW_BOXES_LEVELS 12
+#define MW_BOXES_BITS 3u
+#define MW_BOXES_FAN (1u << MW_BOXES_BITS)
+#define MW_BOXES_LEVELS 11 /* for 2^32 things */
 typedef struct mw_boxes {
     mw_box *box;
     uint32_t count, level_count;           /* of things; of levels */

@@ -146,7 +146,7 @@ static void measure_pieces(mw_open *open, const mw_tiling *tiling)
 static uint64_t rank_of(const mw_hilbert *hilbert, const mw_box *box)
 {
     int size;
-    frexp(fmax(box->high[0] - box->low[0], box->high[1] - box->low[1]), &size);
+    frexp(fmax(box->high[0] / 2 - box->low[0] / 2, box->high[1] / 2 - box->low[1] / 2), &size);
     uint32_t key = mw__hilbert_key(hilbert, box->low[0] / 2 + box->high[0] / 2, box->low[1] / 2 + box->high[1] / 2);
     return (uint64_t)(size + 4096) / 2 << 32 | key;
 }
@@ -197,6 +197,14 @@ static mw_box box_of_piece(const void *pieces, uint32_t i)
     return ((const mw_part *)pieces)[i].box;
 }
 
+static bool list_pieces(mw_open *open, const mw_tiling *tiling)
+{
+    open->piece = mw__alloc(open->piece_count, sizeof *open->piece);
+    if (!open->piece) return false;
+    measure_pieces(open, tiling);
+    return sort_pieces(open, tiling) && mw__boxes_create(&open->boxes, open->piece_count, box_of_piece, open->piece);
+}
+
 static bool find_pieces(mw_open *open, const mw_tiling *tiling)
 {
     uint32_t *parent = mw__alloc(tiling->point_count, sizeof *parent);
@@ -207,13 +215,8 @@ static bool find_pieces(mw_open *open, const mw_tiling *tiling)
         open->piece_count = number_pieces(tiling, parent, open->piece_of);
     }
     free(parent);
-    if (!done || open->piece_count > 1) {
-        open->piece = mw__alloc(open->piece_count, sizeof *open->piece);
-        if (!done || !open->piece) return false;
-        measure_pieces(open, tiling);
-        return sort_pieces(open, tiling) &&
-               mw__boxes_create(&open->boxes, open->piece_count, box_of_piece, open->piece);
-    }
+    if (!done) return false;
+    if (open->piece_count > 1) return list_pieces(open, tiling);
     free(open->piece_of);
     open->piece_of = NULL;
     return true;
@@ -223,7 +226,7 @@ static bool find_pieces(mw_open *open, const mw_tiling *tiling)
 
 bool mw__open_create(mw_open *open, const mw_tiling *tiling, mw_rim_edge *rim, uint32_t count)
 {
-    *open = (mw_open){0};
+    *open = (mw_open){.edge_count = count};
     qsort(rim, count, sizeof *rim, compare_halves);
     return find_turns(open, tiling, rim, count) && find_loops(open, tiling, rim, count) && find_pieces(open, tiling);
 }
@@ -246,15 +249,21 @@ size_t mw__open_bytes(const mw_open *open, const mw_tiling *tiling)
            mw__boxes_bytes(&open->boxes);
 }
 
+/* Both tables have pairs of numbers, in order of the first ones. */
+static int compare_firsts(const void *left, const void *right)
+{
+    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return a < b ? -1 : a > b;
+}
+
 uint32_t mw__open_hole(const mw_open *open, uint32_t lowest)
 {
-    uint32_t low = 0, high = open->loop_count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (open->loop[middle].lowest < lowest)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < open->loop_count && open->loop[low].lowest == lowest ? open->loop[low].hole : MW_NONE;
+    const mw_hole_loop *loop = bsearch(&lowest, open->loop, open->loop_count, sizeof *loop, compare_firsts);
+    return loop ? loop->hole : MW_NONE;
+}
+
+uint32_t mw__open_turn(const mw_open *open, uint32_t half)
+{
+    const mw_turn *turn = bsearch(&half, open->turn, open->turn_count, sizeof *turn, compare_firsts);
+    return turn ? turn->to : MW_NONE;
 }

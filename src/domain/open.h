@@ -40,7 +40,7 @@ typedef struct mw_open {
     mw_part *piece;     /* small before large ones, those near each other together */
     uint32_t *piece_of; /* per vertex its piece; NULL where there is one           */
     mw_boxes boxes;     /* of the pieces */
-    uint32_t turn_count, loop_count, piece_count;
+    uint32_t edge_count, turn_count, loop_count, piece_count; /* edge_count: of the border */
 } mw_open;
 
 /* The edges of the border of the tiles that a survey's mesh has without ghosts. *count of them, released
@@ -57,17 +57,6 @@ size_t mw__open_bytes(const mw_open *open, const struct mw_tiling *tiling);
 uint32_t mw__open_hole(const mw_open *open, uint32_t lowest);
 
 /* The edge that follows border edge `half` where turning round its end would not find it, else MW_NONE. */
-static MW_INLINE uint32_t mw__open_turn(const mw_open *open, uint32_t half)
-{
-    uint32_t low = 0, high = open->turn_count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (open->turn[middle].from < half)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < open->turn_count && open->turn[low].from == half ? open->turn[low].to : MW_NONE;
-}
+uint32_t mw__open_turn(const mw_open *open, uint32_t half);
 
 #endif

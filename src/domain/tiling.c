@@ -44,7 +44,7 @@ static mw_status refuse(const mw_survey *survey, mw_error *error)
 static bool stands_alone(const mw_survey *survey)
 {
     const mw_outline *o = &survey->outline;
-    if (o->mesh->flat_count > 0 || survey->cover.split_count > 0) return false;
+    if (o->mesh->flat_count > 0) return false; /* only beside flat triangles are edges cut */
     for (uint32_t v = 0; v < o->mesh->point_count; v++)
         if (o->place[v] != MW_NONE && o->vertex[o->place[v]] != v) return false;
     return true;

@@ -2,6 +2,7 @@
 #include "base/random.h"
 #include "locate/index.h"
 #include "locate/locator.h"
+#include "locate/pieces.h"
 #include "start/start.h"
 
 /* --- the conclusion ---------------------------------------------------------------------------------------------- */
@@ -90,7 +91,7 @@ static void count(mw_counters *counters, const mw_work *work, bool cycle, bool h
 /* A walk in doubles says that q lies beyond a hull edge of its last tile: does it? */
 static bool has_left(const mw_tiling *tiling, const mw_walk *walk)
 {
-    if (tiling->open) return false; /* beyond a border there may be more tiles */
+    if (tiling->open) return walk->phase == MW_PHASE_AWAY; /* beyond a border there may be more tiles */
     const mw_triangle *tile = &tiling->tri[walk->t];
     for (int k = 0; k < 3; k++)
         if (tile->link[k] == MW_NONE &&
@@ -113,61 +114,14 @@ static void add_final(mw_work *sum, const mw_work *more)
  * handed over: *changed tells. */
 static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
 {
-    mw_walk_kind sure = tiling->open ? MW_WALK_BORDER : MW_WALK_CELESTIAL;
-    uint32_t fuel = mw__walk_fuel(sure, MW_EXACT, tiling);
     mw_work more = {0};
-    mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, fuel, 0, counted ? &more : NULL);
-    mw_verdict verdict = mw__walk_kernels(sure, tiling)->run[true][counted](&end);
+    mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
+    mw_verdict verdict = mw__walk_surely(&end, counted);
     bool round = tiling->open && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */
     *changed = verdict != before || (end.t != walk->t && !round);
     if (*changed && counted) add_final(walk->work, &more);
     walk->t = end.t;
-    walk->lowest = end.lowest;
-    return verdict;
-}
-
-/* The smallest face of a piece that q is known to lie in. */
-typedef struct face {
-    uint32_t hole; /* MW_NONE: none is known */
-    mw_box box;    /* of the piece           */
-} face;
-
-static bool is_inside(const mw_box *box, const mw_box *other)
-{
-    return box->low[0] >= other->low[0] && box->low[1] >= other->low[1] && box->high[0] <= other->high[0] &&
-           box->high[1] <= other->high[1];
-}
-
-/* q lies beyond the border round which the walk went last. Pieces of which a face holds q lie in one another. */
-static void note_face(face *f, const mw_open *open, uint32_t lowest, mw_box box)
-{
-    uint32_t hole = mw__open_hole(open, lowest);
-    if (hole != MW_NONE && (f->hole == MW_NONE || is_inside(&box, &f->box))) *f = (face){hole, box};
-}
-
-/* q is not in the piece of an open tiling where the walk ended: look in the others whose boxes hold it, small ones first.
- * *hole: where q lies if it is in none. */
-static mw_verdict try_pieces(const mw_tiling *tiling, mw_walk *walk, bool counted, uint32_t *hole)
-{
-    const mw_open *open = tiling->open;
-    face f = {.hole = MW_NONE};
-    mw_verdict verdict = MW_LEFT;
-    if (!open->piece_of) {
-        *hole = mw__open_hole(open, walk->lowest);
-        return verdict;
-    }
-    uint32_t here = open->piece_of[tiling->tri[walk->t].v[0]];
-    uint32_t fuel = mw__walk_fuel(MW_WALK_BORDER, MW_EXACT, tiling);
-    note_face(&f, open, walk->lowest, open->piece[here].box);
-    uint32_t i = mw__boxes_next(&open->boxes, 0, walk->q);
-    for (; verdict != MW_FOUND && i < open->piece_count; i = mw__boxes_next(&open->boxes, i + 1, walk->q)) {
-        const mw_part *piece = &open->piece[i];
-        if (i == here || !mw__box_contains(&piece->box, walk->q)) continue;
-        *walk = mw__walk_begin(tiling, walk->q, piece->first, fuel, 0, counted ? walk->work : NULL);
-        verdict = mw__border_walk.run[true][counted](walk);
-        if (verdict == MW_LEFT) note_face(&f, open, walk->lowest, piece->box);
-    }
-    *hole = f.hole;
+    if (tiling->open) walk->lowest = end.lowest;
     return verdict;
 }
 
@@ -175,13 +129,14 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
                          mw_counters *counters)
 {
     const mw_tiling *tiling = &locator->tiling;
-    bool exact = cursor->arithmetic == MW_EXACT;
-    uint32_t hole = MW_NONE;
+    bool exact = cursor->arithmetic == MW_EXACT, changed = false;
     if (verdict == MW_CLOSE)
         verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact, cursor->count);
-    bool dry = verdict == MW_DRY, changed = false, sure = exact || (verdict == MW_LEFT && has_left(tiling, walk));
+    bool dry = verdict == MW_DRY;
+    bool sure = exact || (verdict == MW_LEFT && has_left(tiling, walk));
     if (MW_UNLIKELY(dry || !sure)) verdict = hand_over(tiling, walk, verdict, cursor->count, &changed);
-    if (tiling->open && verdict == MW_LEFT) verdict = try_pieces(tiling, walk, cursor->count, &hole);
+    uint32_t hole = MW_NONE;
+    if (tiling->open && verdict == MW_LEFT) verdict = mw__pieces_search(tiling, walk, cursor->count, &hole);
     if (cursor->count) count(counters, walk->work, dry, changed);
     if (MW_UNLIKELY(verdict != MW_FOUND))
         return outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q, cursor->tolerance);
@@ -213,17 +168,6 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     return last;
 }
 
-/* Begin in the piece of an open tiling that is likeliest to hold q: that of tile t, or one whose box tells more. */
-static uint32_t in_likely_piece(const mw_tiling *tiling, uint32_t t, mw_point q)
-{
-    const mw_open *open = tiling->open;
-    if (mw__box_contains(&open->piece[open->piece_of[tiling->tri[t].v[0]]].box, q)) return t;
-    uint32_t i = mw__boxes_next(&open->boxes, 0, q);
-    while (i < open->piece_count && !mw__box_contains(&open->piece[i].box, q))
-        i = mw__boxes_next(&open->boxes, i + 1, q);
-    return i < open->piece_count ? open->piece[i].first : t;
-}
-
 static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
                      mw_work *work)
 {
@@ -231,8 +175,9 @@ static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_
     if (cursor->count) *work = (mw_work){0};
     uint32_t t =
         cursor->index ? mw__index_first(tiling, cursor, q, random, work) : first_tile(locator, cursor, last, q, random);
-    if (MW_UNLIKELY(tiling->open && tiling->open->piece_of)) t = in_likely_piece(tiling, t, q);
-    return mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
+    mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
+    if (MW_UNLIKELY(tiling->open)) mw__pieces_begin(locator, &walk);
+    return walk;
 }
 
 /* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed by the line to q, by

@@ -14,8 +14,11 @@
  * far that it has not, p is the right end. A vertex of the border on the line is compared with q, and so is an edge along the
  * line: such a q may lie on the border where the line passes outside. Where several fans of tiles meet in a vertex, the
  * border goes on round the face beyond it (open.h).
- * Ends on every embedding: each time the line comes back it does so farther on than it left. docs/guarantees.md has the
- * proof, and what it costs. */
+ * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the line leaves.
+ * Ends on every embedding: each time the line comes back it does so farther on than it left. But it may come back very often,
+ * and go along the same border each time. So its steps are limited, and a second form takes over, which goes all along a
+ * border and on where the line comes back last: if it ever leaves over the same border again, it is for good.
+ * docs/guarantees.md has the proofs. */
 #include "walk/drive.h"
 
 enum { FIRST, FOLLOW, ROUND_LEFT, ROUND_RIGHT, ROUND_ON }; /* phases; round: where the border's last vertex lies */
@@ -55,7 +58,9 @@ static MW_INLINE mw_verdict turn_corner(mw_walk *w, uint32_t e, mw_policy P)
 static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (MW_LIKELY(w->tri[w->t].link[e] != MW_NONE)) return cross(w, e, P);
+    if (!w->tiling->open && w->tiling->embedding) return MW_LEFT;
     w->exit = w->lowest = mw__link(w->t, e);
+    w->farthest = MW_NONE;
     begin_run(w, ROUND_LEFT, MW_STAGE_BORDER, P);
     return turn_corner(w, e, P);
 }
@@ -80,17 +85,39 @@ static MW_INLINE mw_verdict follow(mw_walk *w, mw_policy P)
     return beyond(w, out, P) ? go_on(w, out, P) : MW_FOUND;
 }
 
-/* Does the line meet edge lr, by which it comes in, behind the edge by which it left? One of the two edges lies on one side
- * of the other, as they do not cross. */
-static MW_INLINE bool is_behind_exit(mw_walk *w, mw_point l, mw_point r, mw_policy P)
+/* An edge that the line crosses, by the ends on its right and left. */
+typedef struct crossed {
+    mw_point r, l;
+} crossed;
+
+/* Does the line meet edge `there` behind edge `here`? One of the two lies on one side of the other, as they do not cross. */
+static MW_INLINE bool is_behind(mw_walk *w, crossed here, crossed there, mw_policy P)
 {
-    const uint32_t *v = w->tri[mw__link_triangle(w->exit)].v + mw__link_edge(w->exit);
-    mw_point out_r = w->point[v[0]], out_l = w->point[v[1]];
-    double at_r = orient(w, out_r, out_l, r, P), at_l = orient(w, out_r, out_l, l, P);
-    if (at_r <= 0 && at_l <= 0) return true;
-    if (at_r >= 0 && at_l >= 0) return false;
-    double out_at_r = orient(w, l, r, out_r, P);
-    return out_at_r != 0 ? out_at_r < 0 : orient(w, l, r, out_l, P) < 0;
+    double r = orient(w, here.r, here.l, there.r, P), l = orient(w, here.r, here.l, there.l, P);
+    if (r <= 0 && l <= 0) return true;
+    if (r >= 0 && l >= 0) return false;
+    r = orient(w, there.r, there.l, here.r, P);
+    return r != 0 ? r > 0 : orient(w, there.r, there.l, here.l, P) > 0;
+}
+
+static MW_INLINE mw_point end_of(const mw_walk *w, uint32_t half, uint32_t end)
+{
+    return w->point[w->tri[mw__link_triangle(half)].v[mw__link_edge(half) + end]];
+}
+
+/* Does the line come back over the border edge ab, behind the place where it left and not behind q? */
+static MW_INLINE bool comes_back(mw_walk *w, mw_point a, mw_point b, mw_policy P)
+{
+    crossed out = {end_of(w, w->exit, 0), end_of(w, w->exit, 1)};
+    return orient(w, a, b, w->q, P) >= 0 && is_behind(w, out, (crossed){b, a}, P);
+}
+
+/* Is it behind all others over which the line comes back? */
+static MW_INLINE bool is_farthest(mw_walk *w, mw_point a, mw_point b, mw_policy P)
+{
+    if (w->farthest == MW_NONE) return true;
+    crossed last = {end_of(w, w->farthest, 1), end_of(w, w->farthest, 0)};
+    return is_behind(w, last, (crossed){b, a}, P);
 }
 
 static MW_INLINE bool is_between(mw_point a, mw_point q, mw_point b)
@@ -98,8 +125,18 @@ static MW_INLINE bool is_between(mw_point a, mw_point q, mw_point b)
     return fmin(a.x, b.x) <= q.x && q.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= q.y && q.y <= fmax(a.y, b.y);
 }
 
+/* The walk goes on in the tile of a border edge, over which the line comes back. */
+static MW_INLINE mw_verdict come_back(mw_walk *w, uint32_t half, mw_policy P)
+{
+    begin_run(w, FOLLOW, MW_STAGE_WALK, P);
+    if (P.count) w->work->triangles[MW_STAGE_WALK]++;
+    w->t = mw__link_triangle(half);
+    w->e = mw__link_edge(half);
+    return MW_GO;
+}
+
 /* Along border edge e to its end: is q there, or does the line come back over it? */
-static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, bool all, mw_policy P)
 {
     mw_point a = corner(w, e), b = corner(w, e + 1);
     double s = side(w, b, P);
@@ -107,10 +144,9 @@ static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, mw_policy P)
     if (P.count) w->work->border_edges++;
     if (half < w->lowest) w->lowest = half;
     if (MW_UNLIKELY(s == 0 && is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
-    if (w->phase == ROUND_LEFT && s <= 0 && orient(w, a, b, w->q, P) >= 0 && is_behind_exit(w, a, b, P)) {
-        begin_run(w, FOLLOW, MW_STAGE_WALK, P);
-        if (P.count) w->work->triangles[MW_STAGE_WALK]++;
-        return MW_GO;
+    if (w->phase == ROUND_LEFT && s <= 0 && comes_back(w, a, b, P)) {
+        if (!all) return come_back(w, half, P);
+        if (is_farthest(w, a, b, P)) w->farthest = half;
     }
     w->phase = s > 0 ? ROUND_LEFT : s < 0 ? ROUND_RIGHT : ROUND_ON;
     return turn_corner(w, e, P);
@@ -118,20 +154,32 @@ static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, mw_policy P)
 
 /* Edge e begins at the border's last vertex: turn round that through tiles to the border's next edge. Ends: the turn began at
  * a border edge, and no tile has two tiles before it. */
-static MW_INLINE mw_verdict go_round(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict go_round(mw_walk *w, bool all, mw_policy P)
 {
     while (w->tri[w->t].link[w->e] != MW_NONE) {
         cross(w, w->e, P);
         w->e = mw__next(w->e);
     }
-    return mw__link(w->t, w->e) == w->exit ? MW_LEFT : pass_border(w, w->e, P);
+    if (mw__link(w->t, w->e) != w->exit) return pass_border(w, w->e, all, P);
+    return all && w->farthest != MW_NONE ? come_back(w, w->farthest, P) : MW_LEFT;
+}
+
+static MW_INLINE mw_verdict step(mw_walk *w, bool all, mw_policy P)
+{
+    if (MW_LIKELY(w->phase == FOLLOW)) return follow(w, P);
+    if (w->phase == FIRST) return aim(w, P);
+    return w->phase == MW_PHASE_AWAY ? MW_LEFT : go_round(w, all, P);
 }
 
 static MW_INLINE mw_verdict border_walk_step(mw_walk *w, mw_policy P)
 {
-    if (MW_LIKELY(w->phase == FOLLOW)) return follow(w, P);
-    if (w->phase != FIRST) return go_round(w, P);
-    return aim(w, P);
+    return step(w, false, P);
 }
 
-MW_STAMP_WALK(border_walk, true)
+static MW_INLINE mw_verdict border_sure_step(mw_walk *w, mw_policy P)
+{
+    return step(w, true, P);
+}
+
+MW_STAMP_WALK(border_walk, false)
+MW_STAMP_WALK(border_sure, true)

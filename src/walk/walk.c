@@ -61,16 +61,25 @@ mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, co
     return mw__walk_kernels(finish, tiling)->run[exact][count](walk);
 }
 
-/* The border walk may go along every border many times; in doubles, or where the mesh is no embedding, some times must do. */
-static double border_steps(bool ends, double tiles)
-{
-    return ends ? UINT32_MAX : 4096 + 16 * tiles;
-}
-
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling)
 {
-    double tiles = tiling->tri_count;
-    bool ends = kernels[kind]->ends && arithmetic == MW_EXACT && tiling->embedding;
-    double steps = kind == MW_WALK_BORDER ? border_steps(ends, tiles) : ends ? tiles + 1 : 4096 + 45 * sqrt(tiles);
+    double tiles = tiling->tri_count, steps = 4096 + 45 * sqrt(tiles);
+    if (kernels[kind]->ends && arithmetic == MW_EXACT && tiling->embedding) steps = tiles + 1;
+    if (kind == MW_WALK_BORDER) steps += tiling->open ? 4.0 * tiling->open->edge_count : tiles;
     return steps < UINT32_MAX ? (uint32_t)steps : UINT32_MAX;
+}
+
+mw_verdict mw__walk_surely(mw_walk *walk, bool count)
+{
+    const mw_tiling *tiling = walk->tiling;
+    mw_verdict verdict = MW_DRY;
+    if (!tiling->open) {
+        walk->fuel = mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling);
+        return mw__celestial.run[true][count](walk);
+    }
+    while (verdict == MW_DRY) { /* once, unless there are some 10^9 border edges */
+        walk->fuel = UINT32_MAX;
+        verdict = mw__border_sure.run[true][count](walk);
+    }
+    return verdict;
 }

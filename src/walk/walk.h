@@ -21,15 +21,15 @@ typedef enum mw_verdict {
 #define MW_NO_EDGE 3u
 
 /* The stages of a search, counted apart: turning round the first vertex, the walk, the final location that ends the
- * cheap walks, and the way along a border. Each counts the tile it begins in. */
+ * cheap walks, and the way along a border. Each but the last counts the tile it begins in. */
 enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGE_BORDER, MW_STAGES };
 
 /* What a search did; counted only by counting kernels. */
 typedef struct mw_work {
-    uint32_t visited; /* tiles entered, the first one included */
-    uint32_t triangles[MW_STAGES], orient[MW_STAGES];
-    uint32_t implicit, comparisons;
-    uint32_t walk_runs, border_runs, border_edges; /* of the border walk */
+    uint64_t visited; /* tiles entered, the first one included */
+    uint64_t triangles[MW_STAGES], orient[MW_STAGES];
+    uint64_t implicit, comparisons;
+    uint64_t walk_runs, border_runs, border_edges; /* of the border walk */
 } mw_work;
 
 /* Everything one walk remembers. */
@@ -50,7 +50,10 @@ typedef struct mw_walk {
             uint32_t lowest; /* border: the lowest of the border edges it met since then    */
         };
     };
-    uint32_t steps; /* fast stochastic: with one test each, that are left                     */
+    union {
+        uint32_t steps;    /* fast stochastic: with one test each, that are left                      */
+        uint32_t farthest; /* border: where the line comes back last, of the edges met; see there    */
+    };
     uint32_t stage; /* that counts                                                            */
     mw_work *work;  /* of counting kernels                                                    */
 } mw_walk;
@@ -65,27 +68,31 @@ typedef struct mw_feed {
 typedef struct mw_kernels {
     mw_verdict (*run[2][2])(mw_walk *walk);                 /* one walk, from its t to its end  */
     void (*ring[2][2])(mw_feed *feed, uint32_t lane_count); /* up to MW_MAX_LANES walks in turn */
-    bool
-        ends; /* with exact arithmetic it ends on every tiling, by the argument in its file: after as many steps as there are
-                  tiles at most, but for the border walk */
+    bool ends; /* with exact arithmetic it enters no tile of a tiling twice, by the argument in its file */
 } mw_kernels;
 
 #define MW_WALK_ENTRY(id, symbol, name, source, help) extern const mw_kernels mw__##symbol;
 #include <meshwalk/walks.def>
 extern const mw_kernels mw__direct_stored; /* the direct walk where areas are stored */
+extern const mw_kernels mw__border_sure;   /* the border walk that goes along no border more than twice */
+
+/* Phase of a border walk that ends at once: q is in no piece's box. */
+#define MW_PHASE_AWAY 15u
 
 /* The kernels of a walk on this tiling; not for MW_WALK_AUTO. */
 const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling);
 
-/* Steps after which a walk hands over. Walks that end get what they can need at most; the border walk, where it may not end,
- * 16 times the number of tiles; the others about 45 times the
+/* Steps after which a walk hands over. Walks that end get what they can need at most; the others about 45 times the
  * square root of the number of tiles, far above the length of any walk on Delaunay meshes of spread points, plus a
- * constant for small meshes. */
+ * constant for small meshes; the border walk also four times the number of border edges. */
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling);
 
 /* End with an exact walk (of kind `finish`) what a cheap one left at MW_CLOSE. */
 mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
                            bool count);
+
+/* Go on from tile walk->t with an exact walk that ends on every embedding. MW_DRY only where the mesh is none. */
+mw_verdict mw__walk_surely(mw_walk *walk, bool count);
 
 /* A walk to q from tile t, which is counted in *work, unless that is NULL. Touches no mesh memory. */
 static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uint32_t t, uint32_t fuel, uint64_t random,

@@ -1,0 +1,86 @@
+/* pieces.c - walks in open tilings of several pieces: in which to begin, where to go on, and in which hole a point lies
+ * that is in none. */
+#include "locate/pieces.h"
+
+/* --- where to begin --- */
+
+static bool is_in_extent(const mw_locator *locator, mw_point q)
+{
+    mw_box all = {{locator->low[0], locator->low[1]}, {locator->high[0], locator->high[1]}};
+    return mw__box_contains(&all, q);
+}
+
+/* The first piece from number i on whose box holds q. */
+static uint32_t next_piece(const mw_open *open, uint32_t i, mw_point q)
+{
+    i = mw__boxes_next(&open->boxes, i, q);
+    while (i < open->piece_count && !mw__box_contains(&open->piece[i].box, q))
+        i = mw__boxes_next(&open->boxes, i + 1, q);
+    return i;
+}
+
+void mw__pieces_begin(const mw_locator *locator, mw_walk *walk)
+{
+    const mw_open *open = walk->tiling->open;
+    bool near = is_in_extent(locator, walk->q);
+    if (near && open->piece_of) {
+        uint32_t here = open->piece_of[walk->tri[walk->t].v[0]];
+        if (mw__box_contains(&open->piece[here].box, walk->q)) return;
+        uint32_t i = next_piece(open, 0, walk->q);
+        near = i < open->piece_count;
+        if (near) walk->t = open->piece[i].first;
+    }
+    if (near) return;
+    walk->phase = MW_PHASE_AWAY;
+    walk->lowest = MW_NONE;
+}
+
+/* --- where to go on --- */
+
+/* The smallest face of a piece that q is known to lie in. */
+typedef struct face {
+    uint32_t hole; /* MW_NONE: none is known */
+    mw_box box;    /* of the piece           */
+} face;
+
+static bool is_inside(const mw_box *box, const mw_box *other)
+{
+    return box->low[0] >= other->low[0] && box->low[1] >= other->low[1] && box->high[0] <= other->high[0] &&
+           box->high[1] <= other->high[1];
+}
+
+/* q lies beyond the border round which the walk went last. Pieces of which a face holds q lie in one another. */
+static void note_face(face *f, const mw_open *open, uint32_t lowest, mw_box box)
+{
+    uint32_t hole = mw__open_hole(open, lowest);
+    if (hole != MW_NONE && (f->hole == MW_NONE || is_inside(&box, &f->box))) *f = (face){hole, box};
+}
+
+static mw_verdict walk_in(const mw_tiling *tiling, const mw_part *piece, mw_walk *walk, bool counted)
+{
+    uint32_t fuel = mw__walk_fuel(MW_WALK_BORDER, MW_EXACT, tiling);
+    mw_work *work = counted ? walk->work : NULL;
+    *walk = mw__walk_begin(tiling, walk->q, piece->first, fuel, 0, work);
+    mw_verdict verdict = mw__border_walk.run[true][counted](walk);
+    if (MW_LIKELY(verdict != MW_DRY)) return verdict;
+    *walk = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, work);
+    return mw__walk_surely(walk, counted);
+}
+
+mw_verdict mw__pieces_search(const mw_tiling *tiling, mw_walk *walk, bool counted, uint32_t *hole)
+{
+    const mw_open *open = tiling->open;
+    *hole = mw__open_hole(open, walk->lowest);
+    if (!open->piece_of || walk->phase == MW_PHASE_AWAY) return MW_LEFT;
+    uint32_t here = open->piece_of[tiling->tri[walk->t].v[0]];
+    face f = {.hole = MW_NONE};
+    note_face(&f, open, walk->lowest, open->piece[here].box);
+    mw_verdict verdict = MW_LEFT;
+    for (uint32_t i = 0; (i = next_piece(open, i, walk->q)) < open->piece_count && verdict != MW_FOUND; i++) {
+        if (i == here) continue;
+        verdict = walk_in(tiling, &open->piece[i], walk, counted);
+        if (verdict == MW_LEFT) note_face(&f, open, walk->lowest, open->piece[i].box);
+    }
+    *hole = f.hole;
+    return verdict;
+}
