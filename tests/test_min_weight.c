@@ -382,13 +382,16 @@ static void test_large(void **state)
     for (int kind = 0; kind < KINDS; kind++) {
         uint32_t n = kind == CIRCLE || kind == WHEEL ? 200 : 2000;
         double *points = make_points(kind, n, 5);
-        mw_kind_report report, delaunay;
+        mw_kind_report report, delaunay, greedy;
         mw_mesh *mesh = triangulate(points, n, 0, &report), *other;
         mw_error error;
+        expect_ok(mw_triangulate(MW_GREEDY, points, n, 2, NULL, NULL, &greedy, &other, &error), "greedy", &error);
+        mw_mesh_destroy(other);
         expect_ok(mw_triangulate(MW_DELAUNAY, points, n, 2, NULL, NULL, &delaunay, &other, &error), "delaunay", &error);
         print_message("kind %d: %g of Delaunay, %zu faces, largest %zu, local %zu\n", kind,
                       report.edge_length / delaunay.edge_length, report.faces, report.largest_face, report.local_faces);
         assert_true(report.edge_length <= delaunay.edge_length * (1 + 1e-12));
+        assert_true(report.edge_length <= greedy.edge_length * (1 + 1e-12));
         assert_true(report.optimal == (report.local_faces == 0));
         if (kind != WHEEL) assert_true(report.optimal);
         mw_mesh_destroy(mesh);

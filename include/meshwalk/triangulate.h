@@ -74,7 +74,8 @@ typedef struct mw_kind_options {
  *                     then the higher), each taken unless it crosses one taken before.
  *   MW_MIN_WEIGHT     Sums of lengths are compared in doubles, so of triangulations that differ in the last digits any
  *                     may be made. Faces that are too large for dynamic programming, or hold points, get a local optimum:
- *                     no exchange of the diagonal of a quadrilateral shortens it.
+ *                     no exchange of the diagonal of a quadrilateral shortens it, and it is no longer than MW_GREEDY, up
+ *                     to rounding.
  *   MW_MIN_MAX_ANGLE  Angles are compared exactly. Always a local optimum, and above the limit that only: no exchange of a
  *                     diagonal makes the largest angle of its quadrilateral smaller. */
 MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,

@@ -1,6 +1,6 @@
 /* min_weight.c - triangulation of least weight: the LMT skeleton [Dickerson, Keil, Montague 1997], then the faces it leaves.
  *
- * Everything hangs on one triangulation T. It is the Delaunay triangulation, made locally minimal: each edge that is the
+ * Everything hangs on one triangulation T. It is the greedy triangulation, made locally minimal: each edge that is the
  * longer diagonal of a strictly convex quadrilateral is exchanged for the other. The candidates are the edges with the diamond
  * property and those of T. An edge of T is never removed from them: its two triangles in T keep it, and their sides keep
  * each other. So a candidate that no other one crosses is in T, and the skeleton is what is left of T when each
@@ -531,6 +531,8 @@ mw_status mw__make_min_weight(mw_triangulation *t, const mw_kind_options *option
                               mw_error *error)
 {
     weigher w = {.t = t};
+    mw_status status = mw__make_greedy(t, options, report, error);
+    if (status) return status;
     mw_lmt_result result = prepare(&w) ? MW_LMT_DONE : MW_LMT_MEMORY;
     if (result == MW_LMT_DONE) {
         shorten(&w);
