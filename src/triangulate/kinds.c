@@ -39,11 +39,21 @@ mw_status mw__make_delaunay(mw_triangulation *t, const mw_kind_options *options,
     return MW_OK;
 }
 
+/* (x, y) scaled by a power of two, so that products stay among the doubles. */
+static mw_point scaled(double x, double y)
+{
+    int exponent = ilogb(fmax(fabs(x), fabs(y)));
+    return (mw_point){ldexp(x, -exponent), ldexp(y, -exponent)};
+}
+
 /* Of the angle at corner b: its cotangent, the smaller the larger the angle is. */
 static double cotangent(mw_point a, mw_point b, mw_point c)
 {
     double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
-    return (ux * vx + uy * vy) / fabs(ux * vy - uy * vx);
+    double cross = fabs(ux * vy - uy * vx), sum = fabs(ux * vy) + fabs(uy * vx);
+    if (MW_LIKELY(sum < 0x1p900 && cross > 0x1p-900)) return (ux * vx + uy * vy) / cross;
+    mw_point u = scaled(a.x / 2 - b.x / 2, a.y / 2 - b.y / 2), v = scaled(c.x / 2 - b.x / 2, c.y / 2 - b.y / 2);
+    return (u.x * v.x + u.y * v.y) / fabs(u.x * v.y - u.y * v.x);
 }
 
 static void measure(const mw_triangulation *t, mw_kind_report *report)
