@@ -91,7 +91,9 @@ typedef struct mw_locator_options {
  *   mesh     must outlive the locator; its fields may change while that exists
  *   options  NULL = all zero
  *   out      owned by the caller (mw_locator_destroy); NULL on failure
- * MW_ERROR_INPUT: the mesh has no triangle with an area, or is no embedding; the error names the first defect. */
+ * MW_ERROR_INPUT: the mesh has no triangle with an area, or is no embedding; the error names the first defect.
+ * MW_ERROR_ARGUMENT: NULL, or an option out of its range. MW_ERROR_LIMIT: more than MW_MAX_TRIANGLES with the ghosts.
+ * MW_ERROR_MEMORY. */
 MW_API mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options, mw_locator **out,
                                    mw_error *error);
 MW_API void mw_locator_destroy(mw_locator *locator); /* NULL is allowed */
@@ -103,11 +105,13 @@ typedef struct mw_locator_info {
     size_t area_bytes;        /* of it, the stored areas                           */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;      /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
+    int copied;    /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
                       Hilbert order */
-    int embedding;   /* 0: only with options.any                          */
-    int open;        /* 1: not convex, and pockets and holes are not filled                  */
-    uint32_t pieces; /* parts of the mesh that share no vertex; only where open, else 1      */
+    int embedding; /* 0: only with options.any                          */
+    int open;      /* 1: not convex, and pockets and holes are not filled                  */
+    uint32_t
+        pieces; /* parts of the mesh that share no place (vertices at equal coordinates are one here); only where open,
+                        else 1 */
     size_t
         fill_bytes; /* of the bytes, the ghosts and the copy of triangles and points that they are in; 0 without ghosts */
 } mw_locator_info;
@@ -250,7 +254,8 @@ MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points
 
 /* The border edge nearest to a point, exactly: of several at the same distance the lowest triangle, then edge. A border
  * edge has a triangle with an area on one side, and on the other nothing that the mesh covers: flat triangles do not
- * count, and where two pieces lie along one another there is no border. */
+ * count, and where two pieces lie along one another there is no border. Of an edge that is covered in part, where vertices lie
+ * inside it, the other parts are border. */
 typedef struct mw_border_hit {
     uint32_t triangle; /* the caller's number */
     uint32_t edge;     /* local edge */
