@@ -87,6 +87,23 @@ static void query(const mw_mesh *mesh, const mw_locator *locator, mw_index *cons
         }
 }
 
+/* What a locator says whose pockets and holes are not filled: the same, holes too. */
+static void query_open(const mw_locator *open, const mw_locator *filled, const double q[2])
+{
+    mw_query_options by_default = {.start = MW_START_RANDOM, .seed = 7};
+    mw_cursor cursor;
+    if (mw_cursor_init(&cursor, filled, &by_default, NULL)) abort();
+    mw_location want = mw_locate(filled, &cursor, q[0], q[1]);
+    for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
+        mw_query_options options = {.start = MW_START_RANDOM, .seed = 7, .arithmetic = (mw_arithmetic)arithmetic};
+        if (mw_cursor_init(&cursor, open, &options, NULL)) abort();
+        for (int i = 0; i < 4; i++) {
+            mw_location at = mw_locate(open, &cursor, q[0], q[1]);
+            if (at.triangle != want.triangle || at.where != want.where || at.hole != want.hole) abort();
+        }
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -100,16 +117,20 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (mw_delaunay(points, n, 2, NULL, NULL, &whole, NULL)) return 0; /* all on one line */
     mw_mesh *mesh = damaged(&in, whole);
     mw_locator_options prepare = {.layout = 1 + (next(&in) & 1)};
-    mw_locator *locator;
+    mw_locator *locator, *open;
     if (mw_locator_create(mesh, &prepare, &locator, NULL)) abort(); /* a part of an embedding is one */
+    prepare.fill = 2;
+    if (mw_locator_create(mesh, &prepare, &open, NULL)) abort();
     mw_index *index[MW_START_COUNT];
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) /* NULL for starts that have none */
         mw_index_create(locator, (mw_start_kind)start, NULL, &index[start], NULL);
     for (int i = 0; i < 8; i++) {
         const double q[2] = {(coordinate(&in, 1) + offset) * scale, (coordinate(&in, 1) + offset) * scale};
         query(mesh, locator, index, q, prepare.layout);
+        query_open(open, locator, q);
     }
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) mw_index_destroy(index[start]);
+    mw_locator_destroy(open);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     mw_mesh_destroy(whole);
