@@ -249,6 +249,14 @@ static void search(scene *s)
     s->used[a][b] = false;
 }
 
+static void search_all(scene *s, const double *points, uint32_t n)
+{
+    *s = (scene){.points = points, .n = n, .best = INFINITY};
+    prepare(s);
+    open_hull(s);
+    search(s);
+}
+
 /* Reduce all edges there are: those of the least triangulation must remain. Returns how many do. */
 static uint32_t check_reduced(const scene *s)
 {
@@ -276,10 +284,8 @@ static uint32_t check_reduced(const scene *s)
 /* Of points that differ; adds to the numbers of edges that there are, and that remain of them. */
 static double least_weight(const double *points, uint32_t n, uint32_t *all, uint32_t *remaining)
 {
-    scene s = {.points = points, .n = n, .best = INFINITY};
-    prepare(&s);
-    open_hull(&s);
-    search(&s);
+    scene s;
+    search_all(&s, points, n);
     for (uint32_t a = 0; a < n; a++)
         for (uint32_t b = 0; b < a; b++) *all += s.edge[a][b];
     *remaining += check_reduced(&s);
@@ -441,6 +447,33 @@ static void test_scales(void **state)
     }
 }
 
+/* Coordinates so far apart that scaling brings points together: the way from one to the other has no direction then, and
+ * must rule out no edge. If it does, the last four sets come out too heavy. */
+static void test_span(void **state)
+{
+    (void)state;
+    enum { POINTS = 8, SEEDS = 8 };
+    static const uint64_t seeds[SEEDS] = {1, 2, 3, 4, 5245, 5375, 8893, 9133};
+    for (int k = 0; k < SEEDS; k++) {
+        uint64_t random = seeds[k];
+        double points[2 * POINTS];
+        for (int i = 0; i < POINTS; i++) {
+            int power = i < 4 ? (seeds[k] % 2 ? -1030 : -300) + (int)mw__random_below(&random, 30) : 1020;
+            double x = random_unit(&random) - 0.5, y = random_unit(&random) - 0.5;
+            points[2 * i] = ldexp(i < 4 ? x : fabs(x), power);
+            points[2 * i + 1] = ldexp(y, power);
+        }
+        mw_kind_report report;
+        mw_error error;
+        mw_mesh *mesh;
+        scene s;
+        expect_ok(mw_triangulate(MW_MIN_WEIGHT, points, POINTS, 2, NULL, NULL, &report, &mesh, &error), "mesh", &error);
+        search_all(&s, points, POINTS);
+        assert_true(!report.optimal || report.edge_length <= s.best * (1 + 1e-12));
+        mw_mesh_destroy(mesh);
+    }
+}
+
 /* --- candidates --- */
 
 /* Is there a point in the triangle on the left of pq with base angles a little less than pi / 4.6? */
@@ -523,9 +556,9 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),         cmocka_unit_test(test_convex),   cmocka_unit_test(test_large),
-        cmocka_unit_test(test_point_in_face), cmocka_unit_test(test_too_many), cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_candidates),    cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_small),         cmocka_unit_test(test_convex),     cmocka_unit_test(test_large),
+        cmocka_unit_test(test_point_in_face), cmocka_unit_test(test_too_many),   cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_span),          cmocka_unit_test(test_candidates), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,6 +26,11 @@
 #define ANGLE_MARGIN 0x1p-40
 #define LENGTH_MARGIN 0x1p-40
 
+/* Scaling rounds coordinates below 2^-1022 and squares and products below it, by at most 2^-1074. A difference of SHARP,
+ * and a square or product of TINY, are far enough above that to be as right as others. */
+#define SHARP 0x1p-900
+#define TINY 0x1p-1000
+
 enum { LEAF = 8, NEAREST = 24, ARCS = 24, FEW = 256, STEPS_PER_VISIT = 8 };
 
 typedef struct box {
@@ -242,7 +247,7 @@ static bool all_dead(const seeker *s, double from, double to)
 /* The points at less than the square of a distance, divided by 2 cos a, make their directions dead from there on. */
 static void activate(seeker *s, double square)
 {
-    for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch < square; s->active++) {
+    for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch + TINY < square; s->active++) {
         double angle = s->seen[s->active].angle;
         make_dead(&s->left, angle - BASE_ANGLE, angle);
         make_dead(&s->right, angle, angle + BASE_ANGLE);
@@ -311,7 +316,7 @@ static bool fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double sq
     for (uint32_t i = 0; i < s->nearest_count; i++) {
         mw_point w = s->nearest[i];
         double a = u.x * w.y, b = u.y * w.x, height = fabs(a - b), along = u.x * w.x + u.y * w.y;
-        if (height <= LENGTH_MARGIN * (fabs(a) + fabs(b))) {
+        if (height <= LENGTH_MARGIN * (fabs(a) + fabs(b)) + TINY) {
             if (along > 0 && is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
             continue;
         }
@@ -322,13 +327,23 @@ static bool fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double sq
     return left && right;
 }
 
-/* Visit a point; is the edge to it a candidate? */
+/* Is u the way from p to q, but for what rounding did to its last bits? Where the coordinates of all points span more
+ * than doubles can once they are scaled, it need not be: points that differ may even come to the same place. */
+static bool is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u)
+{
+    mw_point from = s->points->point[p], to = s->points->point[q];
+    return (fabs(u.x) >= SHARP || from.x == to.x) && (fabs(u.y) >= SHARP || from.y == to.y);
+}
+
+/* Visit a point; is the edge to it a candidate? One that is not sharp may be, and rules out nothing. */
 static bool visit(seeker *s, uint32_t p, item it)
 {
     mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};
     double angle = atan2(u.y, u.x);
+    bool sharp = is_sharp(s, p, it.number, u);
+    bool candidate = !all_dead(s, angle, angle) && !(sharp && fails(s, p, it.number, u, it.square));
+    if (!sharp) return candidate;
     s->seen[s->seen_count++] = (seen){it.square, angle};
-    bool candidate = !all_dead(s, angle, angle) && !fails(s, p, it.number, u, it.square);
     if (s->nearest_count < NEAREST) {
         s->nearest_number[s->nearest_count] = it.number;
         s->nearest[s->nearest_count++] = u;
