@@ -269,7 +269,7 @@ static uint32_t check_reduced(const scene *s)
         for (uint32_t b = a + 1; b < s->n; b++)
             if (s->edge[a][b])
                 assert_true(mw__edge_push(&list, mw__edge_key(a, b) | (s->hull & bit(a, b) ? MW_EDGE_KNOWN : 0)));
-    assert_true(mw__lmt_create(&lmt, &scaled, &list));
+    assert_int_equal(mw__lmt_create(&lmt, &scaled, &list), MW_LMT_DONE);
     mw__lmt_reduce(&lmt, &effort);
     for (uint32_t e = 0; e < lmt.edge_count; e++) {
         bool wanted = s->best_edges & bit(lmt.from[2 * e], lmt.from[2 * e + 1]);

@@ -78,9 +78,9 @@ typedef struct mw_lmt {
 
 enum { MW_LMT_ALIVE = 1, MW_LMT_KNOWN = 2, MW_LMT_QUEUED = 4 };
 
-/* The edges of the list, none of which may hold a point between its ends. False when out of memory; release in either
- * case. */
-bool mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *list);
+/* The edges of the list, none of which may hold a point between its ends. MW_LMT_SPENT: there are 2^31 of them or more.
+ * Release in any case. */
+mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *list);
 void mw__lmt_release(mw_lmt *lmt);
 
 /* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal, until there are none or
@@ -98,7 +98,7 @@ typedef struct mw_chord {
 typedef struct mw_polygon {
     uint32_t corner_count;
     const mw_chord *chord;
-    size_t chord_count;
+    size_t chord_count; /* at most UINT32_MAX */
 } mw_polygon;
 
 /* About how many steps mw__polygon_fill takes. False when out of memory. */

@@ -13,6 +13,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define MOST_EDGES (UINT32_MAX / 2) /* halves are numbered in 32 bits */
+
 enum { APEXES = 64 };
 
 typedef struct apexes {
@@ -97,8 +99,10 @@ static bool sort_rings(mw_lmt *lmt)
     return true;
 }
 
-bool mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *list)
+mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *list)
 {
+    *lmt = (mw_lmt){0};
+    if (list->count > MOST_EDGES) return MW_LMT_SPENT;
     *lmt = (mw_lmt){.points = points, .edge_count = (uint32_t)list->count};
     uint32_t n = points->count;
     lmt->from = mw__alloc(list->count, 2 * sizeof *lmt->from);
@@ -107,7 +111,7 @@ bool mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *li
     lmt->first = mw__calloc((size_t)n + 1, sizeof *lmt->first);
     lmt->state = mw__calloc(list->count, sizeof *lmt->state);
     lmt->queue = mw__alloc(list->count, sizeof *lmt->queue);
-    if (!lmt->from || !lmt->ring || !lmt->place || !lmt->first || !lmt->state || !lmt->queue) return false;
+    if (!lmt->from || !lmt->ring || !lmt->place || !lmt->first || !lmt->state || !lmt->queue) return MW_LMT_MEMORY;
     for (uint32_t e = 0; e < lmt->edge_count; e++) {
         lmt->from[2 * e] = mw__edge_low(list->key[e]);
         lmt->from[2 * e + 1] = mw__edge_high(list->key[e]);
@@ -116,7 +120,7 @@ bool mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *li
     for (uint32_t h = 0; h < 2 * lmt->edge_count; h++) lmt->first[lmt->from[h]]++;
     for (uint32_t v = 0, sum = 0; v <= n; v++) lmt->first[v] = sum += lmt->first[v];
     for (uint32_t h = 2 * lmt->edge_count; h-- > 0;) lmt->ring[--lmt->first[lmt->from[h]]] = h;
-    return sort_rings(lmt);
+    return sort_rings(lmt) ? MW_LMT_DONE : MW_LMT_MEMORY;
 }
 
 void mw__lmt_release(mw_lmt *lmt)

@@ -284,7 +284,7 @@ static mw_lmt_result make_skeleton(weigher *w, uint32_t limit)
     mw_effort extended = {effort.steps + most * most * most, effort.candidates + most * most};
     mw_lmt_result result = find_candidates(w, extended);
     if (result == MW_LMT_DONE) {
-        if (!mw__lmt_create(&w->lmt, &w->points, &w->edges)) result = MW_LMT_MEMORY;
+        result = mw__lmt_create(&w->lmt, &w->points, &w->edges);
         free(w->edges.key);
         w->edges = (mw_edge_list){0};
     }
@@ -435,7 +435,9 @@ static bool fill_face(weigher *w, face *f, uint32_t limit, bool *filled)
     *filled = false;
     if (f->is_cut) cut_open(w, f);
     if (w->whole || (limit > 0 && f->border > limit)) return true;
-    mw_chord *chord = mw__alloc(count_chords(w, f), sizeof *chord);
+    size_t most = count_chords(w, f);
+    if (most > UINT32_MAX) return true;
+    mw_chord *chord = mw__alloc(most, sizeof *chord);
     if (!chord) return false;
     number_corners(w, f);
     mw_polygon p = {f->border, chord, gather_chords(w, f, chord)};
