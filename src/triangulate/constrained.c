@@ -1,13 +1,13 @@
 /* constrained.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew 1989].
  *
  * A Delaunay triangulation of the points, the segments forced in one by one (constrain.c), the triangles that are to be
- * kept (constrained_keep.c) and become a mesh (constrained_result.c). Where segments cross and are to be split, points are put there (constrained_split.c) and
- * all is made anew, until nothing crosses. */
+ * kept (constrained_keep.c) and become a mesh (constrained_result.c). Where segments cross and are to be split, points
+ * are put there (constrained_split.c) and all is made anew, until nothing crosses. */
 #include "triangulate/constrained.h"
 
 #include "base/hilbert.h"
-#include "base/random.h"
 #include "triangulate/delaunay.h"
+#include "triangulate/rounds.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -132,43 +132,31 @@ static bool force(mw_constrained_making *m, mw_stretch s)
     return true;
 }
 
-enum { ROUNDS = 32 };
-
-/* The round of a stretch: the last with probability 1/2, the one before with probability 1/4, and so on. */
-static uint32_t random_round(uint64_t *random)
+/* Stretches in random rounds, so that long ones are expected to be among the first, and to shield what lies behind them
+ * from those that follow; in each round along the Hilbert curve of the triangles, so that what is near is near in memory.
+ * NULL when out of memory. */
+static uint32_t *order_stretches(const mw_constrained_making *m)
 {
-    return (uint32_t)__builtin_clz((uint32_t)mw__random(random) | 1);
-}
-
-/* Stretches in random rounds [Amenta, Choi, Rote 2003], the same in every run, so that long ones are expected to be among
- * the first, and to shield what lies behind them from those that follow; in each round along the Hilbert curve of the
- * triangles, so that what is near is near in memory. NULL when out of memory. */
-static mw_key *order_stretches(const mw_constrained_making *m)
-{
-    size_t n = m->stretches.count, first[ROUNDS + 1] = {0};
-    mw_key *along = mw__alloc(n, sizeof *along), *order = mw__alloc(n, sizeof *order);
-    if (along && order) {
-        for (size_t i = 0; i < n; i++) along[i] = (mw_key){m->net.at[m->stretches.item[i].from], (uint32_t)i};
-        mw__sort_keys(along, order, n);
-        uint64_t random = 1;
-        for (size_t i = 0; i < n; i++) {
-            along[i].key = ROUNDS - 1 - random_round(&random);
-            first[along[i].key + 1]++;
-        }
-        for (size_t round = 1; round < ROUNDS; round++) first[round] += first[round - 1];
-        for (size_t i = 0; i < n; i++) order[first[along[i].key]++] = along[i];
-    } else {
-        free(order);
-        order = NULL;
+    uint32_t n = (uint32_t)m->stretches.count, *order = mw__random_rounds(n);
+    mw_key *along = mw__alloc(n, sizeof *along), *scratch = mw__alloc(n, sizeof *scratch);
+    bool done = order && along && scratch;
+    if (done) {
+        for (uint32_t i = 0; i < n; i++) along[i] = (mw_key){m->net.at[m->stretches.item[i].from], i};
+        mw__sort_keys(along, scratch, n);
+        for (uint32_t i = 0; i < n; i++) order[i] = along[order[i]].item;
     }
     free(along);
-    return order;
+    free(scratch);
+    if (done) return order;
+    free(order);
+    return NULL;
 }
 
 /* Triangulate the points and force the stretches in, as far as nothing crosses, or, if `all`, all that do not cross. */
 static mw_status make(mw_constrained_making *m, bool all, mw_triangulation_report *report, mw_error *error)
 {
     uint32_t n = (uint32_t)m->point_count;
+    if (m->stretches.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
     m->twin = mw__alloc(n, sizeof *m->twin);
     if (!m->twin) return mw__fail_memory(error);
     mw_status status = mw__delaunay_triangles(m->point, n, m->twin, report, &m->tri, &m->tri_count, error);
@@ -178,10 +166,11 @@ static mw_status make(mw_constrained_making *m, bool all, mw_triangulation_repor
         m->stretches.item[i].from = mw__vertex_of(m, m->stretches.item[i].from);
         m->stretches.item[i].to = mw__vertex_of(m, m->stretches.item[i].to);
     }
-    mw_key *order = order_stretches(m);
+    uint32_t *order = order_stretches(m);
     bool done = order;
     for (size_t i = 0; i < m->stretches.count && done && (all || !m->crossing.count); i++)
-        done = force(m, m->stretches.item[order[i].item]);
+        done = force(m, m->stretches.item[order[i]]);
+    m->crossed += m->net.crossed;
     free(order);
     return done ? MW_OK : mw__fail_memory(error);
 }
@@ -289,7 +278,8 @@ static bool take_back(mw_constrained_making *m, uint32_t *number, uint32_t count
 }
 
 /* Whether stretches cross has nothing to do with the other points. Where these are many, split the stretches without
- * them, until nothing crosses. */
+ * them, until nothing crosses. make_all, which calls this, does that, and may come here again; but not deep, as each time
+ * at most half the points remain. Hardly ever twice: nearly all points are ends then. */
 static mw_status split_apart(mw_constrained_making *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -300,6 +290,7 @@ static mw_status split_apart(mw_constrained_making *m, mw_constrain_report *repo
     if (count <= m->point_count / 2) {
         status =
             take_ends(m, number, count, &ends) ? make_all(&ends, true, NULL, report, error) : mw__fail_memory(error);
+        m->crossed += ends.crossed;
         if (status == MW_OK && !take_back(m, number, count, &ends)) status = mw__fail_memory(error);
     }
     release(&ends);
@@ -315,7 +306,7 @@ static mw_status make_all(mw_constrained_making *m, bool split, mw_triangulation
     enum { MOST_ROUNDS = 200 };
     mw_status status = make(m, split, delaunay, error);
     for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS; round++) {
-        status = mw__split_crossings(m, error);
+        status = mw__split_crossings(m, round, error);
         if (status == MW_OK) {
             unmake(m);
             status = split_apart(m, report, error);
@@ -351,7 +342,7 @@ static mw_status build(mw_constrained_making *m, const mw_constrain_options *opt
 {
     mw_status status = take(m, error);
     if (status == MW_OK) status = make_all(m, options->split, &report->delaunay, report, error);
-    report->crossed = m->net.crossed;
+    report->crossed = m->crossed;
     if (status == MW_OK) status = mw__keep_triangles(m, options->keep, error);
     if (status == MW_OK) status = mw__give_constrained(m, report, pieces, out, error);
     if (duplicate_of && status == MW_OK)

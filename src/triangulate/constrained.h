@@ -37,7 +37,8 @@ typedef struct mw_constrained_making {
     mw_stretches crossing;  /* what could not be forced in of some of them: it crosses pieces */
     mw_run *run;
     size_t run_count, run_capacity;
-    uint8_t *kept; /* per triangle */
+    uint64_t crossed; /* triangles, by the stretches of all rounds */
+    uint8_t *kept;    /* per triangle */
 } mw_constrained_making;
 
 /* Append; false when out of memory. */
@@ -60,8 +61,9 @@ void mw__runs_release(mw_runs *runs);
 /* Where ab and cd cross, rounded, but in the boxes of both. */
 mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d);
 
-/* Some stretches cross: make points there, and cut all stretches at their points. MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
-mw_status mw__split_crossings(mw_constrained_making *m, mw_error *error);
+/* Some stretches cross: make points there, and cut all stretches at their points. Rounds count from 1; in later ones
+ * stretches are led through ends of others that they pass by. MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
+mw_status mw__split_crossings(mw_constrained_making *m, int round, mw_error *error);
 
 /* Set m->kept. MW_ERROR_INPUT: a polygon that is not closed; MW_ERROR_MEMORY. */
 mw_status mw__keep_triangles(mw_constrained_making *m, mw_keep keep, mw_error *error);

@@ -4,9 +4,15 @@
  * that lie on it. A piece, and each such remainder, is a link that is cut at the points made on it; the parts of all links,
  * for each segment that runs along them, are the stretches of the next round. So stretches still end at all vertices that
  * lie on them exactly. Points are rounded, but lie in the boxes of both links that cross there: a part's box is smaller
- * than its link's. */
+ * than its link's.
+ *
+ * Rounding moves links a little, past vertices that lie close to them, so they come to cross others. Among long links that
+ * are nearly parallel that could go on for very long, one new point beside the other. So in later rounds, as in snap
+ * rounding [Hobby 1999; Guibas, Marimont 1998], a link that crosses another and passes close to its end is led through
+ * that end, and no point is made. Why this ends: see docs/guarantees.md. */
 #include "triangulate/constrained.h"
 
+#include <float.h>
 #include <stdlib.h>
 
 /* --- where two segments cross --- */
@@ -55,7 +61,7 @@ mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 typedef struct cut {
     size_t link;
     uint32_t point;
-    double along; /* a coordinate that grows, from the link's beginning to its end */
+    mw_point along; /* how far: by x, then by y */
 } cut;
 
 typedef struct splitter {
@@ -65,6 +71,7 @@ typedef struct splitter {
     cut *cut;
     size_t cut_count, cut_capacity;
     size_t remainder; /* the one that is followed */
+    double tolerance; /* for ends that links pass by */
     bool too_many;
 } splitter;
 
@@ -78,16 +85,26 @@ static mw_point point_at(const splitter *s, uint32_t p)
     return p < s->m->point_count ? s->m->point[p] : s->made[p - s->m->point_count];
 }
 
-/* How far p is along a link, in terms of the coordinate in which the link is longer. */
-static double along(const splitter *s, const mw_stretch *link, mw_point p)
+/* How far p is along a link: the coordinate in which the link is longer, then the other, both growing from the link's
+ * beginning to its end. */
+static mw_point along(const splitter *s, const mw_stretch *link, mw_point p)
 {
     mw_point a = s->m->point[link->from], b = s->m->point[link->to];
-    if (fabs(b.x - a.x) >= fabs(b.y - a.y)) return b.x > a.x ? p.x : -p.x;
-    return b.y > a.y ? p.y : -p.y;
+    double x = b.x > a.x ? p.x : -p.x, y = b.y > a.y ? p.y : -p.y;
+    return fabs(b.x - a.x) >= fabs(b.y - a.y) ? (mw_point){x, y} : (mw_point){y, x};
 }
 
+static bool equal(mw_point a, mw_point b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+/* Note that a link is to be cut at a point, unless it ends there. */
 static bool add_cut(splitter *s, size_t link, uint32_t point)
 {
+    const mw_stretch *l = link_at(s->m, link);
+    mw_point p = point_at(s, point);
+    if (equal(p, s->m->point[l->from]) || equal(p, s->m->point[l->to])) return true;
     if (s->cut_count == s->cut_capacity) {
         size_t capacity = 2 * s->cut_capacity + 64;
         cut *list = mw__realloc(s->cut, capacity, sizeof *list);
@@ -95,13 +112,8 @@ static bool add_cut(splitter *s, size_t link, uint32_t point)
         s->cut = list;
         s->cut_capacity = capacity;
     }
-    s->cut[s->cut_count++] = (cut){link, point, along(s, link_at(s->m, link), point_at(s, point))};
+    s->cut[s->cut_count++] = (cut){link, point, along(s, l, p)};
     return true;
-}
-
-static bool equal(mw_point a, mw_point b)
-{
-    return a.x == b.x && a.y == b.y;
 }
 
 /* The number of a point where two links cross: an end of one of them, or a new one. MW_NONE when out of memory. */
@@ -125,11 +137,47 @@ static uint32_t make_point(splitter *s, const mw_stretch *a, const mw_stretch *b
     return (uint32_t)(s->m->point_count + s->made_count - 1);
 }
 
+/* Scale three coordinates by a power of two, to at most 1. Returns the distance of doubles at the largest then. */
+static double scale(double c[3])
+{
+    int exponent;
+    frexp(fmax(fmax(fabs(c[0]), fabs(c[1])), fabs(c[2])), &exponent);
+    for (int i = 0; i < 3; i++) c[i] = ldexp(c[i], -exponent);
+    return fmax(DBL_EPSILON / 2, ldexp(DBL_TRUE_MIN, -exponent));
+}
+
+/* Does ab pass by p so closely that it would go through p if the coordinates were off by that many times the distance of
+ * doubles? Only if the parts are shorter than ab. */
+static bool passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
+{
+    if (!(extent(a, p) < extent(a, b) && extent(p, b) < extent(a, b))) return false;
+    double x[3] = {a.x, b.x, p.x}, y[3] = {a.y, b.y, p.y};
+    double off_x = scale(x), off_y = scale(y);
+    double dx = x[1] - x[0], dy = y[1] - y[0];
+    double area = dx * (y[2] - y[0]) - dy * (x[2] - x[0]);
+    return fabs(area) <= tolerance * (fabs(dx) * off_y + fabs(dy) * off_x);
+}
+
+/* Two links cross. Cut the one at those ends of the other that it passes by. */
+static bool cut_at_ends(splitter *s, size_t link, size_t other)
+{
+    const mw_point *point = s->m->point;
+    const mw_stretch *l = link_at(s->m, link), *o = link_at(s->m, other);
+    for (int i = 0; i < 2; i++) {
+        uint32_t end = i == 0 ? o->from : o->to;
+        if (passes_by(point[l->from], point[l->to], point[end], s->tolerance) && !add_cut(s, link, end)) return false;
+    }
+    return true;
+}
+
 static bool meet(void *context, uint32_t piece, uint32_t vertex)
 {
     splitter *s = context;
     size_t link = s->m->pieces.count + s->remainder;
     if (piece == MW_NONE) return add_cut(s, link, vertex);
+    size_t before = s->cut_count;
+    if (s->tolerance > 0 && !(cut_at_ends(s, link, piece) && cut_at_ends(s, piece, link))) return false;
+    if (s->cut_count > before) return true;
     uint32_t point = make_point(s, link_at(s->m, link), &s->m->pieces.item[piece]);
     return point != MW_NONE && add_cut(s, link, point) && add_cut(s, piece, point);
 }
@@ -148,7 +196,8 @@ static int compare(const void *left, const void *right)
 {
     const cut *a = left, *b = right;
     if (a->link != b->link) return a->link < b->link ? -1 : 1;
-    if (a->along != b->along) return a->along < b->along ? -1 : 1;
+    if (a->along.x != b->along.x) return a->along.x < b->along.x ? -1 : 1;
+    if (a->along.y != b->along.y) return a->along.y < b->along.y ? -1 : 1;
     return a->point < b->point ? -1 : a->point > b->point;
 }
 
@@ -199,9 +248,18 @@ static bool take_points(splitter *s)
     return true;
 }
 
-mw_status mw__split_crossings(mw_constrained_making *m, mw_error *error)
+/* None in the first rounds, which suffice where only few links come close; then it doubles every few rounds. */
+static double tolerance_in(int round)
 {
-    splitter s = {.m = m};
+    enum { EXACT_ROUNDS = 12, DOUBLING_ROUNDS = 8, MOST_DOUBLINGS = 6 };
+    if (round <= EXACT_ROUNDS) return 0;
+    int doublings = (round - EXACT_ROUNDS) / DOUBLING_ROUNDS;
+    return ldexp(1, doublings < MOST_DOUBLINGS ? doublings : MOST_DOUBLINGS);
+}
+
+mw_status mw__split_crossings(mw_constrained_making *m, int round, mw_error *error)
+{
+    splitter s = {.m = m, .tolerance = tolerance_in(round)};
     mw_runs runs = {0};
     mw_stretches parts = {0};
     bool done = find_cuts(&s) && mw__runs_create(&runs, m);
