@@ -13,6 +13,8 @@
 #include "mesh/mesh.h"
 #include "meshes.h"
 #include "predicate_cases.h"
+#include "triangulate/edge_insertion.h"
+#include "triangulate/min_max_angle.h"
 
 #include <meshwalk/triangulate.h>
 
@@ -483,6 +485,159 @@ static void test_large_sets(void **unused)
     free(point);
 }
 
+/* --- limits --- */
+
+/* Seen from the first point: a parabola whose points hide one another little by little. */
+static void make_parabola(mw_point *point, uint32_t n)
+{
+    point[0] = (mw_point){0, -1};
+    for (uint32_t i = 1; i < n; i++) {
+        double x = 1 + 10.0 * (i - 1) / (n - 1);
+        point[i] = (mw_point){x, x * x * 0.05};
+    }
+}
+
+/* A point below a straight side and an arc that face each other. */
+static void make_bow(mw_point *point, uint32_t n)
+{
+    point[0] = (mw_point){0.5, -0.25};
+    for (uint32_t i = 1; i < n; i++) {
+        double t = (double)(i - 1) / n;
+        point[i] = i % 2 ? (mw_point){0, t} : (mw_point){1 + 0.2 * t * (1 - t), t};
+    }
+}
+
+/* Improve a Delaunay triangulation within limits. */
+static mw_mesh *limited_mesh(const mw_point *point, uint32_t n, mw_angle_limits limits, bool *proved)
+{
+    mw_mesh *mesh = delaunay_mesh(&point[0].x, n);
+    mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count};
+    assert_int_equal(mw__min_max_angle_within(&t, limits, proved), MW_OK);
+    return mesh;
+}
+
+static mw_angle_limits random_limits(void)
+{
+    mw_angle_limits limits = {UINT64_MAX, SIZE_MAX};
+    if (below(2)) limits.most_work = UINT64_C(1) << below(24);
+    if (limits.most_work == UINT64_MAX || below(2)) limits.most_sights = (size_t)1 << below(16);
+    return limits;
+}
+
+/* Whatever the limits: a local optimum, and what is proved is true. */
+static void test_limits(void **unused)
+{
+    (void)unused;
+    enum { N = 250 };
+    mw_point point[N];
+    long proofs = 0, none = 0;
+    for (long i = 0; i < case_count(50); i++) {
+        uint32_t kind = below(10);
+        for (uint32_t k = 0; k < N; k++) point[k] = large_point(kind, k, N);
+        if (kind == 8) make_parabola(point, N);
+        if (kind == 9) make_bow(point, N);
+        bool proved[2];
+        mw_mesh *mesh[2] = {limited_mesh(point, N, random_limits(), &proved[0]),
+                            limited_mesh(point, N, (mw_angle_limits){UINT64_MAX, SIZE_MAX}, &proved[1])};
+        mw_mesh *delaunay = delaunay_mesh(&point[0].x, N);
+        for (int k = 0; k < 2; k++) check_large(mesh[k], delaunay);
+        mw_angle limited = largest_angle(mesh[0]), best = largest_angle(mesh[1]);
+        int order = mw__compare_angles(&best, &limited);
+        assert_true(proved[1] && (proved[0] ? order == 0 : order <= 0));
+        proofs += proved[0];
+        none += !proved[0];
+        mw_mesh_destroy(delaunay);
+        for (int k = 0; k < 2; k++) mw_mesh_destroy(mesh[k]);
+    }
+    assert_true(proofs > 0 && none > 0);
+}
+
+/* Some thousand points, and not a hundredth of what a search asks for. */
+static void test_spent(void **unused)
+{
+    (void)unused;
+    enum { N = 4001 };
+    static const mw_angle_limits limits[2] = {{500, SIZE_MAX}, {UINT64_MAX, 3}};
+    mw_point *point = malloc(N * sizeof *point);
+    make_bow(point, N);
+    mw_mesh *delaunay = delaunay_mesh(&point[0].x, N);
+    for (int i = 0; i < 2; i++) {
+        bool proved;
+        mw_mesh *mesh = limited_mesh(point, N, limits[i], &proved);
+        assert_false(proved);
+        check_large(mesh, delaunay);
+        mw_mesh_destroy(mesh);
+    }
+    mw_mesh_destroy(delaunay);
+    free(point);
+}
+
+/* More sights than are allowed without a limit of the caller's. */
+static void test_many_sights(void **unused)
+{
+    (void)unused;
+    enum { N = 10001 };
+    mw_point *point = malloc(N * sizeof *point);
+    make_parabola(point, N);
+    mw_mesh *delaunay = delaunay_mesh(&point[0].x, N), *mesh;
+    mw_error error;
+    expect_ok(mw_triangulate(MW_MIN_MAX_ANGLE, &point[0].x, N, 0, NULL, NULL, NULL, &mesh, &error), "min-max angle",
+              &error);
+    check_large(mesh, delaunay);
+    mw_mesh_destroy(mesh);
+    mw_mesh_destroy(delaunay);
+    free(point);
+}
+
+typedef struct attempts {
+    long spent, none, done;
+} attempts;
+
+/* An insertion that is not decided stays within its limits and changes nothing. */
+static void check_attempt(const mw_mesh *mesh, mw_triangle *tri, mw_angle_limits limits, attempts *count)
+{
+    mw_insertion in = {.point = mesh->point,
+                       .tri = tri,
+                       .reach = UINT32_MAX,
+                       .most_work = limits.most_work,
+                       .most_sights = limits.most_sights};
+    for (uint32_t i = 0; i < mesh->tri_count; i++) {
+        memcpy(tri, mesh->tri, mesh->tri_count * sizeof *tri);
+        for (uint32_t j = 0; j < mesh->tri_count; j++) tri[j].user = MW_INSERTION_FREE;
+        in.work = 0;
+        mw_insertion_result result = mw__insert_edge(&in, i, below(3));
+        assert_true(result != MW_INSERTION_MEMORY && in.sight_count <= limits.most_sights);
+        count->done += result == MW_INSERTION_DONE;
+        count->none += result == MW_INSERTION_NONE;
+        if (result != MW_INSERTION_SPENT) continue;
+        count->spent++;
+        /* at most an ear on either side too many, all angles compared exactly */
+        assert_true(in.work <= limits.most_work || in.work - limits.most_work < 1000);
+        for (uint32_t j = 0; j < mesh->tri_count; j++) assert_memory_equal(tri[j].v, mesh->tri[j].v, sizeof tri[j].v);
+    }
+    mw__insertion_release(&in);
+}
+
+static void test_attempts(void **unused)
+{
+    (void)unused;
+    enum { N = 200 };
+    mw_point point[N];
+    attempts count = {0};
+    mw_triangle *tri = malloc(2 * N * sizeof *tri);
+    for (long i = 0; i < case_count(30); i++) {
+        uint32_t kind = below(9);
+        for (uint32_t k = 0; k < N; k++) point[k] = large_point(kind, k, N);
+        if (i % 3 == 1) make_parabola(point, N);
+        if (i % 3 == 2) make_bow(point, N);
+        mw_mesh *delaunay = delaunay_mesh(&point[0].x, N);
+        check_attempt(delaunay, tri, random_limits(), &count);
+        mw_mesh_destroy(delaunay);
+    }
+    assert_true(count.spent > 0 && count.none > 0 && count.done > 0);
+    free(tri);
+}
+
 /* --- allocation failures --- */
 
 static void test_memory(void **unused)
@@ -517,6 +672,10 @@ int main(void)
         cmocka_unit_test(test_angles_of_quarters),
         cmocka_unit_test(test_all_triangulations),
         cmocka_unit_test(test_large_sets),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_spent),
+        cmocka_unit_test(test_many_sights),
+        cmocka_unit_test(test_attempts),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests_name("min_max_angle", tests, setup, NULL);

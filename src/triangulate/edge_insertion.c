@@ -18,7 +18,10 @@
  * does not have qs: of the chain's vertices in the triangle qys let z be the one nearest to qs; the angle qzs is not
  * smaller either, so T has an edge that parts it, and this would leave the triangle qzs, which is empty, through qs.
  * Thus y takes from all that lies behind it what lies beyond a ray from y; once the rays from both sides have met,
- * nothing is left. The larger the angle, the farther one has to look; a large one is rare. */
+ * nothing is left. The larger the angle, the farther one has to look; a large one is rare.
+ *
+ * A triangle is seen again in each gap between the vertices before it that q sees: the sights may be as many as the
+ * square of the triangles. The caller bounds their number and the work; what is beyond is not decided. */
 #include "triangulate/edge_insertion.h"
 
 #include <stdlib.h>
@@ -30,18 +33,12 @@ struct mw_chain {
     uint32_t vertex, below;
 };
 
-/* What y leaves of what is behind it: the places z with cross(direction, z - y) < 0 (left chain) or > 0 (right chain).
- * Rounded: it only saves work. */
-typedef struct ray {
-    mw_point y, direction;
-} ray;
-
 /* A triangle that q sees through the edge of half-edge `half`, whose ends u and v are on the left and on the right. */
 struct mw_sight {
     uint32_t half, parent;
-    uint32_t left, right;             /* the tops of the chains                                 */
-    uint32_t left_bound, right_bound; /* q sees what is strictly between these vertices         */
-    ray left_ray, right_ray;          /* one of each chain, that which leaves least             */
+    uint32_t left, right;             /* the tops of the chains                                     */
+    uint32_t left_bound, right_bound; /* q sees what is strictly between these vertices             */
+    uint32_t left_ray, right_ray;     /* a vertex of each chain: the one whose ray leaves least     */
 };
 
 /* A search from one corner. */
@@ -84,8 +81,12 @@ static mw_point minus(mw_point a, mw_point b)
     return (mw_point){a.x - b.x, a.y - b.y};
 }
 
-/* An exact comparison counts as this many tests of an ear in doubles: some microseconds. */
+/* Work is counted in tests of an ear in doubles, about 40 nanoseconds. An exact comparison of angles takes some
+ * microseconds; three points on a line, which mostly need the exact test, a tenth of that; a triangle looked at
+ * or written as much as a few ears. */
 #define EXACT_WORK 128
+#define LINE_WORK 16
+#define TRIANGLE_WORK 4
 
 static bool is_smaller(const search *s, mw_point a, mw_point b, mw_point c)
 {
@@ -102,17 +103,31 @@ static bool is_good_ear(const search *s, hand side, uint32_t va, uint32_t vb, ui
     const mw_point *point = s->in->point;
     mw_point a = point[va], b = point[vb], c = point[vc];
     double turn = mw__orient2d(a, b, c);
-    s->in->work++;
+    s->in->work += turn == 0 ? LINE_WORK : 1;
     if (side == LEFT ? turn >= 0 : turn <= 0) return false;
     return is_smaller(s, a, b, c) && is_smaller(s, c, a, b) && is_smaller(s, b, c, a);
 }
 
-/* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. */
-static uint32_t cut(const search *s, hand side, uint32_t top, uint32_t v)
+static bool is_spent(const mw_insertion *in)
+{
+    return in->work >= in->most_work;
+}
+
+/* Cut off one ear below vertex v, put on the chain: the new top; the old one if there is none. */
+static uint32_t cut_one(const search *s, hand side, uint32_t top, uint32_t v)
 {
     const mw_chain *chain = s->in->chain;
-    while (chain[top].below != NOWHERE && is_good_ear(s, side, chain[chain[top].below].vertex, chain[top].vertex, v))
-        top = chain[top].below;
+    uint32_t below = chain[top].below;
+    return below != NOWHERE && is_good_ear(s, side, chain[below].vertex, chain[top].vertex, v) ? below : top;
+}
+
+/* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. Less where the work is spent. */
+static uint32_t cut(const search *s, hand side, uint32_t top, uint32_t v)
+{
+    for (uint32_t old = NOWHERE; old != top && !is_spent(s->in);) {
+        old = top;
+        top = cut_one(s, side, top, v);
+    }
     return top;
 }
 
@@ -141,6 +156,12 @@ static void set_turn(search *s)
     s->sine = usable ? s->worst.cross / length : 0;
 }
 
+/* What y leaves of what is behind it: the places z with cross(direction, z - y) < 0 (left chain) or > 0 (right chain).
+ * Rounded: it only saves work. */
+typedef struct ray {
+    mw_point y, direction;
+} ray;
+
 /* The angle qys is that at q where s is on the ray: y - q turned by the rest of pi, to the right from a vertex of the
  * left chain. */
 static ray ray_from(const search *s, hand side, uint32_t vertex)
@@ -162,11 +183,12 @@ static double left_over(const ray *r, hand side, mw_point z)
     return (side == LEFT ? -value : value) + slack + MW_UNDERFLOW_ERROR;
 }
 
-/* Is nothing left of the edge from u, on the left, to v between the two rays? */
-static bool is_closed(const ray *left, const ray *right, mw_point u, mw_point v)
+/* Is nothing left of the edge from u, on the left, to v between the rays of two vertices? */
+static bool is_closed(const search *s, uint32_t left_vertex, uint32_t right_vertex, mw_point u, mw_point v)
 {
-    double from_u = left_over(left, LEFT, u), from_v = left_over(left, LEFT, v);
-    double to_u = left_over(right, RIGHT, u), to_v = left_over(right, RIGHT, v);
+    ray left = ray_from(s, LEFT, left_vertex), right = ray_from(s, RIGHT, right_vertex);
+    double from_u = left_over(&left, LEFT, u), from_v = left_over(&left, LEFT, v);
+    double to_u = left_over(&right, RIGHT, u), to_v = left_over(&right, RIGHT, v);
     if (from_v < 0 && from_u < 0) return true;
     if (to_u < 0 && to_v < 0) return true;
     /* left over: from u + t (v - u) on with t = from, up to t = to */
@@ -175,10 +197,11 @@ static bool is_closed(const ray *left, const ray *right, mw_point u, mw_point v)
     return from > to + RAY_ERROR;
 }
 
-/* Of two rays of a chain, that which leaves less near the new vertex w. */
-static ray narrower(const search *s, hand side, const ray *old, uint32_t w)
+/* Of two vertices of a chain, that whose ray leaves less near the new one, w. */
+static uint32_t narrower(const search *s, hand side, uint32_t old, uint32_t w)
 {
-    return left_over(old, side, s->in->point[w]) < 0 ? *old : ray_from(s, side, w);
+    ray r = ray_from(s, side, old);
+    return left_over(&r, side, s->in->point[w]) < 0 ? old : w;
 }
 
 /* --- the search --- */
@@ -188,21 +211,26 @@ static uint32_t apex_of(const mw_insertion *in, uint32_t half)
     return in->tri[mw__link_triangle(half)].v[mw__prev(mw__link_edge(half))];
 }
 
-/* Go on through a half-edge, from u on the left to v on the right. */
-static bool look(search *s, mw_sight next, uint32_t u, uint32_t v)
+/* Is there anything to see through a half-edge, from u on the left to v on the right? */
+static bool is_open(const search *s, const mw_sight *next, uint32_t u, uint32_t v)
 {
-    mw_insertion *in = s->in;
-    if (next.half == MW_NONE || in->tri[mw__link_triangle(next.half)].user == MW_INSERTION_FIXED) return true;
-    if (is_closed(&next.left_ray, &next.right_ray, in->point[u], in->point[v])) return true;
+    const mw_insertion *in = s->in;
+    if (next->half == MW_NONE || in->tri[mw__link_triangle(next->half)].user == MW_INSERTION_FIXED) return false;
+    return !is_closed(s, next->left_ray, next->right_ray, in->point[u], in->point[v]);
+}
+
+static mw_insertion_result look(mw_insertion *in, mw_sight next)
+{
+    if (in->sight_count >= in->most_sights || in->sight_count >= MW_INSERTION_MOST_SIGHTS) return MW_INSERTION_SPENT;
     mw_sight *sight = with_room(in->sight, &in->sight_room, in->sight_count + 1, sizeof *sight);
-    if (!sight) return false;
+    if (!sight) return MW_INSERTION_MEMORY;
     in->sight = sight;
     in->sight[in->sight_count++] = next;
-    return true;
+    return MW_INSERTION_NONE;
 }
 
 /* Pass w, the apex beyond half-edge `half` of sight i: leave it on the given side, whose chain it joins. */
-static bool pass(search *s, uint32_t i, uint32_t w, hand side)
+static mw_insertion_result pass(search *s, uint32_t i, uint32_t w, hand side)
 {
     mw_insertion *in = s->in;
     mw_sight from = in->sight[i], next = from;
@@ -210,27 +238,41 @@ static bool pass(search *s, uint32_t i, uint32_t w, hand side)
     uint32_t e = mw__link_edge(from.half), u = tri->v[e], v = tri->v[e + 1];
     next.parent = i;
     if (side == LEFT) {
-        if (!push(in, w, cut(s, LEFT, from.left, w), &next.left)) return false;
-        next.left_ray = narrower(s, LEFT, &from.left_ray, w);
+        next.left_ray = narrower(s, LEFT, from.left_ray, w);
         if (mw__orient2d(in->point[s->q], in->point[from.left_bound], in->point[w]) < 0) next.left_bound = w;
         next.half = tri->link[mw__next(e)];
-        return look(s, next, w, v);
+        if (!is_open(s, &next, w, v)) return MW_INSERTION_NONE;
+        if (!push(in, w, cut(s, LEFT, from.left, w), &next.left)) return MW_INSERTION_MEMORY;
+    } else {
+        next.right_ray = narrower(s, RIGHT, from.right_ray, w);
+        if (mw__orient2d(in->point[s->q], in->point[from.right_bound], in->point[w]) > 0) next.right_bound = w;
+        next.half = tri->link[mw__prev(e)];
+        if (!is_open(s, &next, u, w)) return MW_INSERTION_NONE;
+        if (!push(in, w, cut(s, RIGHT, from.right, w), &next.right)) return MW_INSERTION_MEMORY;
     }
-    if (!push(in, w, cut(s, RIGHT, from.right, w), &next.right)) return false;
-    next.right_ray = narrower(s, RIGHT, &from.right_ray, w);
-    if (mw__orient2d(in->point[s->q], in->point[from.right_bound], in->point[w]) > 0) next.right_bound = w;
-    next.half = tri->link[mw__prev(e)];
-    return look(s, next, u, w);
+    return look(in, next);
 }
 
-/* Are both polygons cut up to the edge to w? */
+/* Are both polygons cut up to the edge to w? Ears are cut on both sides in turn, so that where one side fails soon it
+ * does not matter how many there are on the other. */
 static bool is_better(const search *s, const mw_sight *from, uint32_t w)
 {
     const mw_chain *chain = s->in->chain;
-    return chain[cut(s, LEFT, from->left, w)].below == NOWHERE && chain[cut(s, RIGHT, from->right, w)].below == NOWHERE;
+    uint32_t left = from->left, right = from->right;
+    while (!is_spent(s->in)) {
+        bool left_done = chain[left].below == NOWHERE, right_done = chain[right].below == NOWHERE;
+        if (left_done && right_done) return true;
+        uint32_t next_left = cut_one(s, LEFT, left, w);
+        if (!left_done && next_left == left) return false;
+        uint32_t next_right = cut_one(s, RIGHT, right, w);
+        if (!right_done && next_right == right) return false;
+        left = next_left;
+        right = next_right;
+    }
+    return false;
 }
 
-static bool begin(search *s, uint32_t half)
+static mw_insertion_result begin(search *s, uint32_t half)
 {
     mw_insertion *in = s->in;
     mw_sight first = {.half = half, .parent = NOWHERE, .left_bound = s->r, .right_bound = s->p};
@@ -238,33 +280,35 @@ static bool begin(search *s, uint32_t half)
     in->sight_count = in->chain_count = 0;
     if (!push(in, s->q, NOWHERE, &bottom) || !push(in, s->r, bottom, &first.left) ||
         !push(in, s->p, bottom, &first.right))
-        return false;
-    first.left_ray = ray_from(s, LEFT, s->r);
-    first.right_ray = ray_from(s, RIGHT, s->p);
-    return look(s, first, s->r, s->p);
+        return MW_INSERTION_MEMORY;
+    first.left_ray = s->r;
+    first.right_ray = s->p;
+    return is_open(s, &first, s->r, s->p) ? look(in, first) : MW_INSERTION_NONE;
 }
 
-/* The sight beyond which lies an s that makes things better. */
+/* The sight beyond which lies an s that makes things better. Chains are cut in full as long as the work is not spent,
+ * and none is used after. */
 static mw_insertion_result find(search *s, uint32_t half, uint32_t *found)
 {
     mw_insertion *in = s->in;
     const mw_point *point = in->point;
-    if (!begin(s, half)) return MW_INSERTION_MEMORY;
-    for (uint32_t i = 0; i < in->sight_count; i++) {
+    mw_insertion_result result = begin(s, half);
+    for (uint32_t i = 0; result == MW_INSERTION_NONE && i < in->sight_count; i++) {
+        if (is_spent(in)) return MW_INSERTION_SPENT;
         mw_sight from = in->sight[i];
         uint32_t w = apex_of(in, from.half);
         bool right_of_left = mw__orient2d(point[s->q], point[from.left_bound], point[w]) < 0;
         bool left_of_right = mw__orient2d(point[s->q], point[from.right_bound], point[w]) > 0;
-        in->work++;
+        in->work += TRIANGLE_WORK;
         if (right_of_left && left_of_right && is_better(s, &from, w)) {
             *found = i;
             return MW_INSERTION_DONE;
         }
         if (in->reach == 1) break;
-        if (left_of_right && !pass(s, i, w, LEFT)) return MW_INSERTION_MEMORY;
-        if (right_of_left && !pass(s, i, w, RIGHT)) return MW_INSERTION_MEMORY;
+        if (left_of_right) result = pass(s, i, w, LEFT);
+        if (right_of_left && result == MW_INSERTION_NONE) result = pass(s, i, w, RIGHT);
     }
-    return MW_INSERTION_NONE;
+    return result == MW_INSERTION_NONE && is_spent(in) ? MW_INSERTION_SPENT : result;
 }
 
 /* --- the exchange --- */
@@ -390,14 +434,14 @@ static mw_insertion_result exchange(const search *s, uint32_t t, uint32_t k, uin
     in->tri[mw__link_triangle(left)].link[mw__link_edge(left)] = right;
     in->tri[mw__link_triangle(right)].link[mw__link_edge(right)] = left;
     for (uint32_t i = 0; i < in->made_count; i++) in->tri[in->made[i]].user = MW_INSERTION_FREE;
-    in->work += in->made_count;
+    in->work += TRIANGLE_WORK * (uint64_t)in->made_count;
     return MW_INSERTION_DONE;
 }
 
 mw_insertion_result mw__insert_edge(mw_insertion *in, uint32_t t, uint32_t k)
 {
     const mw_triangle *tri = &in->tri[t];
-    uint32_t q = tri->v[k], p = tri->v[mw__next(k)], r = tri->v[mw__prev(k)], found;
+    uint32_t q = tri->v[k], p = tri->v[mw__next(k)], r = tri->v[mw__prev(k)], found = 0;
     search s = {.in = in, .q = q, .p = p, .r = r, .worst = mw__angle(in->point[p], in->point[q], in->point[r])};
     set_turn(&s);
     mw_insertion_result result = find(&s, tri->link[mw__next(k)], &found);

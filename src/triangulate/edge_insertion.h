@@ -15,8 +15,10 @@ typedef struct mw_insertion {
     const mw_point *point;
     mw_triangle *tri; /* fills the convex hull, counter-clockwise and linked; changed in place */
     uint32_t reach;   /* edges that an inserted one may cross at most */
-    uint64_t work;    /* triangles looked at, and tests of ears: grows */
-    uint32_t *made;   /* the triangles written by the last success */
+    uint64_t work;    /* in tests of ears: grows */
+    uint64_t most_work;
+    size_t most_sights; /* of one search; 40 bytes each, and what room is made ahead */
+    uint32_t *made;     /* the triangles written by the last success */
     uint32_t made_count;
     /* scratch: */
     mw_sight *sight;
@@ -26,7 +28,15 @@ typedef struct mw_insertion {
     size_t sight_count, chain_count, sight_room, chain_room, made_room, placed_room, shore_room;
 } mw_insertion;
 
-typedef enum mw_insertion_result { MW_INSERTION_NONE, MW_INSERTION_DONE, MW_INSERTION_MEMORY } mw_insertion_result;
+typedef enum mw_insertion_result {
+    MW_INSERTION_NONE,
+    MW_INSERTION_DONE,
+    MW_INSERTION_SPENT, /* not decided: most_work or most_sights is reached; no triangle has changed */
+    MW_INSERTION_MEMORY
+} mw_insertion_result;
+
+/* Sights and what is on the chains have numbers of 32 bits. */
+#define MW_INSERTION_MOST_SIGHTS (UINT32_MAX - 4)
 
 /* Try to replace triangle t, whose largest angle is at its vertex k, and free triangles beyond its opposite edge, by
  * triangles with smaller angles only. With no limit of reach the answer "none" is final: no triangulation of what the

@@ -8,13 +8,22 @@
  *
  * At the end no triangle is fixed any more, and single edges are exchanged until that makes no largest angle of two
  * triangles smaller: where angles are equal, or the work was limited, that may be a little left to do. */
+#include "triangulate/min_max_angle.h"
+
 #include "triangulate/edge_insertion.h"
-#include "triangulate/kind.h"
 
 #include <stdlib.h>
 
-/* Triangles looked at and tests of ears, by all insertions, unless a limit is set: about half a minute. */
+/* Work of all insertions, unless a limit is set: about half a minute. */
 #define MOST_WORK UINT64_C(500000000)
+
+/* Sights of one insertion, unless a limit is set: as many for each triangle, and so many more that about a thousand
+ * points never reach it, whatever their position. */
+#define SIGHTS_PER_TRIANGLE 4
+#define MORE_SIGHTS ((size_t)1 << 20)
+
+/* The heap is made anew when this many of its entries for each triangle may be out of date. */
+#define ENTRIES_PER_TRIANGLE 3
 
 /* A triangle as it was when it was put on the heap, by its corners p, q, r with the largest angle at q: it may have been
  * replaced since. */
@@ -126,42 +135,72 @@ static bool push_made(improvement *m)
     return true;
 }
 
-/* Improve by edges that cross at most `reach` others, until nothing is left to try or the work is done. *proved: an
+/* Put all free triangles on the heap, and nothing else: those that are on it already, less what is out of date. */
+static bool fill(improvement *m)
+{
+    m->heap.count = 0;
+    for (uint32_t i = 0; i < m->t->tri_count; i++)
+        if (m->t->tri[i].user == MW_INSERTION_FREE && !push(&m->heap, m->t->tri, i)) return false;
+    return true;
+}
+
+static bool add_made(improvement *m)
+{
+    if (!push_made(m)) return false;
+    return m->heap.count / (ENTRIES_PER_TRIANGLE + 1) < m->t->tri_count || fill(m);
+}
+
+/* Improve by edges that cross at most `reach` others, until nothing is left to try or a limit is reached. *proved: an
  * attempt has failed. */
-static mw_status improve(improvement *m, uint32_t reach, uint64_t most_work, bool *proved)
+static mw_status improve(improvement *m, uint32_t reach, mw_angle_limits limits, bool *proved)
 {
     mw_triangle *tri = m->t->tri;
+    mw_insertion_result result = MW_INSERTION_NONE;
     m->insertion.reach = reach;
-    m->heap.count = 0;
+    m->insertion.most_work = limits.most_work;
+    m->insertion.most_sights = limits.most_sights;
     for (uint32_t i = 0; i < m->t->tri_count; i++) tri[i].user = MW_INSERTION_FREE;
-    for (uint32_t i = 0; i < m->t->tri_count; i++)
-        if (!push(&m->heap, tri, i)) return MW_ERROR_MEMORY;
-    while (m->heap.count > 0 && m->insertion.work < most_work) {
+    if (!fill(m)) return MW_ERROR_MEMORY;
+    while (m->heap.count > 0 && result != MW_INSERTION_SPENT) {
         entry e = pop(&m->heap);
         uint32_t k = corner_of(&e, &tri[e.triangle]);
-        if (k == 3) continue;
-        mw_insertion_result result = mw__insert_edge(&m->insertion, e.triangle, k);
+        if (k == 3 || tri[e.triangle].user != MW_INSERTION_FREE) continue;
+        result = mw__insert_edge(&m->insertion, e.triangle, k);
         if (result == MW_INSERTION_MEMORY) return MW_ERROR_MEMORY;
-        if (result == MW_INSERTION_DONE) {
-            if (!push_made(m)) return MW_ERROR_MEMORY;
-        } else {
-            tri[e.triangle].user = reach > 1 ? MW_INSERTION_FIXED : MW_INSERTION_TRIED;
-            *proved = true;
-        }
+        if (result == MW_INSERTION_DONE && !add_made(m)) return MW_ERROR_MEMORY;
+        if (result != MW_INSERTION_NONE) continue;
+        tri[e.triangle].user = reach > 1 ? MW_INSERTION_FIXED : MW_INSERTION_TRIED;
+        *proved = true;
     }
     return MW_OK;
+}
+
+mw_status mw__min_max_angle_within(mw_triangulation *t, mw_angle_limits limits, bool *proved)
+{
+    static const mw_angle_limits none = {UINT64_MAX, SIZE_MAX};
+    improvement m = {.t = t, .insertion = {.point = t->point, .tri = t->tri}, .heap = {.point = t->point}};
+    mw_status status = MW_OK;
+    bool ignored;
+    *proved = false;
+    if (limits.most_work > 0) status = improve(&m, UINT32_MAX, limits, proved);
+    if (status == MW_OK) status = improve(&m, 1, none, &ignored);
+    mw__insertion_release(&m.insertion);
+    free(m.heap.at);
+    return status;
+}
+
+/* A limit of the caller's is one on points only. */
+static mw_angle_limits limits_of(const mw_triangulation *t, uint32_t most_points)
+{
+    if (most_points == 0) return (mw_angle_limits){MOST_WORK, SIGHTS_PER_TRIANGLE * (size_t)t->tri_count + MORE_SIGHTS};
+    return (mw_angle_limits){t->point_count <= most_points ? UINT64_MAX : 0, SIZE_MAX};
 }
 
 mw_status mw__make_min_max_angle(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
                                  mw_error *error)
 {
-    improvement m = {.t = t, .insertion = {.point = t->point, .tri = t->tri}, .heap = {.point = t->point}};
-    bool exact = options->limit == 0 || t->point_count <= options->limit, proved = false, ignored;
-    mw_status status = MW_OK;
-    if (exact) status = improve(&m, UINT32_MAX, options->limit ? UINT64_MAX : MOST_WORK, &proved);
-    if (status == MW_OK) status = improve(&m, 1, UINT64_MAX, &ignored);
+    bool proved;
+    mw_status status = mw__min_max_angle_within(t, limits_of(t, options->limit), &proved);
     report->optimal = proved;
-    mw__insertion_release(&m.insertion);
-    free(m.heap.at);
     return status == MW_OK ? MW_OK : mw__fail_memory(error);
 }
