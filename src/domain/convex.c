@@ -31,7 +31,7 @@ static bool is_folded(const mw_mesh *mesh, uint32_t t, uint32_t *border_count, u
 static uint32_t next_border(const mw_mesh *mesh, uint32_t h)
 {
     for (;;) {
-        h = mw__link(mw__link_triangle(h), mw__next(mw__link_edge(h)));
+        h = mw__half_next(h);
         uint32_t across = mesh->tri[mw__link_triangle(h)].link[mw__link_edge(h)];
         if (across == MW_NONE) return h;
         h = across;

@@ -1,8 +1,8 @@
 /* cover.c - force the outline of a mesh into cells, and count the triangles over each cell. */
 #include "domain/cover.h"
 
-#include "base/random.h"
 #include "triangulate/delaunay.h"
+#include "triangulate/rounds.h"
 
 #include <stdlib.h>
 
@@ -105,33 +105,11 @@ static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
     return true;
 }
 
-enum { ROUNDS = 32 };
-
-/* The round of an edge: the last with probability 1/2, the one before with probability 1/4, and so on. */
-static uint32_t random_round(uint64_t *random)
-{
-    uint32_t round = ROUNDS - 1;
-    for (uint64_t coins = mw__random(random); (coins & 1) && round > 0; coins >>= 1) round--;
-    return round;
-}
-
-/* The edges in random rounds, each in the order of the mesh [Amenta, Choi, Rote 2003], the same in every run. In the
- * order of the mesh alone, each might cross about all cells: so do the edges of parallel slivers that are numbered from
- * one side to the other. In random order alone, all memory would be far. NULL when out of memory. */
-static uint32_t *order_edges(uint32_t count)
-{
-    const uint64_t seed = 1;
-    uint32_t first[ROUNDS + 1] = {0}, *order = mw__alloc(count, sizeof *order);
-    if (!order) return NULL;
-    uint64_t random = seed;
-    for (uint32_t i = 0; i < count; i++) first[random_round(&random) + 1]++;
-    for (uint32_t round = 1; round < ROUNDS; round++) first[round] += first[round - 1];
-    random = seed;
-    for (uint32_t i = 0; i < count; i++) order[first[random_round(&random)]++] = i;
-    return order;
-}
-
-/* An edge that crosses another makes no piece, and does not spare those after it the way it looked through. So once the
+/* The edges come in random rounds, each in the order of the mesh. In the order of the mesh alone, each might cross about
+ * all cells: so do the edges of parallel slivers that are numbered from one side to the other. In random order alone, all
+ * memory would be far.
+ *
+ * An edge that crosses another makes no piece, and does not spare those after it the way it looked through. So once the
  * edges that cross have looked through all cells many times, the mesh being no embedding anyway, each edge that remains
  * looks only at what is near; what is not near either end is left out, and not told. */
 static bool force_all(mw_cover *c, mw_defects *defects)
@@ -141,7 +119,7 @@ static bool force_all(mw_cover *c, mw_defects *defects)
     c->runs = mw__alloc(most, sizeof *c->runs);
     if (!c->runs) return false;
     for (size_t i = 0; i < most; i++) c->runs[i] = MW_NONE;
-    uint32_t *order = order_edges(c->outline->half_count);
+    uint32_t *order = mw__random_rounds(c->outline->half_count);
     bool done = order;
     for (uint32_t i = 0; i < c->outline->half_count && done; i++) {
         done = force_edge(c, order[i], defects);

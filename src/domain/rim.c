@@ -52,16 +52,6 @@ static uint32_t link_of(const mw_cover *c, uint32_t half)
     return c->cell[mw__link_triangle(half)].link[mw__link_edge(half)];
 }
 
-static uint32_t next_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
-}
-
-static uint32_t prev_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
-}
-
 static bool is_empty(const mw_cover *c, uint32_t half)
 {
     return c->degree[mw__link_triangle(half)] == 0;
@@ -70,7 +60,7 @@ static bool is_empty(const mw_cover *c, uint32_t half)
 /* Turn clockwise round the start of `half` to the hull edge that leaves it. */
 static uint32_t hull_edge(const mw_cover *c, uint32_t half)
 {
-    for (uint32_t link; (link = link_of(c, half)) != MW_NONE;) half = next_of(link);
+    for (uint32_t link; (link = link_of(c, half)) != MW_NONE;) half = mw__half_next(link);
     return half;
 }
 
@@ -79,12 +69,12 @@ static uint32_t hull_edge(const mw_cover *c, uint32_t half)
 static uint32_t turn_to_border(const mw_cover *c, uint32_t half, bool *reversed)
 {
     for (;;) {
-        uint32_t arriving = prev_of(half);
+        uint32_t arriving = mw__half_prev(half);
         *reversed = true;
         if (mw__cover_outer(c, arriving) != MW_NONE) return arriving;
         half = link_of(c, arriving);
         if (half != MW_NONE) continue;
-        half = hull_edge(c, next_of(arriving));
+        half = hull_edge(c, mw__half_next(arriving));
         *reversed = false;
         if (!is_empty(c, half)) return half;
     }
@@ -125,7 +115,7 @@ static void add_hull(maker *m, uint32_t half)
 {
     const mw_cover *c = &m->survey->cover;
     bool reversed = false;
-    uint32_t next = hull_edge(c, next_of(half));
+    uint32_t next = hull_edge(c, mw__half_next(half));
     if (is_empty(c, next)) next = turn_to_border(c, next, &reversed);
     m->edge[m->made++] = (mw_rim_edge){border_along(m, half, false), border_along(m, next, reversed), MW_POCKET};
 }

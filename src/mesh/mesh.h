@@ -48,6 +48,16 @@ static MW_INLINE uint32_t mw__link_edge(uint32_t link)
     return link & 3;
 }
 
+/* The edge after a half-edge, given as a link, round its triangle, and the one before. */
+static MW_INLINE uint32_t mw__half_next(uint32_t half)
+{
+    return mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
+}
+static MW_INLINE uint32_t mw__half_prev(uint32_t half)
+{
+    return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
+}
+
 /* Edge k of a stored triangle as the user numbers it, and vertex k. */
 static MW_INLINE uint32_t mw__user_edge(uint32_t user, uint32_t k)
 {

@@ -102,16 +102,6 @@ static uint32_t end_of(const mw_constrained *c, uint32_t half)
     return c->tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1];
 }
 
-static uint32_t next_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
-}
-
-static uint32_t prev_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
-}
-
 static double side(const mw_constrained *c, uint32_t a, uint32_t b, uint32_t p)
 {
     return mw__orient2d(c->point[a], c->point[b], c->point[p]);
@@ -146,18 +136,18 @@ static rotor rotor_at(const mw_constrained *c, uint32_t vertex, uint32_t target)
 static void turn(const mw_constrained *c, rotor *r, uint32_t vertex, uint32_t target)
 {
     if (!r->clockwise) {
-        uint32_t half = *link_of(c, prev_of(r->half));
+        uint32_t half = *link_of(c, mw__half_prev(r->half));
         if (half != MW_NONE) {
             r->half = half;
             r->right = r->left;
-            r->left = side_of(c, vertex, start_of(c, prev_of(half)), target);
+            r->left = side_of(c, vertex, start_of(c, mw__half_prev(half)), target);
             return;
         }
         r->clockwise = true;
         r->half = r->first;
         r->right = r->first_right;
     }
-    r->half = next_of(*link_of(c, r->half));
+    r->half = mw__half_next(*link_of(c, r->half));
     r->left = r->right;
     r->right = side_of(c, vertex, end_of(c, r->half), target);
 }
@@ -167,7 +157,7 @@ static void turn(const mw_constrained *c, rotor *r, uint32_t vertex, uint32_t ta
 static bool leaves_here(const rotor *r, uint32_t *half, bool *along)
 {
     *along = r->right == 0 || r->left == 0;
-    *half = r->right == 0 ? r->half : r->left == 0 ? prev_of(r->half) : next_of(r->half);
+    *half = r->right == 0 ? r->half : r->left == 0 ? mw__half_prev(r->half) : mw__half_next(r->half);
     return (r->right >= 0 && r->left < 0) || (r->right > 0 && r->left == 0);
 }
 
@@ -212,8 +202,8 @@ static mw_constrain_result open_channel(mw_constrained *c, uint32_t a, uint32_t 
 {
     *ch = (channel){.a = a};
     if (!reserve(c, 2)) return MW_CONSTRAIN_MEMORY;
-    add_rim(c, c->right, &ch->right_count, prev_of(half));
-    add_rim(c, c->left, &ch->left_count, next_of(half));
+    add_rim(c, c->right, &ch->right_count, mw__half_prev(half));
+    add_rim(c, c->left, &ch->left_count, mw__half_next(half));
     c->channel[ch->triangle_count++] = mw__link_triangle(half);
     for (;;) {
         *crossed = *piece_of(c, half);
@@ -222,15 +212,15 @@ static mw_constrain_result open_channel(mw_constrained *c, uint32_t a, uint32_t 
         if (!reserve(c, ch->triangle_count + 2)) return MW_CONSTRAIN_MEMORY;
         half = *link_of(c, half); /* its end is on the right now, its start on the left */
         c->channel[ch->triangle_count++] = mw__link_triangle(half);
-        uint32_t w = start_of(c, prev_of(half));
+        uint32_t w = start_of(c, mw__half_prev(half));
         double s = w == b ? 0 : side(c, a, b, w);
-        if (s <= 0) add_rim(c, c->right, &ch->right_count, next_of(half));
-        if (s >= 0) add_rim(c, c->left, &ch->left_count, prev_of(half));
+        if (s <= 0) add_rim(c, c->right, &ch->right_count, mw__half_next(half));
+        if (s >= 0) add_rim(c, c->left, &ch->left_count, mw__half_prev(half));
         if (s == 0) {
             ch->w = w;
             return MW_CONSTRAIN_DONE;
         }
-        half = s > 0 ? next_of(half) : prev_of(half);
+        half = s > 0 ? mw__half_next(half) : mw__half_prev(half);
     }
 }
 
@@ -409,7 +399,7 @@ static bool is_illegal(const mw_constrained *c, uint32_t half)
     uint32_t twin = *link_of(c, half);
     if (twin == MW_NONE || *piece_of(c, half) != MW_NONE || c->tri[mw__link_triangle(twin)].user == AWAY) return false;
     const mw_triangle *t = &c->tri[mw__link_triangle(half)];
-    uint32_t apex = start_of(c, prev_of(twin));
+    uint32_t apex = start_of(c, mw__half_prev(twin));
     return mw__incircle(c->point[t->v[0]], c->point[t->v[1]], c->point[t->v[2]], c->point[apex]) > 0;
 }
 
@@ -431,8 +421,9 @@ static void flip(mw_constrained *c, uint32_t half)
 {
     uint32_t twin = *link_of(c, half), t = mw__link_triangle(half), n = mw__link_triangle(twin);
     uint32_t p = start_of(c, half), q = end_of(c, half);
-    uint32_t r = start_of(c, prev_of(half)), s = start_of(c, prev_of(twin));
-    uint32_t sides[4] = {next_of(twin), prev_of(half), prev_of(twin), next_of(half)}; /* ps, rp, sq, qr */
+    uint32_t r = start_of(c, mw__half_prev(half)), s = start_of(c, mw__half_prev(twin));
+    uint32_t sides[4] = {mw__half_next(twin), mw__half_prev(half), mw__half_prev(twin),
+                         mw__half_next(half)}; /* ps, rp, sq, qr */
     mw_rim step[4];
     for (int i = 0; i < 4; i++) step[i] = (mw_rim){.outer = *link_of(c, sides[i]), .piece = *piece_of(c, sides[i])};
     set_triangle(c, t, p, s, r);
@@ -490,7 +481,7 @@ static void mark(mw_constrained *c, uint32_t half, uint32_t *number)
 static bool cut_through_one(mw_constrained *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w, uint32_t *number)
 {
     if (*piece_of(c, half) != MW_NONE) return false;
-    *w = start_of(c, prev_of(*link_of(c, half)));
+    *w = start_of(c, mw__half_prev(*link_of(c, half)));
     if (*w != b && side(c, a, b, *w) != 0) return false;
     flip(c, half);
     mark(c, mw__link(mw__link_triangle(half), 1), number);
@@ -555,10 +546,10 @@ static uint32_t follow_through(const mw_constrained *c, uint32_t from, uint32_t 
         uint32_t piece = *piece_of(c, half);
         if (piece != MW_NONE && !meet(context, piece, MW_NONE)) return MW_NONE;
         half = *link_of(c, half);
-        uint32_t w = start_of(c, prev_of(half));
+        uint32_t w = start_of(c, mw__half_prev(half));
         double s = w == to ? 0 : side(c, from, to, w);
         if (s == 0) return w;
-        half = s > 0 ? next_of(half) : prev_of(half);
+        half = s > 0 ? mw__half_next(half) : mw__half_prev(half);
     }
 }
 

@@ -225,7 +225,7 @@ static void remove_round(flood *f, uint32_t first)
     if (half == first) return;
     half = first;
     while ((half = tri[mw__link_triangle(half)].link[mw__link_edge(half)]) != MW_NONE) {
-        half = mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
+        half = mw__half_next(half);
         remove_triangle(f, mw__link_triangle(half));
     }
 }

@@ -54,16 +54,6 @@ static uint32_t end_of(const greedy *g, uint32_t half)
     return g->net.tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1];
 }
 
-static uint32_t next_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
-}
-
-static uint32_t prev_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
-}
-
 /* Turns round a vertex: counter-clockwise to the hull, then clockwise from the beginning. */
 typedef struct rotor {
     uint32_t half, first; /* half-edges that leave the vertex */
@@ -80,7 +70,7 @@ static rotor rotor_at(const greedy *g, uint32_t vertex)
 /* Returns a half-edge between the vertex and `other`, or goes on to the next triangle and returns MW_NONE. */
 static uint32_t turn(const greedy *g, rotor *r, uint32_t other)
 {
-    uint32_t back = prev_of(r->half);
+    uint32_t back = mw__half_prev(r->half);
     if (end_of(g, r->half) == other) return r->half;
     if (start_of(g, back) == other) return back;
     if (!r->clockwise && link_of(g, back) != MW_NONE) {
@@ -89,7 +79,7 @@ static uint32_t turn(const greedy *g, rotor *r, uint32_t other)
     }
     if (!r->clockwise) r->half = r->first;
     r->clockwise = true;
-    r->half = next_of(link_of(g, r->half));
+    r->half = mw__half_next(link_of(g, r->half));
     return MW_NONE;
 }
 
@@ -117,9 +107,9 @@ static bool add_corner(greedy *g, uint32_t a, uint32_t z, uint32_t b)
 /* Add the corners on the left of a taken edge, at its end and at its start. */
 static bool add_corners(greedy *g, uint32_t half)
 {
-    uint32_t after = next_of(half), before = prev_of(half);
-    while (!is_taken(g, after) && link_of(g, after) != MW_NONE) after = next_of(link_of(g, after));
-    while (!is_taken(g, before) && link_of(g, before) != MW_NONE) before = prev_of(link_of(g, before));
+    uint32_t after = mw__half_next(half), before = mw__half_prev(half);
+    while (!is_taken(g, after) && link_of(g, after) != MW_NONE) after = mw__half_next(link_of(g, after));
+    while (!is_taken(g, before) && link_of(g, before) != MW_NONE) before = mw__half_prev(link_of(g, before));
     if (is_taken(g, after) && !add_corner(g, start_of(g, half), end_of(g, half), end_of(g, after))) return false;
     return !is_taken(g, before) || add_corner(g, start_of(g, before), start_of(g, half), end_of(g, half));
 }

@@ -74,16 +74,6 @@ static void set_mark(const weigher *w, uint32_t half)
     w->mark[mw__link_triangle(half)] |= (uint8_t)(1u << mw__link_edge(half));
 }
 
-static uint32_t next_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__next(mw__link_edge(half)));
-}
-
-static uint32_t prev_of(uint32_t half)
-{
-    return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
-}
-
 static uint32_t link_of(const weigher *w, uint32_t half)
 {
     return triangle_of(w, half)->link[mw__link_edge(half)];
@@ -101,9 +91,9 @@ static uint32_t start_of(const weigher *w, uint32_t half)
 static void exchange(const weigher *w, uint32_t half)
 {
     uint32_t twin = link_of(w, half), a = start_of(w, half), b = start_of(w, twin);
-    uint32_t p = start_of(w, prev_of(half)), q = start_of(w, prev_of(twin));
-    uint32_t around[4] = {link_of(w, prev_of(half)), link_of(w, next_of(twin)), link_of(w, prev_of(twin)),
-                          link_of(w, next_of(half))}; /* pa, aq, qb, bp */
+    uint32_t p = start_of(w, mw__half_prev(half)), q = start_of(w, mw__half_prev(twin));
+    uint32_t around[4] = {link_of(w, mw__half_prev(half)), link_of(w, mw__half_next(twin)),
+                          link_of(w, mw__half_prev(twin)), link_of(w, mw__half_next(half))}; /* pa, aq, qb, bp */
     uint32_t s = mw__link_triangle(half), t = mw__link_triangle(twin);
     w->t->tri[s] = (mw_triangle){{q, p, a, q}, {mw__link(t, 0), around[0], around[1]}, 0};
     w->t->tri[t] = (mw_triangle){{p, q, b, p}, {mw__link(s, 0), around[2], around[3]}, 0};
@@ -117,7 +107,7 @@ static bool is_too_long(const weigher *w, uint32_t half)
     uint32_t twin = link_of(w, half);
     if (twin == MW_NONE) return false;
     uint32_t a = start_of(w, half), b = start_of(w, twin);
-    uint32_t p = start_of(w, prev_of(half)), q = start_of(w, prev_of(twin));
+    uint32_t p = start_of(w, mw__half_prev(half)), q = start_of(w, mw__half_prev(twin));
     return mw__surely_longer(mw__square(&w->points, a, b), mw__square(&w->points, p, q)) && side(w, p, a, q) > 0 &&
            side(w, q, b, p) > 0;
 }
@@ -168,15 +158,16 @@ static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *step
     bool clockwise = false;
     do {
         ++*steps;
-        if (side(w, u, start_of(w, next_of(half)), v) > 0 && side(w, u, start_of(w, prev_of(half)), v) < 0) return half;
-        uint32_t beyond = clockwise ? link_of(w, half) : link_of(w, prev_of(half));
+        if (side(w, u, start_of(w, mw__half_next(half)), v) > 0 && side(w, u, start_of(w, mw__half_prev(half)), v) < 0)
+            return half;
+        uint32_t beyond = clockwise ? link_of(w, half) : link_of(w, mw__half_prev(half));
         if (beyond == MW_NONE && !clockwise) { /* the hull: turn the other way from the beginning */
             clockwise = true;
             half = first;
             beyond = link_of(w, first);
         }
         if (beyond == MW_NONE) return MW_NONE;
-        half = clockwise ? next_of(beyond) : beyond;
+        half = clockwise ? mw__half_next(beyond) : beyond;
     } while (half != first);
     return MW_NONE;
 }
@@ -187,19 +178,19 @@ static bool walk(const weigher *w, uint32_t u, uint32_t v, bool marking, crossin
     uint32_t half = way_out(w, u, v, steps);
     if (half == MW_NONE) return false;
     way->from = half;
-    for (half = next_of(half);; ++*steps) {
-        uint32_t twin = link_of(w, half), apex = start_of(w, prev_of(twin));
+    for (half = mw__half_next(half);; ++*steps) {
+        uint32_t twin = link_of(w, half), apex = start_of(w, mw__half_prev(twin));
         if (marking) {
             set_mark(w, half);
             set_mark(w, twin);
         }
         if (apex == v) {
-            way->to = prev_of(twin);
+            way->to = mw__half_prev(twin);
             return true;
         }
         double turn = side(w, u, v, apex);
         if (turn == 0) return false;
-        half = turn > 0 ? next_of(twin) : prev_of(twin);
+        half = turn > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
 }
 
@@ -343,10 +334,10 @@ static void cut_open(const weigher *w, face *f)
 static bool stays_inside(const weigher *w, const crossing *way)
 {
     uint32_t u = start_of(w, way->from), v = start_of(w, way->to);
-    for (uint32_t half = next_of(way->from); has_mark(w, half);) {
-        uint32_t twin = link_of(w, half), apex = start_of(w, prev_of(twin));
+    for (uint32_t half = mw__half_next(way->from); has_mark(w, half);) {
+        uint32_t twin = link_of(w, half), apex = start_of(w, mw__half_prev(twin));
         if (apex == v) return true;
-        half = side(w, u, v, apex) > 0 ? next_of(twin) : prev_of(twin);
+        half = side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
     return false;
 }
@@ -359,8 +350,8 @@ static void number_corners(weigher *w, const face *f)
         if (!is_marked(w, w->list[f->triangles - 1], k)) half = mw__link(w->list[f->triangles - 1], k);
     for (uint32_t i = 0; i < f->border; i++) {
         number = number + 1 == f->border ? 0 : number + 1;
-        w->vertex[number] = start_of(w, next_of(half));
-        for (half = next_of(half);; half = next_of(link_of(w, half))) {
+        w->vertex[number] = start_of(w, mw__half_next(half));
+        for (half = mw__half_next(half);; half = mw__half_next(link_of(w, half))) {
             w->corner[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)] = number;
             if (!has_mark(w, half)) break;
         }
@@ -394,7 +385,7 @@ static size_t gather_chords(const weigher *w, const face *f, mw_chord *chord)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t half = mw__link(t, k);
             if (has_mark(w, half) && mw__link_triangle(link_of(w, half)) > t)
-                chord[count++] = make_chord(w, corner_at(w, half), corner_at(w, next_of(half)));
+                chord[count++] = make_chord(w, corner_at(w, half), corner_at(w, mw__half_next(half)));
         }
         for (uint32_t c = w->chain[t]; c != MW_NONE; c = w->crossing[c].next) {
             const crossing *way = &w->crossing[c];
