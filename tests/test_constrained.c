@@ -1,5 +1,5 @@
-/* Constrained triangulations: every result is taken apart exactly. Its segments are chains of edges, its other edges are
- * locally Delaunay, it fills the hull once, and what is kept of it is what brute force keeps. */
+/* Constrained triangulations: every result is taken apart exactly. Its segments are chains of edges, its other edges
+ * are locally Delaunay, it fills the hull once, and what is kept of it is what brute force keeps. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -935,6 +935,12 @@ static void test_crossed(void **state)
     for (int i = 0; i < 3900; i++) add_point(s, uniform(s), uniform(s));
     result r = run(s, MW_KEEP_HULL, 0);
     assert_in_range(r.report.crossed, 60, 400);
+    release(&r);
+    s = new_scene(0); /* what is crossed before the two are split counts, although nothing is in the end */
+    add_line(s, 0, 0, 4, 4);
+    add_line(s, 0, 4, 4, 0);
+    r = run(s, MW_KEEP_HULL, 1);
+    assert_int_equal(r.report.crossed, 1);
     release(&r);
 }
 

@@ -133,8 +133,8 @@ static bool force(mw_constrained_making *m, mw_stretch s)
 }
 
 /* Stretches in random rounds, so that long ones are expected to be among the first, and to shield what lies behind them
- * from those that follow; in each round along the Hilbert curve of the triangles, so that what is near is near in memory.
- * NULL when out of memory. */
+ * from those that follow; in each round along the Hilbert curve of the triangles, so that what is near is near in
+ * memory. NULL when out of memory. */
 static uint32_t *order_stretches(const mw_constrained_making *m)
 {
     uint32_t n = (uint32_t)m->stretches.count, *order = mw__random_rounds(n);
@@ -170,7 +170,7 @@ static mw_status make(mw_constrained_making *m, bool all, mw_triangulation_repor
     bool done = order;
     for (size_t i = 0; i < m->stretches.count && done && (all || !m->crossing.count); i++)
         done = force(m, m->stretches.item[order[i]]);
-    m->crossed += m->net.crossed;
+    m->crossed += m->net.crossed + m->net.wasted;
     free(order);
     return done ? MW_OK : mw__fail_memory(error);
 }
@@ -278,8 +278,8 @@ static bool take_back(mw_constrained_making *m, uint32_t *number, uint32_t count
 }
 
 /* Whether stretches cross has nothing to do with the other points. Where these are many, split the stretches without
- * them, until nothing crosses. make_all, which calls this, does that, and may come here again; but not deep, as each time
- * at most half the points remain. Hardly ever twice: nearly all points are ends then. */
+ * them, until nothing crosses. make_all, which calls this, does that, and may come here again; but not deep, as each
+ * time at most half the points remain. Hardly ever twice: nearly all points are ends then. */
 static mw_status split_apart(mw_constrained_making *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);

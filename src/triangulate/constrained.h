@@ -1,7 +1,7 @@
 /* constrained.h - a constrained Delaunay triangulation in the making. Private.
  *
- * A segment is forced in as one stretch or, once it has been split, as several. A stretch is an edge of the triangulation,
- * a piece, or a chain of pieces; a piece may be a part of many stretches. */
+ * A segment is forced in as one stretch or, once it has been split, as several. A stretch is an edge of the
+ * triangulation, a piece, or a chain of pieces; a piece may be a part of many stretches. */
 #ifndef MW_SRC_CONSTRAINED_H
 #define MW_SRC_CONSTRAINED_H
 
@@ -37,7 +37,7 @@ typedef struct mw_constrained_making {
     mw_stretches crossing;  /* what could not be forced in of some of them: it crosses pieces */
     mw_run *run;
     size_t run_count, run_capacity;
-    uint64_t crossed; /* triangles, by the stretches of all rounds */
+    uint64_t crossed; /* triangles: by the stretches of all rounds, those that crossed others too */
     uint8_t *kept;    /* per triangle */
 } mw_constrained_making;
 
