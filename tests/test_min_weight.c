@@ -1,5 +1,5 @@
-/* Triangulations of least weight: held against all triangulations of small sets, against plain dynamic programming on convex
- * polygons, against what every triangulation of least weight must be; candidates against all edges. */
+/* Triangulations of least weight: held against all triangulations of small sets, against plain dynamic programming on
+ * convex polygons, against what every triangulation of least weight must be; candidates against all edges. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -87,8 +87,8 @@ static double area(const arrays *a)
     return sum;
 }
 
-/* The triangulation; NULL if the points are on one line. It is checked for being one, with no edge that could be exchanged
- * for a shorter one. */
+/* The triangulation; NULL if the points are on one line. It is checked for being one, with no edge that could be
+ * exchanged for a shorter one. */
 static mw_mesh *triangulate(const double *points, uint32_t n, uint32_t limit, mw_kind_report *report)
 {
     mw_kind_options options = {.limit = limit};
@@ -447,8 +447,8 @@ static void test_scales(void **state)
     }
 }
 
-/* Coordinates so far apart that scaling brings points together: the way from one to the other has no direction then, and
- * must rule out no edge. If it does, the last four sets come out too heavy. */
+/* Coordinates so far apart that scaling brings points together: the way from one to the other has no direction then,
+ * and must rule out no edge. If it does, the last four sets come out too heavy. */
 static void test_span(void **state)
 {
     (void)state;

@@ -105,9 +105,9 @@ static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
     return true;
 }
 
-/* The edges come in random rounds, each in the order of the mesh. In the order of the mesh alone, each might cross about
- * all cells: so do the edges of parallel slivers that are numbered from one side to the other. In random order alone, all
- * memory would be far.
+/* The edges come in random rounds, each in the order of the mesh. In the order of the mesh alone, each might cross
+ * about all cells: so do the edges of parallel slivers that are numbered from one side to the other. In random order
+ * alone, all memory would be far.
  *
  * An edge that crosses another makes no piece, and does not spare those after it the way it looked through. So once the
  * edges that cross have looked through all cells many times, the mesh being no embedding anyway, each edge that remains

@@ -64,8 +64,8 @@ static uint32_t hull_edge(const mw_cover *c, uint32_t half)
     return half;
 }
 
-/* The half-edge of a cell along which the border goes on: as the border runs, or against it with *reversed. Begins at one
- * that leaves the vertex, in an empty cell. */
+/* The half-edge of a cell along which the border goes on: as the border runs, or against it with *reversed. Begins at
+ * one that leaves the vertex, in an empty cell. */
 static uint32_t turn_to_border(const mw_cover *c, uint32_t half, bool *reversed)
 {
     for (;;) {

@@ -15,8 +15,8 @@
  *
  * Which ear is cut first decides how many flips follow. Taken by the lengths of their bases, up to a factor, they left
  * less than two flips for each triangle of the channel in all meshes tried, and mostly less than one, while a scan that
- * cuts each ear as it finds it left flips as the square of their number on some. That remains the worst case. Flips never cross the rim: its edges were Delaunay before, and
- * now see no more vertices than then. */
+ * cuts each ear as it finds it left flips as the square of their number on some. That remains the worst case. Flips
+ * never cross the rim: its edges were Delaunay before, and now see no more vertices than then. */
 #include "triangulate/constrain.h"
 
 #include <stdlib.h>
@@ -351,13 +351,13 @@ static void lay_out(mw_constrained *c, mw_rim *rim, uint32_t n, bool backwards)
     for (uint32_t i = 0; i < n; i++) note_ear(c, i);
 }
 
-/* Fill the side of the channel along a rim; the ears are listed from c->channel[*next] on. Returns the half-edge along the
- * segment.
+/* Fill the side of the channel along a rim; the ears are listed from c->channel[*next] on. Returns the half-edge along
+ * the segment.
  *
- * An ear takes the number of the triangle that its first step was an edge of, so what is near in the plane stays near in
- * memory. That number is then free, and none is taken twice: only the triangles at either end of the channel were at two
- * steps, and the last step's number is never taken; that is the triangle at w on the right rim, the one at a on the left
- * rim, which runs the other way. */
+ * An ear takes the number of the triangle that its first step was an edge of, so what is near in the plane stays near
+ * in memory. That number is then free, and none is taken twice: only the triangles at either end of the channel were at
+ * two steps, and the last step's number is never taken; that is the triangle at w on the right rim, the one at a on the
+ * left rim, which runs the other way. */
 static uint32_t fill(mw_constrained *c, mw_rim *rim, size_t n, bool backwards, size_t *next)
 {
     lay_out(c, rim, (uint32_t)n, backwards);
@@ -476,8 +476,8 @@ static void mark(mw_constrained *c, uint32_t half, uint32_t *number)
     *number = *piece_of(c, half);
 }
 
-/* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two triangles were Delaunay, and
- * now see fewer vertices. Returns whether it is so. */
+/* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two triangles were Delaunay,
+ * and now see fewer vertices. Returns whether it is so. */
 static bool cut_through_one(mw_constrained *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w, uint32_t *number)
 {
     if (*piece_of(c, half) != MW_NONE) return false;

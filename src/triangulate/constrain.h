@@ -55,7 +55,8 @@ typedef struct mw_piece {
  * O(n log n + b log^2 b) edges in all, for n vertices and b segments [Agarwal, Arge, Yi 2005; Shewchuk, Brown 2015]. */
 mw_constrain_result mw__constrain(mw_constrained *c, uint32_t *from, uint32_t *to, mw_piece *piece);
 
-/* Met by a segment: a piece that it crosses, or, piece being MW_NONE, a vertex that lies on it. Returns whether to go on. */
+/* Met by a segment: a piece that it crosses, or, piece being MW_NONE, a vertex that lies on it. Returns whether to go
+ * on. */
 typedef bool mw_meet(void *context, uint32_t piece, uint32_t vertex);
 
 /* Tell all that a segment meets between its ends, in order; the triangulation stays as it is. Returns false if `meet`

@@ -23,8 +23,8 @@ static uint32_t *number_points(const mw_constrained_making *m, uint32_t *count)
     return number;
 }
 
-/* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve from the beginning. NULL
- * when out of memory. */
+/* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve from the beginning.
+ * NULL when out of memory. */
 static uint32_t *number_triangles(const mw_constrained_making *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->tri_count, sizeof *number);

@@ -7,16 +7,17 @@
  *          q1 q2          off a corner z between two taken edges za and zb that follow each other round z, with an angle of
  *                         90 degrees or more.
  *
- * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an edge of each constrained
- * Delaunay triangulation. Otherwise let z be such a vertex. A rubber band from a to b round the obstacles on that side of
- * ab, pulled over to z, lies in the triangle abz. It is a chain of edges, and bounds with ab a polygon without taken edges
- * in it. Any two vertices of this polygon but a and b are less than |ab| apart, as the circle holds them; so each edge
- * between two that see each other is taken, or it would come first. There is none in the polygon, so it has no
- * diagonals, and is a triangle: za and zb are taken and nothing is between. (The edges that ab crosses then are a fan at z.)
+ * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an edge of each
+ * constrained Delaunay triangulation. Otherwise let z be such a vertex. A rubber band from a to b round the obstacles
+ * on that side of ab, pulled over to z, lies in the triangle abz. It is a chain of edges, and bounds with ab a polygon
+ * without taken edges in it. Any two vertices of this polygon but a and b are less than |ab| apart, as the circle holds
+ * them; so each edge between two that see each other is taken, or it would come first. There is none in the polygon, so
+ * it has no diagonals, and is a triangle: za and zb are taken and nothing is between. (The edges that ab crosses then
+ * are a fan at z.)
  *
  * So the heap holds the open edges of the triangulation and what cuts off corners, and what has been either: taking an
- * edge makes four corners at most and changes the triangles that it crosses. What comes out of the heap is taken if it is
- * open. If it is not, it never will be again. */
+ * edge makes four corners at most and changes the triangles that it crosses. What comes out of the heap is taken if it
+ * is open. If it is not, it never will be again. */
 #include "triangulate/constrain.h"
 #include "triangulate/greedy_heap.h"
 #include "triangulate/kind.h"
@@ -125,8 +126,8 @@ static bool add_edges(greedy *g, uint32_t t)
     return true;
 }
 
-/* Begin with an empty heap: all open edges, all corners. Done anew when half as many others as there are triangles may have
- * gathered in it, so memory and time stay in proportion. */
+/* Begin with an empty heap: all open edges, all corners. Done anew when half as many others as there are triangles may
+ * have gathered in it, so memory and time stay in proportion. */
 static bool gather(greedy *g)
 {
     g->heap.count = 0;
@@ -152,8 +153,8 @@ static void visit(greedy *g, uint32_t half, uint32_t *count)
     g->changed[(*count)++] = t;
 }
 
-/* An edge was forced in: add the edges of the triangles that this has changed. They hang together, along the edge and on
- * either side of it, and each has other vertices than the one it replaces. */
+/* An edge was forced in: add the edges of the triangles that this has changed. They hang together, along the edge and
+ * on either side of it, and each has other vertices than the one it replaces. */
 static bool add_changes(greedy *g, uint32_t half)
 {
     uint32_t count = 0;
@@ -165,8 +166,8 @@ static bool add_changes(greedy *g, uint32_t half)
     return true;
 }
 
-/* Take an edge if it is open. One with a vertex inside is not: what is forced in first of it, up to a vertex, is shorter
- * and therefore taken already, or crosses a taken edge. Returns false when out of memory. */
+/* Take an edge if it is open. One with a vertex inside is not: what is forced in first of it, up to a vertex, is
+ * shorter and therefore taken already, or crosses a taken edge. Returns false when out of memory. */
 static bool take(greedy *g, mw_greedy_edge edge)
 {
     uint32_t from = edge.low, to = edge.high, taken = g->net.piece_count;

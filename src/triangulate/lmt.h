@@ -1,11 +1,11 @@
-/* lmt.h - the parts of a triangulation of least weight: candidate edges, the LMT skeleton, the faces it leaves. Private. */
+/* lmt.h - the parts of a triangulation of least weight: candidate edges, the LMT skeleton, its faces. Private. */
 #ifndef MW_SRC_LMT_H
 #define MW_SRC_LMT_H
 
 #include "mesh/mesh.h"
 
 /* Points with coordinates multiplied by a power of two, the largest near 2^500: squares neither overflow nor, unless
- * they are that of next to nothing, underflow. For lengths and angles only; sides are decided on the points as given. */
+ * they are that of next to nothing, underflow. For lengths and angles only; sides are decided on the given points. */
 typedef struct mw_scaled {
     const mw_point *point, *scaled;
     uint32_t count;
@@ -83,8 +83,8 @@ enum { MW_LMT_ALIVE = 1, MW_LMT_KNOWN = 2, MW_LMT_QUEUED = 4 };
 mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *list);
 void mw__lmt_release(mw_lmt *lmt);
 
-/* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal, until there are none or
- * the effort is spent. What remains holds every triangulation of least weight that the list held. */
+/* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal, until there are none
+ * or the effort is spent. What remains holds every triangulation of least weight that the list held. */
 void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort);
 
 /* --- faces --- */
@@ -104,9 +104,9 @@ typedef struct mw_polygon {
 /* About how many steps mw__polygon_fill takes. False when out of memory. */
 bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps);
 
-/* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek 1980]. The chords must hold
- * a triangulation. Writes three corners, counter-clockwise, for each of corner_count - 2 triangles. False when out of
- * memory. */
+/* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek 1980]. The chords must
+ * hold a triangulation. Writes three corners, counter-clockwise, for each of corner_count - 2 triangles. False when out
+ * of memory. */
 bool mw__polygon_fill(const mw_polygon *polygon, uint32_t *corners);
 
 #endif

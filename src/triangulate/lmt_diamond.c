@@ -11,9 +11,9 @@
  *
  * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that lie in dead directions
  * are left out whole. What is found so is tested once more against the triangles themselves and the nearest points.
- * Most vertices are closed by a few neighbours: no longer edge is left in any direction. The others, as on the hull or the
- * border of a cluster, come last, and pass by what is closed and too far away.
- * All in rounded numbers, with margins: an edge is left out only if points lie surely in both triangles. */
+ * Most vertices are closed by a few neighbours: no longer edge is left in any direction. The others, as on the hull or
+ * the border of a cluster, come last, and pass by what is closed and too far away. All in rounded numbers, with
+ * margins: an edge is left out only if points lie surely in both triangles. */
 #include "triangulate/lmt.h"
 
 #include <math.h>
@@ -26,8 +26,8 @@
 #define ANGLE_MARGIN 0x1p-40
 #define LENGTH_MARGIN 0x1p-40
 
-/* Scaling rounds coordinates below 2^-1022 and squares and products below it, by at most 2^-1074. A difference of SHARP,
- * and a square or product of TINY, are far enough above that to be as right as others. */
+/* Scaling rounds coordinates below 2^-1022 and squares and products below it, by at most 2^-1074. A difference of
+ * SHARP, and a square or product of TINY, are far enough above that to be as right as others. */
 #define SHARP 0x1p-900
 #define TINY 0x1p-1000
 
@@ -198,7 +198,7 @@ static item pop(seeker *s)
     return top;
 }
 
-/* --- dead directions: arcs within -pi..pi; one that goes beyond is cut there, and an end of 4 or -4 stands for no end --- */
+/* --- dead directions: arcs within -pi..pi; one that goes beyond is cut there; 4 and -4 stand for no end --- */
 
 static void add_arc(arcs *a, double from, double to)
 {

@@ -6,8 +6,8 @@
  *        \ | /             triangulation of least weight, and is removed; which may leave others without triangles. An
  *          r               edge that no remaining one crosses is in all of them [Dickerson, Keil, Montague 1997].
  *
- * A triangle is taken for empty if none of the candidate edges from one of its corners ends in it; that one inside may be
- * overlooked keeps edges, and removes none. So does every other limit here. */
+ * A triangle is taken for empty if none of the candidate edges from one of its corners ends in it; that one inside may
+ * be overlooked keeps edges, and removes none. So does every other limit here. */
 #include "triangulate/lmt.h"
 
 #include <math.h>
@@ -151,8 +151,8 @@ static uint32_t find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *steps)
     return MW_NONE;
 }
 
-/* The triangles on the left of a half-edge a->b: turn round a, away from b. Of the ends of edges met so, one lies in the
- * triangle abl just if, seen from b, it is nearer to a than l is. So l is the nearest to a of all before it. */
+/* The triangles on the left of a half-edge a->b: turn round a, away from b. Of the ends of edges met so, one lies in
+ * the triangle abl just if, seen from b, it is nearer to a than l is. So l is the nearest to a of all before it. */
 static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_t *steps)
 {
     bool left = true;

@@ -1,23 +1,25 @@
-/* min_weight.c - triangulation of least weight: the LMT skeleton [Dickerson, Keil, Montague 1997], then the faces it leaves.
+/* min_weight.c - triangulation of least weight: the LMT skeleton [Dickerson, Keil, Montague 1997], then the faces it
+ * leaves.
  *
  * Everything hangs on one triangulation T. It is the greedy triangulation, made locally minimal: each edge that is the
- * longer diagonal of a strictly convex quadrilateral is exchanged for the other. The candidates are the edges with the diamond
- * property and those of T. An edge of T is never removed from them: its two triangles in T keep it, and their sides keep
- * each other. So a candidate that no other one crosses is in T, and the skeleton is what is left of T when each
- * candidate that is not in it has walked through T from one end to the other and marked the edges that it crosses.
+ * longer diagonal of a strictly convex quadrilateral is exchanged for the other. The candidates are the edges with the
+ * diamond property and those of T. An edge of T is never removed from them: its two triangles in T keep it, and their
+ * sides keep each other. So a candidate that no other one crosses is in T, and the skeleton is what is left of T when
+ * each candidate that is not in it has walked through T from one end to the other and marked the edges that it crosses.
  *
- * A face is then a set of triangles of T, joined across marked edges. Where these edges join them to a tree, the face is a
- * polygon (its border may touch itself, as where an edge of the skeleton ends inside), all candidates that cross it are known,
- * with the corners where they begin and end, and dynamic programming finds its least weight. Where they make rings, the face
- * holds vertices or parts of the skeleton. It is cut open along as many edges of T as there are rings: the same gives the
- * least weight with these edges, which is a local optimum. Faces that are too large stay as they are in T. */
+ * A face is then a set of triangles of T, joined across marked edges. Where these edges join them to a tree, the face
+ * is a polygon (its border may touch itself, as where an edge of the skeleton ends inside), all candidates that cross
+ * it are known, with the corners where they begin and end, and dynamic programming finds its least weight. Where they
+ * make rings, the face holds vertices or parts of the skeleton. It is cut open along as many edges of T as there are
+ * rings: the same gives the least weight with these edges, which is a local optimum. Faces that are too large stay as
+ * they are in T. */
 #include "triangulate/kind.h"
 #include "triangulate/lmt.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* What may be spent, for some seconds each: on finding candidates, on reducing them and on their walks; and on faces. */
+/* What may be spent, for some seconds each: on finding candidates, on reducing them and on their walks; on faces. */
 #define STEPS_AT_LEAST (UINT64_C(1) << 29)
 #define STEPS_PER_POINT 5000
 #define CANDIDATES_AT_LEAST (UINT64_C(1) << 21)
@@ -342,7 +344,7 @@ static bool stays_inside(const weigher *w, const crossing *way)
     return false;
 }
 
-/* Number the corners along the border: at each vertex, turn through the face from one edge of the border to the next. */
+/* Number the corners along the border: at each vertex, turn through the face from edge to edge of the border. */
 static void number_corners(weigher *w, const face *f)
 {
     uint32_t half = MW_NONE, number = 0;
