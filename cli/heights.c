@@ -121,25 +121,26 @@ static bool lacks(const vertices *v, vertex_value value)
     return false;
 }
 
-static int interpolate_all(const vertices *v)
+static int interpolate_all(const vertices *v, bool *flat)
 {
     surface s = {0};
-    bool made = false, flat = false;
+    bool made = false;
     int end = 0;
-    for (size_t k = 0; k < vertices_value_count(v) && end == 0 && !flat; k++) {
+    for (size_t k = 0; k < vertices_value_count(v) && end == 0 && !*flat; k++) {
         vertex_value value = vertices_value(v, k);
         if (!lacks(v, value)) continue;
-        if (!made) end = make_surface(&s, v, &flat);
+        if (!made) end = make_surface(&s, v, flat);
         made = true;
-        if (end == 0 && !flat) interpolate(&s, v, value);
+        if (end == 0 && !*flat) interpolate(&s, v, value);
     }
     release(&s);
     return end;
 }
 
 int heights_fill(vertices *v, size_t added, const uint32_t *duplicate_of, const uint32_t *segments,
-                 const mw_pieces *pieces)
+                 const mw_pieces *pieces, bool *flat)
 {
+    *flat = false;
     mw_mesh_file *file = &v->file;
     uint32_t *segment_of = find_segments(added, file->point_count - added, pieces);
     if (!segment_of) return fail_memory();
@@ -150,5 +151,5 @@ int heights_fill(vertices *v, size_t added, const uint32_t *duplicate_of, const 
     }
     free(segment_of);
     for (size_t i = 0; !file->has_z && i < file->point_count; i++) file->points[3 * i + 2] = 0;
-    return interpolate_all(v);
+    return interpolate_all(v, flat);
 }

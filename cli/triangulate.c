@@ -112,6 +112,10 @@ static int fail_constrained(const triangulate_settings *s, const char *points, c
     const uint32_t *cross = w->constrained.cross;
     if (error->status == MW_ERROR_INPUT && cross[0] != MW_NONE)
         return constraints_cross(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split);
+    if (error->status == MW_ERROR_INPUT && w->constrained.removed > 0) {
+        complain("%s: %s; --keep hull keeps them", s->constraints, error->message);
+        return END_INPUT;
+    }
     bool given = points && error->vertex >= 0 && (size_t)error->vertex < w->vertices.points;
     return fail_mesh(given ? points : s->constraints, error);
 }
@@ -142,7 +146,13 @@ static int constrain(const triangulate_settings *s, const char *points, work *w)
         return fail_constrained(s, points, w, &error);
     int end = vertices_complete(&w->vertices, mesh);
     mw_mesh_destroy(mesh);
-    return end ? end : heights_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->pieces);
+    bool flat = false;
+    if (end == 0) end = heights_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->pieces, &flat);
+    if (end == 0 && flat && !s->common.quiet)
+        complain("%s: warning: its points lie on one line, or are fewer than three, so vertices of constraints that "
+                 "have no values of their own get nan",
+                 points);
+    return end;
 }
 
 /* Of what is said to be optimal but is not: why. */

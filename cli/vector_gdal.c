@@ -5,6 +5,7 @@
 
 #include <dlfcn.h>
 #include <gdal.h>
+#include <inttypes.h>
 #include <math.h>
 #include <ogr_api.h>
 #include <stdlib.h>
@@ -147,22 +148,33 @@ static bool add_geometry(collector *c, OGRGeometryH geometry)
     return true;
 }
 
-static bool add_feature(collector *c, OGRFeatureH feature)
-{
-    OGRGeometryH geometry = gdal.OGR_F_GetGeometryRef(feature);
-    if (!geometry) return true;
-    OGRGeometryH linear = gdal.OGR_G_GetLinearGeometry(geometry, 0, NULL); /* steps of 4 degrees */
-    if (!linear) return false;
-    bool added = add_geometry(c, linear);
-    gdal.OGR_G_DestroyGeometry(linear);
-    return added;
-}
-
 static int fail_gdal(const char *path)
 {
     const char *message = gdal.CPLGetLastErrorMsg();
     complain("%s: GDAL says: %.1000s", path, *message ? message : "this is no vector file");
     return END_INPUT;
+}
+
+/* A feature may have no geometry; but not because GDAL failed to make sense of it. */
+static int fail_feature(const collector *c, const char *path)
+{
+    complain("%s: feature %" PRIu32 ": GDAL says: %.1000s", path, c->feature, gdal.CPLGetLastErrorMsg());
+    return END_INPUT;
+}
+
+static int add_feature(collector *c, OGRFeatureH feature, const char *path)
+{
+    OGRGeometryH geometry = gdal.OGR_F_GetGeometryRef(feature);
+    if (!geometry) return gdal.CPLGetLastErrorType() >= CE_Failure ? fail_feature(c, path) : 0;
+    OGRGeometryH linear = gdal.OGR_G_GetLinearGeometry(geometry, 0, NULL); /* steps of 4 degrees */
+    if (!linear) return fail_feature(c, path);
+    bool added = add_geometry(c, linear);
+    gdal.OGR_G_DestroyGeometry(linear);
+    if (!added) return fail_memory();
+    if (c->file->point_count <= MW_MAX_VERTICES && c->file->segment_count < MW_NONE) return 0;
+    complain("%s: more than %" PRIu32 " points, or than %" PRIu32 " segments", path, (uint32_t)MW_MAX_VERTICES,
+             MW_NONE - 1);
+    return END_INTERNAL;
 }
 
 static int read_layer(collector *c, OGRLayerH layer, const char *path)
@@ -172,9 +184,9 @@ static int read_layer(collector *c, OGRLayerH layer, const char *path)
         gdal.CPLErrorReset();
         OGRFeatureH feature = gdal.OGR_L_GetNextFeature(layer);
         if (!feature) return gdal.CPLGetLastErrorType() >= CE_Failure ? fail_gdal(path) : 0;
-        bool added = add_feature(c, feature);
+        int end = add_feature(c, feature, path);
         gdal.OGR_F_Destroy(feature);
-        if (!added || c->file->point_count > MW_MAX_VERTICES || c->file->segment_count >= MW_NONE) return fail_memory();
+        if (end) return end;
     }
 }
 

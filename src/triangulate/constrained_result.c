@@ -132,6 +132,7 @@ mw_status mw__give_constrained(mw_constrained_making *m, mw_constrain_report *re
 {
     bool any = false;
     for (uint32_t t = 0; t < m->tri_count && !any; t++) any = m->kept[t];
+    report->removed = any ? 0 : m->tri_count;
     if (!any)
         return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
                         m->tri_count);

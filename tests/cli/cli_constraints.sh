@@ -102,6 +102,10 @@ if $geojson; then
     kept 18 36 lake.geojson --keep hull
     gzip -k lake.geojson
     kept 10 33 lake.geojson.gz
+    echo '{"type":"LineString","coordinates":[[0,0],[4,0],[4,4]]}' >open.geojson
+    run triangulate --constraints open.geojson --keep inside -o none.off
+    refused 3 'open\.geojson: nothing is left: .*; --keep hull keeps them$'; absent none.off
+    run triangulate --constraints open.geojson --keep hull -o k.off; exits 0
     # lines bound nothing of their own
     printf '{"type":"LineString","coordinates":[[0,0],[4,0],[4,4],[0,0]]}' >line.geojson
     printf '0 4\n' >corner.xyz
@@ -168,6 +172,8 @@ if $geojson; then
     holds "heights that are not known" test "$(sed -n '3,9p' half.off | cut -d' ' -f3 | xargs)" == 'nan nan nan 3 nan nan nan'
     printf '2 2 1\n6 2 9\n' >pair.xyz
     run triangulate pair.xyz --constraints half.geojson -o half.off; exits 0; prints_line '^duplicates +2$'
+    says '^meshwalk: pair\.xyz: warning: its points lie on one line.*nan$'
+    run triangulate pair.xyz --constraints half.geojson -q -o half.off; exits 0; says_nothing
     holds "vertices at one place share heights" \
         test "$(sed -n '3,8p' half.off | cut -d' ' -f3 | xargs)" == '1 9 3 9 nan nan'
 fi
@@ -206,6 +212,8 @@ if $gdal; then
     holds "a circle has about its area" awk '$1 == "area" { exit !($2 > 3.13 && $2 < 3.1416) }' "$logs/out"
     printf 'id,WKT\n1,"LINESTRING (0 0,4 4)"\n2,"LINESTRING (0 4,4 0)"\n' >cross.csv
     run triangulate --constraints cross.csv -o m.off; refused 3 'cross\.csv: feature 0 crosses feature 1 near 2 2; '
+    printf 'id,WKT\n1,"LINESTRING (0 0,4 4)"\n2,"LINESTRING (1 1,nan 2)"\n' >nan.csv
+    run triangulate --constraints nan.csv -o none.off; refused 3 'nan\.csv: feature 1: GDAL says: .'
     printf 'a,b\n1,2\n' >table.csv
     run triangulate --constraints table.csv -o none.off; refused 3 'no points, lines or polygons'; absent none.off
     dxf() { # dxf "X Y X Y"...: lines
