@@ -17,8 +17,8 @@
 /* Work of all insertions, unless a limit is set: about half a minute. */
 #define MOST_WORK UINT64_C(500000000)
 
-/* Sights of one insertion, unless a limit is set: as many for each triangle, and so many more that about a thousand
- * points never reach it, whatever their position. */
+/* Sights of one insertion, unless a limit is set: as many for each triangle, and so many more that 700 points never
+ * reach it: each triangle is seen at most once in each of the gaps that n vertices leave, which makes 2 n (n + 1). */
 #define SIGHTS_PER_TRIANGLE 4
 #define MORE_SIGHTS ((size_t)1 << 20)
 
