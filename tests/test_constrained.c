@@ -479,7 +479,8 @@ static double distance(mw_point a, mw_point b, mw_point p)
     return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
-/* Pieces lead from the one end of the segment to the other, near it all the way. */
+/* Pieces lead from the beginning of the segment to its end, near it all the way: those that are called its own in their
+ * direction, those that it shares with lower ones in any. */
 static void assert_led(const scene *s, const result *r, uint32_t segment, double tolerance)
 {
     uint32_t from = s->segment[2 * segment], to = s->segment[2 * segment + 1];
@@ -492,7 +493,8 @@ static void assert_led(const scene *s, const result *r, uint32_t segment, double
         changed = false;
         for (size_t i = 0; i < r->pieces.count; i++) {
             uint32_t u = r->pieces.edge[2 * i], v = r->pieces.edge[2 * i + 1];
-            if (reached[u] == reached[v]) continue;
+            if (reached[u] == reached[v] || r->pieces.segment[i] > segment) continue;
+            if (reached[v] && r->pieces.segment[i] == segment) continue;
             uint32_t next = reached[u] ? v : u;
             if (distance(a, b, r->point[next]) > tolerance) continue;
             reached[next] = 1;
@@ -680,6 +682,19 @@ static void test_flood(void **state)
     }
 }
 
+/* Of the triangles whose middle is not near a segment, those inside polygons are kept. */
+static void assert_far_kept(const scene *s, const result *hull, const result *r, double near)
+{
+    for (uint32_t t = 0; t < hull->count; t++) {
+        mw_point q;
+        if (!middle_of(hull, t, &q)) continue;
+        bool far = true;
+        for (uint32_t i = 0; i < s->segments; i++)
+            far &= distance(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]), q) >= near;
+        if (far) assert_int_equal(has_triangle(r, hull->tri[t]), inside_any(s, q));
+    }
+}
+
 /* Random triangles on a grid as polygons, that cross, overlap, coincide: split. Coordinates are rounded, so brute force
  * is asked only away from borders. */
 static void test_union(void **state)
@@ -695,14 +710,7 @@ static void test_union(void **state)
         result hull = run(s, MW_KEEP_HULL, 1), r = run(s, MW_KEEP_INSIDE, 1);
         assert_sound(s, &hull);
         assert_sound(s, &r);
-        for (uint32_t t = 0; t < hull.count; t++) {
-            mw_point q;
-            if (!middle_of(&hull, t, &q)) continue;
-            bool near = false;
-            for (uint32_t i = 0; i < s->segments; i++)
-                near |= distance(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]), q) < 1e-9;
-            if (!near) assert_int_equal(has_triangle(&r, hull.tri[t]), inside_any(s, q));
-        }
+        assert_far_kept(s, &hull, &r, 1e-9);
         release(&hull);
         release(&r);
     }
@@ -826,6 +834,111 @@ static void test_split_shallow(void **state)
         assert_fills_hull(s, &r);
         release(&r);
     }
+}
+
+static void check_split_of(uint32_t n, const double *xy, uint32_t m, const uint32_t *segment, double tolerance)
+{
+    scene *s = new_scene(0);
+    for (uint32_t i = 0; i < n; i++) add_point(s, xy[2 * i], xy[2 * i + 1]);
+    for (uint32_t i = 0; i < m; i++) add_segment(s, segment[2 * i], segment[2 * i + 1], MW_NONE);
+    check_split(s, tolerance);
+}
+
+/* Long segments, nearly parallel: rounding moves each crossing past the next segment. */
+static void test_split_close(void **state)
+{
+    (void)state;
+    enum { Y = 5000000 };
+    const double unit = 0x1p-30; /* the distance of doubles at Y */
+    const double three[] = {1250816.0639249918, Y, 531171.4665219282,  Y + 4 * unit,
+                            1303493.7280111513, Y, 816597.12245701486, Y + 6 * unit};
+    check_split_of(4, three, 3, (const uint32_t[]){0, 3, 0, 1, 1, 2}, 4 * unit);
+    const double others[] = {
+        1238705.1289641492, Y, 1248737.949965422, Y, 458771.71222629939, Y + 6 * unit, 609270.95347090648,
+        Y + 14 * unit};
+    check_split_of(4, others, 3, (const uint32_t[]){3, 0, 2, 0, 1, 2}, 4 * unit);
+    const double many[] = {1283425.3194980419, Y,
+                           1366677.5162477922, Y,
+                           1030640.9006492354, 5266898.1642696485,
+                           826911.96684861369, Y,
+                           919228.86694196006, Y + 7 * unit,
+                           911496.40165268898, Y,
+                           477594.894757726,   Y,
+                           471731.04780258331, Y,
+                           931799.30658502644, Y + 23 * unit,
+                           483990.44128173275, Y,
+                           1166459.3102712967, Y + 3 * unit,
+                           471082.46996141929, Y,
+                           543830.71508661099, Y,
+                           715319.25111099193, Y};
+    const uint32_t segments[] = {13, 0, 10, 12, 6, 6,  9, 13, 11, 13, 8, 10, 9,
+                                 5,  9, 10, 5,  8, 10, 3, 8,  12, 1,  4, 6,  2};
+    check_split_of(14, many, 13, segments, 4 * unit);
+}
+
+/* Many sets of such segments: along the x axis, with some that lie across, and on a slope. */
+static void test_split_nearly_parallel(void **state)
+{
+    (void)state;
+    uint64_t seed = 700;
+    print_message("seed %llu\n", (unsigned long long)seed);
+    for (uint64_t round = 0; round < 600; round++) {
+        scene *s = new_scene(seed + round);
+        uint32_t n = 4 + (uint32_t)below(s, 20), units = 2 + (uint32_t)below(s, 20), m = 3 + (uint32_t)below(s, 20);
+        double slope = round % 3 == 2 ? uniform(s) : 0;
+        add_point(s, 0, 0);
+        for (uint32_t i = 0; i < n; i++) {
+            double x = 4e5 + 1e6 * uniform(s), y = 5e6 + slope * x + 0x1p-30 * below(s, units);
+            add_point(s, x, round % 3 == 1 && below(s, 4) == 0 ? 5e6 + 1e6 * uniform(s) : y);
+        }
+        for (uint32_t i = 0; i < m; i++) add_segment(s, 1 + (uint32_t)below(s, n), 1 + (uint32_t)below(s, n), MW_NONE);
+        check_split(s, 8 * 0x1p-30);
+    }
+}
+
+/* Triangles with one side along nearly the same line as those of the others: sides become one chain, and what each of
+ * them bounds stays apart. */
+static void test_union_close(void **state)
+{
+    (void)state;
+    for (uint64_t round = 0; round < 100; round++) {
+        scene *s = new_scene(1400 + round);
+        for (uint32_t i = 0; i < 8; i++) {
+            double xy[6];
+            for (int k = 0; k < 6; k++)
+                xy[k] = k % 2 == 0 ? 1e6 * uniform(s) : k < 5 ? 5e6 + 0x1p-30 * below(s, 9) : 4e6 + 2e6 * uniform(s);
+            add_ring(s, 3, xy, i / 2);
+        }
+        result hull = run(s, MW_KEEP_HULL, 1), r = run(s, MW_KEEP_INSIDE, 1);
+        assert_sound(s, &hull);
+        assert_sound(s, &r);
+        assert_far_kept(s, &hull, &r, 1e-7);
+        release(&hull);
+        release(&r);
+    }
+}
+
+/* A segment is led through a vertex that another one was led through before: its pieces still follow one another. */
+static void test_split_directions(void **state)
+{
+    (void)state;
+    scene *s = new_scene(0);
+    static const double cells[5][2] = {{0, 0}, {1, 0}, {2, 2}, {1, 2}, {0, 1}};
+    for (int i = 0; i < 5; i++) add_point(s, 1 + 0x1p-52 * cells[i][0], 1 + 0x1p-52 * cells[i][1]);
+    add_segment(s, 4, 1, MW_NONE);
+    add_segment(s, 3, 0, MW_NONE);
+    add_segment(s, 0, 2, MW_NONE);
+    check_split(s, 0x1p-52);
+    result r = run(s, MW_KEEP_HULL, 1);
+    static const uint32_t pieces[2][2] = {{4, 0}, {0, 1}}; /* of the first segment */
+    for (int i = 0; i < 2; i++) {
+        const edge *e = find_edge(&r, pieces[i][0], pieces[i][1]);
+        assert_non_null(e);
+        assert_int_not_equal(e->piece, MW_NONE);
+        assert_int_equal(r.pieces.segment[e->piece], 0);
+        assert_int_equal(r.pieces.edge[2 * e->piece], pieces[i][0]);
+    }
+    release(&r);
 }
 
 static void expect(const scene *s, const mw_constraints *given, mw_constrain_options options, mw_status status,
@@ -1059,16 +1172,30 @@ static void test_real(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grids),         cmocka_unit_test(test_uniform),
-        cmocka_unit_test(test_long),          cmocka_unit_test(test_fans),
-        cmocka_unit_test(test_polygons),      cmocka_unit_test(test_parcels),
-        cmocka_unit_test(test_touching),      cmocka_unit_test(test_flood),
-        cmocka_unit_test(test_union),         cmocka_unit_test(test_crossing_is_told),
-        cmocka_unit_test(test_split_counts),  cmocka_unit_test(test_split_many),
-        cmocka_unit_test(test_split_among),   cmocka_unit_test(test_split_tight),
-        cmocka_unit_test(test_split_shallow), cmocka_unit_test(test_wrong_arguments),
-        cmocka_unit_test(test_plain),         cmocka_unit_test(test_repeatable),
-        cmocka_unit_test(test_crossed),       cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_grids),
+        cmocka_unit_test(test_uniform),
+        cmocka_unit_test(test_long),
+        cmocka_unit_test(test_fans),
+        cmocka_unit_test(test_polygons),
+        cmocka_unit_test(test_parcels),
+        cmocka_unit_test(test_touching),
+        cmocka_unit_test(test_flood),
+        cmocka_unit_test(test_union),
+        cmocka_unit_test(test_crossing_is_told),
+        cmocka_unit_test(test_split_counts),
+        cmocka_unit_test(test_split_many),
+        cmocka_unit_test(test_split_among),
+        cmocka_unit_test(test_split_tight),
+        cmocka_unit_test(test_split_shallow),
+        cmocka_unit_test(test_split_close),
+        cmocka_unit_test(test_split_nearly_parallel),
+        cmocka_unit_test(test_union_close),
+        cmocka_unit_test(test_split_directions),
+        cmocka_unit_test(test_wrong_arguments),
+        cmocka_unit_test(test_plain),
+        cmocka_unit_test(test_repeatable),
+        cmocka_unit_test(test_crossed),
+        cmocka_unit_test(test_memory),
         cmocka_unit_test(test_real),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

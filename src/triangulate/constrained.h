@@ -61,8 +61,8 @@ void mw__runs_release(mw_runs *runs);
 /* Where ab and cd cross, rounded, but in the boxes of both. */
 mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d);
 
-/* Some stretches cross: make points there, and cut all stretches at their points. Rounds count from 1; in later ones
- * stretches are led through ends of others that they pass by. MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
+/* Some stretches cross: make points there, and cut all stretches at their points. Rounds count from 1; after the
+ * first, stretches are led through ends of others that they cross and pass close by. MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
 mw_status mw__split_crossings(mw_constrained_making *m, int round, mw_error *error);
 
 /* Set m->kept. MW_ERROR_INPUT: a polygon that is not closed; MW_ERROR_MEMORY. */

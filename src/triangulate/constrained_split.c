@@ -7,8 +7,8 @@
  * than its link's.
  *
  * Rounding moves links a little, past vertices that lie close to them, so they come to cross others. Among long links that
- * are nearly parallel that could go on for very long, one new point beside the other. So in later rounds, as in snap
- * rounding [Hobby 1999; Guibas, Marimont 1998], a link that crosses another and passes close to its end is led through
+ * are nearly parallel that could go on for very long, one new point beside the other. So after the first round, as in snap
+ * rounding [Hobby 1999; Guibas, Marimont 1998], a link that crosses another and passes close by its end is led through
  * that end, and no point is made. Why this ends: see docs/guarantees.md. */
 #include "triangulate/constrained.h"
 
@@ -61,6 +61,7 @@ mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 typedef struct cut {
     size_t link;
     uint32_t point;
+    bool exact;     /* lies on the link */
     mw_point along; /* how far: by x, then by y */
 } cut;
 
@@ -100,7 +101,7 @@ static bool equal(mw_point a, mw_point b)
 }
 
 /* Note that a link is to be cut at a point, unless it ends there. */
-static bool add_cut(splitter *s, size_t link, uint32_t point)
+static bool add_cut(splitter *s, size_t link, uint32_t point, bool exact)
 {
     const mw_stretch *l = link_at(s->m, link);
     mw_point p = point_at(s, point);
@@ -112,7 +113,7 @@ static bool add_cut(splitter *s, size_t link, uint32_t point)
         s->cut = list;
         s->cut_capacity = capacity;
     }
-    s->cut[s->cut_count++] = (cut){link, point, along(s, l, p)};
+    s->cut[s->cut_count++] = (cut){link, point, exact, along(s, l, p)};
     return true;
 }
 
@@ -146,11 +147,16 @@ static double scale(double c[3])
     return fmax(DBL_EPSILON / 2, ldexp(DBL_TRUE_MIN, -exponent));
 }
 
-/* Does ab pass by p so closely that it would go through p if the coordinates were off by that many times the distance of
- * doubles? Only if the parts are shorter than ab. */
+static bool is_between(double a, double b, double x)
+{
+    return x >= fmin(a, b) && x <= fmax(a, b);
+}
+
+/* Does ab, with p in its box, pass by p so closely that it would go through p if the coordinates were off by that many
+ * times the distance of doubles? */
 static bool passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
 {
-    if (!(extent(a, p) < extent(a, b) && extent(p, b) < extent(a, b))) return false;
+    if (!is_between(a.x, b.x, p.x) || !is_between(a.y, b.y, p.y)) return false;
     double x[3] = {a.x, b.x, p.x}, y[3] = {a.y, b.y, p.y};
     double off_x = scale(x), off_y = scale(y);
     double dx = x[1] - x[0], dy = y[1] - y[0];
@@ -165,7 +171,8 @@ static bool cut_at_ends(splitter *s, size_t link, size_t other)
     const mw_stretch *l = link_at(s->m, link), *o = link_at(s->m, other);
     for (int i = 0; i < 2; i++) {
         uint32_t end = i == 0 ? o->from : o->to;
-        if (passes_by(point[l->from], point[l->to], point[end], s->tolerance) && !add_cut(s, link, end)) return false;
+        if (passes_by(point[l->from], point[l->to], point[end], s->tolerance) && !add_cut(s, link, end, false))
+            return false;
     }
     return true;
 }
@@ -174,12 +181,12 @@ static bool meet(void *context, uint32_t piece, uint32_t vertex)
 {
     splitter *s = context;
     size_t link = s->m->pieces.count + s->remainder;
-    if (piece == MW_NONE) return add_cut(s, link, vertex);
+    if (piece == MW_NONE) return add_cut(s, link, vertex, true);
     size_t before = s->cut_count;
     if (s->tolerance > 0 && !(cut_at_ends(s, link, piece) && cut_at_ends(s, piece, link))) return false;
     if (s->cut_count > before) return true;
     uint32_t point = make_point(s, link_at(s->m, link), &s->m->pieces.item[piece]);
-    return point != MW_NONE && add_cut(s, link, point) && add_cut(s, piece, point);
+    return point != MW_NONE && add_cut(s, link, point, false) && add_cut(s, piece, point, false);
 }
 
 static bool find_cuts(splitter *s)
@@ -203,13 +210,17 @@ static int compare(const void *left, const void *right)
 
 /* --- the stretches of the next round --- */
 
-/* The parts of a link, cut at `count` points, for one segment. */
+/* The parts of a link, cut at `count` points, for one segment. No part leads back in either coordinate: so their boxes are
+ * smaller than the link's, even of a link that is only a few doubles long. A point left out is seen to in the next round. */
 static bool add_parts(splitter *s, const mw_stretch *link, const cut *cuts, size_t count, uint32_t segment,
                       mw_stretches *parts)
 {
     uint32_t from = link->from;
+    double reached = along(s, link, point_at(s, from)).y;
     for (size_t i = 0; i <= count; i++) {
         uint32_t to = i < count ? cuts[i].point : link->to;
+        if (i < count && cuts[i].along.y < reached && !cuts[i].exact) continue;
+        if (i < count) reached = cuts[i].along.y;
         if (equal(point_at(s, from), point_at(s, to))) continue;
         if (!mw__stretches_add(parts, (mw_stretch){from, to, segment})) return false;
         from = to;
@@ -248,13 +259,12 @@ static bool take_points(splitter *s)
     return true;
 }
 
-/* None in the first rounds, which suffice where only few links come close; then it doubles every few rounds. */
+/* None in the first round, when links are still the segments as given; then it doubles every few rounds. */
 static double tolerance_in(int round)
 {
-    enum { EXACT_ROUNDS = 12, DOUBLING_ROUNDS = 8, MOST_DOUBLINGS = 6 };
-    if (round <= EXACT_ROUNDS) return 0;
-    int doublings = (round - EXACT_ROUNDS) / DOUBLING_ROUNDS;
-    return ldexp(1, doublings < MOST_DOUBLINGS ? doublings : MOST_DOUBLINGS);
+    enum { DOUBLING_ROUNDS = 8, MOST_DOUBLINGS = 6 };
+    int doublings = round / DOUBLING_ROUNDS;
+    return round == 1 ? 0 : ldexp(1, doublings < MOST_DOUBLINGS ? doublings : MOST_DOUBLINGS);
 }
 
 mw_status mw__split_crossings(mw_constrained_making *m, int round, mw_error *error)
