@@ -63,9 +63,10 @@ typedef struct mw_kind_report {
 } mw_kind_report;
 
 typedef struct mw_kind_options {
-    uint32_t limit; /* MW_MIN_WEIGHT: corners of the largest face that is filled optimally; MW_MIN_MAX_ANGLE: most
-                       points for which the optimum is sought, however long it takes; 0 = what takes seconds, at most
-                       about half a minute                                                                             */
+    uint32_t
+        limit; /* 0 = the search for the optimum ends after about half a minute, with memory in proportion to the points.
+                       MW_MIN_WEIGHT: corners of the largest face that is filled optimally; MW_MIN_MAX_ANGLE: most points for
+                       which the optimum is sought; either however long it takes, and whatever memory                       */
     uint32_t reserved[7];
 } mw_kind_options;
 
@@ -78,7 +79,8 @@ typedef struct mw_kind_options {
  *                     no exchange of the diagonal of a quadrilateral shortens it, and it is no longer than MW_GREEDY, up
  *                     to rounding. About 70 us and 700 bytes per spread point, up to 3000 bytes per point.
  *   MW_MIN_MAX_ANGLE  Angles are compared exactly. Always a local optimum, and above the limit that only: no exchange of a
- *                     diagonal makes the largest angle of its quadrilateral smaller. About 10 us per spread point.
+ *                     diagonal makes the largest angle of its quadrilateral smaller; if `optimal`, the largest of all is the least
+ *                     possible. About 10 us per spread point; the exchanges up to the local optimum have no bound on time.
  * Errors as for mw_delaunay (duplicate_of is unspecified then), and MW_ERROR_ARGUMENT for an unknown kind. One thread;
  * thread-safe. docs/guarantees.md tells what is optimal, and what makes it slow. */
 MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,
