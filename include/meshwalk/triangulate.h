@@ -62,11 +62,11 @@ typedef struct mw_kind_report {
     uint32_t reserved[8];
 } mw_kind_report;
 
+/* How far the optimum is sought. 0: the search ends after about half a minute, with memory in proportion to the points.
+ * Else MW_MIN_WEIGHT: faces of up to so many corners are filled optimally; MW_MIN_MAX_ANGLE: the optimum is sought for up
+ * to so many points; either however long it takes, and whatever memory. */
 typedef struct mw_kind_options {
-    uint32_t
-        limit; /* 0 = the search for the optimum ends after about half a minute, with memory in proportion to the points.
-                       MW_MIN_WEIGHT: corners of the largest face that is filled optimally; MW_MIN_MAX_ANGLE: most points for
-                       which the optimum is sought; either however long it takes, and whatever memory                       */
+    uint32_t limit;
     uint32_t reserved[7];
 } mw_kind_options;
 
