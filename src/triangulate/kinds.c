@@ -39,10 +39,16 @@ mw_status mw__make_delaunay(mw_triangulation *t, const mw_kind_options *options,
     return MW_OK;
 }
 
-/* (x, y) scaled by a power of two, so that products stay among the doubles. */
-static mw_point scaled(double x, double y)
+/* The direction from p to another point, scaled by a power of two so that products stay among the doubles. */
+static mw_point direction(mw_point p, mw_point to)
 {
-    int exponent = ilogb(fmax(fabs(x), fabs(y)));
+    double x = to.x - p.x, y = to.y - p.y;
+    if (!(fabs(x) <= DBL_MAX && fabs(y) <= DBL_MAX)) {
+        x = to.x / 2 - p.x / 2;
+        y = to.y / 2 - p.y / 2;
+    }
+    int exponent;
+    frexp(fmax(fabs(x), fabs(y)), &exponent);
     return (mw_point){ldexp(x, -exponent), ldexp(y, -exponent)};
 }
 
@@ -52,7 +58,7 @@ static double cotangent(mw_point a, mw_point b, mw_point c)
     double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
     double cross = fabs(ux * vy - uy * vx), sum = fabs(ux * vy) + fabs(uy * vx);
     if (MW_LIKELY(sum < 0x1p900 && cross > 0x1p-900)) return (ux * vx + uy * vy) / cross;
-    mw_point u = scaled(a.x / 2 - b.x / 2, a.y / 2 - b.y / 2), v = scaled(c.x / 2 - b.x / 2, c.y / 2 - b.y / 2);
+    mw_point u = direction(b, a), v = direction(b, c);
     return (u.x * v.x + u.y * v.y) / fabs(u.x * v.y - u.y * v.x);
 }
 
