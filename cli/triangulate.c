@@ -67,7 +67,7 @@ static const option triangulate_options[] = {
      "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
     {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
      "--kind min-weight: fill faces of up to N corners optimally; min-max-angle: seek the optimum of up to N points; "
-     "beyond, a local optimum is made (default: 0, what takes seconds)",
+     "beyond, a local optimum is made (default: 0, what half a minute finds)",
      NULL},
     {"format", 0, OPTION_CHOICE, offsetof(triangulate_settings, format), "NAME",
      "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &format_choices},

@@ -80,9 +80,8 @@ typedef struct mw_locator_options {
     int border; /* 1: build the index that nearest-border queries and a tolerance need                        */
     int layout; /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
     int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
-    int fill; /* pockets and holes of an embedding that is not convex: 1: fill them with ghost triangles, so that every
-                   walk can cross them; 2: leave them open: then only MW_WALK_BORDER (and AUTO) walks there; 0: 1, unless
-                   `queries` makes it 2                                                                           */
+    int fill; /* pockets and holes of an embedding that is not convex: 1: filled with ghost triangles, so that every walk
+                   can cross them; 2: left open, only MW_WALK_BORDER (and AUTO) walks there; 0: 1, unless `queries` is few */
     uint32_t reserved[3];
     uint64_t queries; /* with `fill` 0: about so many are to come; few do not pay for what filling takes. 0 = many */
 } mw_locator_options;
@@ -105,15 +104,12 @@ typedef struct mw_locator_info {
     size_t area_bytes;        /* of it, the stored areas                           */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;    /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
+    int copied;      /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
                       Hilbert order */
-    int embedding; /* 0: only with options.any                          */
-    int open;      /* 1: not convex, and pockets and holes are not filled                  */
-    uint32_t
-        pieces; /* parts of the mesh that share no place (vertices at equal coordinates are one here); only where open,
-                        else 1 */
-    size_t
-        fill_bytes; /* of the bytes, the ghosts and the copy of triangles and points that they are in; 0 without ghosts */
+    int embedding;   /* 0: only with options.any                          */
+    int open;        /* 1: not convex, and pockets and holes are not filled                  */
+    uint32_t pieces; /* parts that share no place (equal coordinates are one); only where open, else 1 */
+    size_t fill_bytes; /* of the bytes, ghosts and the copy that they are in; 0 without ghosts           */
 } mw_locator_info;
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
 
@@ -205,10 +201,10 @@ typedef struct mw_counters {
     uint64_t walk_runs, border_runs;
     uint64_t triangles_border, triangles_border_max, orient_border;
     uint64_t border_edges, border_edges_max; /* edges of the border that were tested */
-    uint64_t cycles; /* walks that ran out of steps: in a cycle or, in a long thin mesh, on a long way  */
-    uint64_t
-        handovers; /* walks that an exact walk ended that surely ends (celestial; border, all along each): those, and such as
-                           in doubles ended wrongly. What it did is part of the final stage  */
+    uint64_t cycles; /* walks that ran out of steps: in a cycle or, in a long thin mesh, on a long way */
+    /* Walks that one ended that surely ends (celestial; where the mesh is open, the border walk all along each border): those,
+     * and such as in doubles ended wrongly. Its work counts as the final stage. */
+    uint64_t handovers;
 } mw_counters;
 
 /* Add `more` to `sum`: for the cursors of several threads. */

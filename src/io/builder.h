@@ -45,6 +45,9 @@ mw_status mw__build_vertex(mw_builder *builder, int64_t number, uint32_t *vertex
 /* One triangle of vertices counted from 0 that exist. */
 mw_status mw__build_triangle(mw_builder *builder, uint32_t a, uint32_t b, uint32_t c, mw_error *error);
 
+/* Release the fields of a file, names and values. */
+void mw__release_fields(char **names, double **fields, size_t count);
+
 /* Check what is left to check and give back memory not needed. */
 mw_status mw__build_finish(mw_builder *builder, mw_error *error);
 

@@ -1,6 +1,7 @@
 /* Constraints in files: telling the format, and what the readers share. */
 #include "io/constraints.h"
 
+#include "io/builder.h"
 #include "io/formats.h"
 #include "io/number.h"
 
@@ -174,12 +175,7 @@ int mw_constraints_known(const char *path)
 void mw_constraint_file_release(mw_constraint_file *file)
 {
     if (!file) return;
-    for (size_t f = 0; f < file->field_count; f++) {
-        free(file->field_names[f]);
-        free(file->fields[f]);
-    }
-    free(file->field_names);
-    free(file->fields);
+    mw__release_fields(file->field_names, file->fields, file->field_count);
     free(file->points);
     free(file->segments);
     free(file->polygon);

@@ -55,15 +55,20 @@ mw_status mw_read_mesh(const char *path, mw_mesh_file *file, mw_error *error)
     return status;
 }
 
+void mw__release_fields(char **names, double **fields, size_t count)
+{
+    for (size_t f = 0; f < count; f++) {
+        free(names[f]);
+        free(fields[f]);
+    }
+    free(names);
+    free(fields);
+}
+
 void mw_mesh_file_release(mw_mesh_file *file)
 {
     if (!file) return;
-    for (size_t f = 0; f < file->field_count; f++) {
-        free(file->field_names[f]);
-        free(file->fields[f]);
-    }
-    free(file->field_names);
-    free(file->fields);
+    mw__release_fields(file->field_names, file->fields, file->field_count);
     free(file->points);
     free(file->triangles);
     *file = (mw_mesh_file){0};
