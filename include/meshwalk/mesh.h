@@ -41,6 +41,12 @@ typedef enum mw_defect_kind {
     MW_DEFECT_OVERLAP,         /* the mesh covers the inside of `triangle`, beside its border `edge`, more than once;
                                   `other`, if any, is a triangle on the same side of border `other_edge` along it    */
     MW_DEFECT_FLAT,            /* `triangle` has no area                                                             */
+    /* Of surfaces (surface.h) and star-shaped polyhedra (star.h) only: */
+    MW_DEFECT_CLASHING,       /* `triangle` and `other` are oriented differently along `edge`                       */
+    MW_DEFECT_OPEN_EDGE,      /* `edge` of `triangle` has no triangle on its other side: the polyhedron is not closed */
+    MW_DEFECT_THROUGH_CENTRE, /* the plane of `triangle` passes through the centre                                  */
+    MW_DEFECT_TURNED,         /* `triangle` turns its back to the centre, seen from its neighbour `other` at `edge`  */
+    MW_DEFECT_COVERED,        /* a ray from the centre meets both `triangle` and `other`                            */
     MW_DEFECT_COUNT
 } mw_defect_kind;
 

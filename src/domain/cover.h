@@ -6,7 +6,7 @@
 #ifndef MW_SRC_COVER_H
 #define MW_SRC_COVER_H
 
-#include "domain/defect.h"
+#include "mesh/defect.h"
 #include "domain/outline.h"
 #include "triangulate/constrain.h"
 

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_LOCAL_H
 #define MW_SRC_LOCAL_H
 
-#include "domain/defect.h"
+#include "mesh/defect.h"
 #include "domain/outline.h"
 
 /* Add what makes triangles unusable (of a tolerant mesh), the flat triangles, and the folds. O(n), for a tolerant mesh

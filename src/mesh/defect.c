@@ -1,5 +1,5 @@
 /* defect.c - defects of meshes: a list of them, and their texts. */
-#include "domain/defect.h"
+#include "mesh/defect.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -64,6 +64,11 @@ const char *mw_defect_text(mw_defect_kind kind)
     case MW_DEFECT_VERTEX_IN_EDGE: return "vertex inside an edge";
     case MW_DEFECT_OVERLAP: return "overlap";
     case MW_DEFECT_FLAT: return "flat triangle";
+    case MW_DEFECT_CLASHING: return "neighbours oriented differently";
+    case MW_DEFECT_OPEN_EDGE: return "edge without a neighbour";
+    case MW_DEFECT_THROUGH_CENTRE: return "plane through the centre";
+    case MW_DEFECT_TURNED: return "turned from the centre";
+    case MW_DEFECT_COVERED: return "direction covered twice";
     case MW_DEFECT_COUNT: break;
     }
     return "unknown defect";
@@ -118,6 +123,24 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
         return;
     case MW_DEFECT_OVERLAP: describe_overlap(d, text, size); return;
     case MW_DEFECT_FLAT: snprintf(text, size, "triangle %" PRIu32 ": has no area", t); return;
+    case MW_DEFECT_CLASHING:
+        snprintf(text, size, "triangle %" PRIu32 ": triangle %" PRIu32 " at edge %u is oriented differently", t,
+                 d->other, e);
+        return;
+    case MW_DEFECT_OPEN_EDGE:
+        snprintf(text, size, "triangle %" PRIu32 ": edge %u has no neighbour: the polyhedron is not closed", t, e);
+        return;
+    case MW_DEFECT_THROUGH_CENTRE:
+        snprintf(text, size, "triangle %" PRIu32 ": its plane passes through the centre", t);
+        return;
+    case MW_DEFECT_TURNED:
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u", t,
+                 d->other, e);
+        return;
+    case MW_DEFECT_COVERED:
+        snprintf(text, size, "triangle %" PRIu32 ": a ray from the centre meets it and triangle %" PRIu32, t, d->other);
+        return;
     case MW_DEFECT_COUNT: break;
     }
     snprintf(text, size, "triangle %" PRIu32 ": unknown defect", t);
