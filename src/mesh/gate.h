@@ -6,8 +6,9 @@
 
 typedef struct mw_gate mw_gate;
 
-mw_gate *mw__gate_create(void); /* NULL when out of memory */
-void mw__gate_destroy(mw_gate *gate);
+mw_gate *mw__gate_create(void);             /* NULL when out of memory */
+void mw__gate_destroy(mw_gate *gate);       /* NULL is allowed */
+size_t mw__gate_bytes(const mw_gate *gate); /* 0 of NULL */
 
 void mw__gate_enter(mw_gate *gate); /* a query */
 void mw__gate_leave(mw_gate *gate);

@@ -13,11 +13,13 @@ uint32_t mw__index_at(const mw_arrays *arrays, size_t i)
     return v < 0 || v >= MW_NONE ? MW_NONE : (uint32_t)v;
 }
 
-static mw_status check_arguments(const mw_arrays *arrays, mw_error *error)
+mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_error *error)
 {
     if (!arrays || (!arrays->points && arrays->point_count) || (!arrays->triangles && arrays->triangle_count))
         return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
-    if (arrays->point_stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a point stride of 1 holds no y");
+    if (arrays->point_stride > 0 && arrays->point_stride < dimension)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a point stride of %zu holds no %c", arrays->point_stride,
+                        arrays->point_stride == 1 ? 'y' : 'z');
     if (arrays->index_type > MW_INT64) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of index");
     if (arrays->point_count > MW_MAX_VERTICES)
         return mw__fail(error, MW_ERROR_LIMIT, "%zu vertices, at most %" PRIu32 " are possible", arrays->point_count,
@@ -35,23 +37,28 @@ static void copy_points(mw_mesh *mesh, const mw_arrays *arrays)
         mesh->point[i] = (mw_point){arrays->points[i * stride], arrays->points[i * stride + 1]};
 }
 
-/* Copy the vertices of triangle t; the error names what makes them unusable, unless the mesh tolerates it. */
-static mw_status copy_triangle(mw_mesh *mesh, const mw_arrays *arrays, uint32_t t, mw_error *error)
+static bool is_finite(const mw_arrays *arrays, size_t dimension, uint32_t vertex)
 {
-    mw_triangle *tri = &mesh->tri[t];
+    const double *p = arrays->points + vertex * (arrays->point_stride ? arrays->point_stride : dimension);
+    return isfinite(p[0]) && isfinite(p[1]) && (dimension < 3 || isfinite(p[2]));
+}
+
+mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tolerant, uint32_t t, mw_triangle *tri,
+                            mw_error *error)
+{
     for (size_t k = 0; k < 3; k++) {
         uint32_t v = mw__index_at(arrays, 3 * (size_t)t + k);
-        if (v >= mesh->point_count)
-            return mw__fail_at(error, t, -1, "triangle %" PRIu32 ": corner %zu is no vertex; there are %" PRIu32, t, k,
-                               mesh->point_count);
-        if (!mesh->tolerant && !mw__is_finite(mesh->point[v]))
+        if (v >= arrays->point_count)
+            return mw__fail_at(error, t, -1, "triangle %" PRIu32 ": corner %zu is no vertex; there are %zu", t, k,
+                               arrays->point_count);
+        if (!tolerant && !is_finite(arrays, dimension, v))
             return mw__fail_at(error, t, v, "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);
         tri->v[k] = v;
         tri->link[k] = MW_NONE;
     }
     tri->v[3] = tri->v[0];
     tri->user = t;
-    for (uint32_t k = 0; k < 3 && !mesh->tolerant; k++)
+    for (uint32_t k = 0; k < 3 && !tolerant; k++)
         if (tri->v[k] == tri->v[k + 1])
             return mw__fail_at(error, t, tri->v[k], "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t,
                                tri->v[k]);
@@ -72,18 +79,9 @@ static void orient(mw_mesh *mesh, mw_triangle *t)
     mesh->flipped_count++;
 }
 
-static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
+mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, mw_error *error)
 {
-    copy_points(mesh, arrays);
-    for (uint32_t t = 0; t < mesh->tri_count; t++) {
-        mw_status status = copy_triangle(mesh, arrays, t, error);
-        if (status) return status;
-        orient(mesh, &mesh->tri[t]);
-    }
-    uint32_t extra;
-    if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &extra)) return mw__fail_memory(error);
-    if (extra == MW_NONE || mesh->tolerant) return MW_OK;
-    const mw_triangle *t = &mesh->tri[mw__link_triangle(extra)];
+    const mw_triangle *t = &tri[mw__link_triangle(extra)];
     uint32_t e = mw__link_edge(extra);
     return mw__fail_at(error, mw__link_triangle(extra), t->v[e],
                        "triangle %" PRIu32 ": two others share its edge %" PRIu32 ", from vertex %" PRIu32
@@ -91,11 +89,24 @@ static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
                        mw__link_triangle(extra), mw__user_edge(t->user, e), t->v[e], t->v[e + 1]);
 }
 
+static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
+{
+    copy_points(mesh, arrays);
+    for (uint32_t t = 0; t < mesh->tri_count; t++) {
+        mw_status status = mw__copy_triangle(arrays, 2, mesh->tolerant, t, &mesh->tri[t], error);
+        if (status) return status;
+        orient(mesh, &mesh->tri[t]);
+    }
+    uint32_t extra;
+    if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &extra)) return mw__fail_memory(error);
+    return extra == MW_NONE || mesh->tolerant ? MW_OK : mw__fail_shared(mesh->tri, extra, error);
+}
+
 mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out, mw_error *error)
 {
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");
     *out = NULL;
-    mw_status status = check_arguments(arrays, error);
+    mw_status status = mw__check_arguments(arrays, 2, error);
     if (status) return status;
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     if (!mesh) return mw__fail_memory(error);

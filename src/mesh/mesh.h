@@ -86,6 +86,16 @@ struct mw_mesh {
 /* Number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
 uint32_t mw__index_at(const mw_arrays *arrays, size_t i);
 
+/* Are the arrays there, no larger than a mesh may be, and do their strides hold the coordinates of a vertex: 2 or 3? */
+mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_error *error);
+
+/* Copy the vertices of triangle t, without links; MW_ERROR_INPUT names what makes them unusable, unless it is tolerated. */
+mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tolerant, uint32_t t, mw_triangle *tri,
+                            mw_error *error);
+
+/* The error of an edge that has two triangles already, the link `extra` names it. */
+mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, mw_error *error);
+
 /* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). An edge of more than two
  * triangles links the first two; *extra (may be NULL) is set to a link to a further one, MW_NONE if there is none.
  * Links two triangles whatever their orientation, but none that names a vertex twice. Returns false when out of
