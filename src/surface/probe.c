@@ -1,0 +1,173 @@
+/* probe.c - one probe [thesis App. G]: published mode, what walks find; certain mode, what the boxes say, with what a short
+ * walk from the triangle touched last finds as a first bound. */
+#include "base/random.h"
+#include "surface/walk.h"
+
+enum {
+    ITERATIONS =
+        10,         /* as the thesis limits them                                                                      */
+    SEED_STEPS = 64 /* of the walk in certain mode: a probe that moves on the surface touches near where it touched */
+};
+
+/* --- names -------------------------------------------------------------------------------------------------------- */
+
+const char *mw_touch_state_name(mw_touch_state state)
+{
+    static const char *const names[MW_TOUCH_STATE_COUNT] = {"hit", "none", "limit", "bad"};
+    return (unsigned)state < MW_TOUCH_STATE_COUNT ? names[state] : NULL;
+}
+
+const char *mw_probe_start_name(mw_probe_start start)
+{
+    static const char *const names[MW_PROBE_START_COUNT] = {"auto", "last", "sample", "random"};
+    return (unsigned)start < MW_PROBE_START_COUNT ? names[start] : NULL;
+}
+
+/* --- counters ----------------------------------------------------------------------------------------------------- */
+
+static void raise(uint64_t *most, uint64_t value)
+{
+    if (value > *most) *most = value;
+}
+
+void mw_probe_counters_add(mw_probe_counters *sum, const mw_probe_counters *more)
+{
+    sum->queries += more->queries;
+    sum->hits += more->hits;
+    sum->samples += more->samples;
+    sum->triangles += more->triangles;
+    raise(&sum->triangles_max, more->triangles_max);
+    sum->tests += more->tests;
+    raise(&sum->tests_max, more->tests_max);
+    sum->intersections += more->intersections;
+    sum->iterations += more->iterations;
+    raise(&sum->iterations_max, more->iterations_max);
+    sum->boxes += more->boxes;
+    sum->box_triangles += more->box_triangles;
+}
+
+static void count(mw_probe_counters *sum, mw_probe_counters *work, bool hit)
+{
+    work->queries = 1;
+    work->hits = hit;
+    work->triangles_max = work->triangles;
+    work->tests_max = work->tests;
+    work->iterations_max = work->iterations;
+    mw_probe_counters_add(sum, work);
+}
+
+/* --- the cursor --------------------------------------------------------------------------------------------------- */
+
+/* k of Alg. 1, but no more than there are triangles: a query must end soon. The roots are rounded down, which gives all the
+ * k that the thesis tells. */
+static uint32_t sample_count(const mw_surface *surface, uint32_t samples)
+{
+    if (samples == 0) samples = 2 * (uint32_t)cbrt(surface->point_count);
+    return samples < surface->tri_count ? samples : surface->tri_count;
+}
+
+static mw_probe_options resolve(const mw_probe_options *options, const mw_surface *surface)
+{
+    mw_probe_options all = *options;
+    if (isinf(all.max_distance)) all.max_distance = 0;
+    if (all.start == MW_PROBE_AUTO) all.start = MW_PROBE_LAST;
+    all.samples = sample_count(surface, all.samples);
+    if (all.iterations == 0) all.iterations = ITERATIONS;
+    return all;
+}
+
+mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *prober, const mw_probe_options *options,
+                               mw_error *error)
+{
+    static const mw_probe_options defaults;
+    if (!cursor || !prober) return mw__fail(error, MW_ERROR_ARGUMENT, "a cursor needs a prober");
+    if (!options) options = &defaults;
+    if ((unsigned)options->start >= MW_PROBE_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    if (!(options->max_distance >= 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
+    if (options->certain && !prober->has_boxes)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "certain probes need a prober with options.boxes");
+    *cursor = (mw_probe_cursor){
+        .options = resolve(options, prober->surface),
+        .prober = prober,
+        .random = mw__random_seed(options->seed, 0),
+        .last = MW_NONE,
+    };
+    return MW_OK;
+}
+
+/* --- one probe ---------------------------------------------------------------------------------------------------- */
+
+static mw_search plan(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3])
+{
+    const mw_probe_options *options = &cursor->options;
+    bool coherent = options->start == MW_PROBE_LAST && cursor->prober == prober;
+    return (mw_search){
+        .surface = prober->surface,
+        .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}},
+        .reach = options->max_distance > 0 ? options->max_distance : INFINITY,
+        .last = coherent ? cursor->last : MW_NONE,
+        .samples = options->samples,
+        .nearest = options->start != MW_PROBE_RANDOM,
+        .iterations = options->iterations,
+        .race = options->race,
+        .steps = prober->surface->tri_count,
+        .random = mw__random(&cursor->random),
+        .count = options->count != 0,
+    };
+}
+
+static mw_touch answer_published(const mw_search *search, mw_probe_counters *work, mw_trace *trace)
+{
+    uint32_t t = mw__search_all(search, work, trace);
+    if (t == MW_NONE) return mw__no_touch(MW_TOUCH_LIMIT);
+    return mw__touch(search->surface, &search->line, mw__lowest_touched(search->surface, &search->line, t));
+}
+
+static mw_touch answer_certain(const mw_prober *prober, mw_search *search, double max_distance, mw_probe_counters *work,
+                               mw_trace *trace)
+{
+    if (!prober->has_boxes || prober->version != search->surface->version) return mw__no_touch(MW_TOUCH_BAD);
+    uint32_t seed = MW_NONE;
+    search->steps = SEED_STEPS < search->steps ? SEED_STEPS : search->steps;
+    if (search->last != MW_NONE && mw__faces(search, search->last, work))
+        seed = mw__search_from(search, 0, search->last, NULL, work, trace);
+    uint32_t t = mw__certain(prober, &search->line, max_distance, seed, work);
+    return t == MW_NONE ? mw__no_touch(MW_TOUCH_NONE) : mw__touch(search->surface, &search->line, t);
+}
+
+static mw_touch probe(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3],
+                      mw_trace *trace)
+{
+    bool counted = cursor->options.count || trace; /* a walk that is written down counts */
+    mw_probe_counters work = {0};
+    mw_touch touch = mw__no_touch(MW_TOUCH_BAD);
+    if (mw__is_finite3(q) && mw__is_finite3(m) && (m[0] != 0 || m[1] != 0 || m[2] != 0)) {
+        mw_search search = plan(prober, cursor, q, m);
+        mw_probe_counters *to = counted ? &work : NULL;
+        mw__surface_enter(prober->surface);
+        touch = cursor->options.certain ? answer_certain(prober, &search, cursor->options.max_distance, to, trace)
+                                        : answer_published(&search, to, trace);
+        mw__surface_leave(prober->surface);
+    }
+    bool hit = touch.state == MW_TOUCH_HIT;
+    if (hit) {
+        cursor->prober = prober;
+        cursor->last = touch.triangle;
+    }
+    if (cursor->options.count) count(&cursor->counters, &work, hit);
+    return touch;
+}
+
+mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3], const double motion[3])
+{
+    return probe(prober, cursor, point, motion, NULL);
+}
+
+size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3], const double motion[3],
+                     uint32_t *triangles, uint32_t *iteration, size_t capacity, mw_touch *touch)
+{
+    mw_trace trace = {.triangles = triangles, .iteration = iteration, .capacity = triangles ? capacity : 0};
+    mw_touch end = probe(prober, cursor, point, motion, &trace);
+    if (touch) *touch = end;
+    return trace.count;
+}
