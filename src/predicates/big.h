@@ -7,8 +7,8 @@
 
 #include "base/base.h"
 
-/* Room for the largest number that occurs, of degree 6 in differences of 33 limbs (distance.c): 198 limbs. */
-#define MW_BIG_LIMBS 200
+/* Room for the largest number that occurs, of degree 8 in differences of 33 limbs (line.c): 264 limbs, and one to carry. */
+#define MW_BIG_LIMBS 265
 
 typedef struct mw_big {
     int sign;                    /* -1, 0, 1 */

@@ -14,8 +14,28 @@ typedef struct mw_line {
 /* The exact stage of mw__side. */
 double mw__side_exact(const mw_line *line, const double a[3], const double b[3]);
 
+/* Bound for m . ((a - q) x (b - q)) in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as in orient3d; m
+ * is exact, so the product with it, rounded, is off by (5u + 8u^2 + ...) |m| P, which is (5u + 18u^2 + ...) of its computed
+ * permanent. The first sum adds u and a factor 1 + u: 6u + 23u^2; the sum of the permanents and the last rounding
+ * make it 6u + 35u^2 + .... (6u + 64u^2)(1 - u)^2 is more.
+ * Underflow: an error of 2^-1075 in each of six products is multiplied by a coordinate of m, and 2^-1075 added; with the
+ * sum of m below 2^100 that is less than 2^-970. */
+#define MW_SIDE_ERROR ((6.0 + 64.0 * 0x1p-53) * 0x1p-53)
+#define MW_SIDE_MOTION 0x1p100
+
 /* m . ((a - q) x (b - q)) as rounded. Its sign is sure where its magnitude is above *bound. */
-static MW_INLINE double mw__side_rounded(const mw_line *line, const double a[3], const double b[3], double *bound);
+static MW_INLINE double mw__side_rounded(const mw_line *line, const double a[3], const double b[3], double *bound)
+{
+    const double *q = line->q, *m = line->m;
+    double ax = a[0] - q[0], ay = a[1] - q[1], az = a[2] - q[2];
+    double bx = b[0] - q[0], by = b[1] - q[1], bz = b[2] - q[2];
+    double yz = ay * bz, zy = az * by, zx = az * bx, xz = ax * bz, xy = ax * by, yx = ay * bx;
+    double permanent =
+        fabs(m[0]) * (fabs(yz) + fabs(zy)) + fabs(m[1]) * (fabs(zx) + fabs(xz)) + fabs(m[2]) * (fabs(xy) + fabs(yx));
+    bool small = fabs(m[0]) + fabs(m[1]) + fabs(m[2]) < MW_SIDE_MOTION;
+    *bound = small ? MW_SIDE_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
+    return m[0] * (yz - zy) + m[1] * (zx - xz) + m[2] * (xy - yx);
+}
 
 /* Sign-exact. Over the sides of a triangle abc with normal n = (b - a) x (c - a) they add up to m . n: the line meets the
  * triangle where none is positive or none is negative, and not all are 0; m points at the front of it where none is

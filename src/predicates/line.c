@@ -1,0 +1,323 @@
+/* line.c - the exact stages of what is asked about a line in space: the line q + t m against edges and planes.
+ *
+ * The plane of a triangle abc with normal n = (b - a) x (c - a) is met at t = N / M with N = n . (a - q) and M = n . m. N
+ * and M are estimated in doubles, with bounds of their errors; big integers decide what those cannot, by
+ * cross-multiplication. As long as coordinates are of similar size, these integers have few limbs and cost less than
+ * expansions of so high a degree. */
+#include "predicates/line.h"
+#include "predicates/big.h"
+#include "predicates/expansion.h"
+
+#include <limits.h>
+#include <stdlib.h>
+
+/* --- sides -------------------------------------------------------------------------------------------------------- */
+
+/* Expansions are exact for nonzero coordinates of magnitude 2^-306 to 2^339, as in orient3d.c: m is a factor in the
+ * place of a difference. */
+#define LOW 0x1p-306
+#define HIGH 0x1p339
+
+/* A term has 16 * 1 * 2 = 32 parts, and takes room for a cross product and twice its own. */
+#define TERM_PARTS 32
+#define TERM_ROOM (MW_CROSS_ROOM + 2 * TERM_PARTS)
+
+static double side_with_expansions(const mw_line *line, const double a[3], const double b[3])
+{
+    double room[12 + 3 * TERM_ROOM + 6 * TERM_PARTS];
+    mw_arena arena = {room};
+    mw_expansion p[3], r[3], sum = {room, 0};
+    for (int k = 0; k < 3; k++) {
+        p[k] = mw__expansion_difference(&arena, a[k], line->q[k]);
+        r[k] = mw__expansion_difference(&arena, b[k], line->q[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        mw_expansion m = {line->m + k, line->m[k] != 0}, minor = mw__expansion_cross(&arena, p[i], p[j], r[i], r[j]);
+        sum = mw__expansion_add(&arena, sum, mw__expansion_multiply(&arena, minor, m));
+    }
+    return mw__expansion_estimate(sum);
+}
+
+/* r = (a - b) / 2^base */
+static void big_vector(mw_big r[3], const double a[3], const double b[3], int base)
+{
+    for (int k = 0; k < 3; k++) mw__big_difference(&r[k], a[k], b[k], base);
+}
+
+/* Component k of a x b. */
+static void big_minor(mw_big *r, const mw_big a[3], const mw_big b[3], int k)
+{
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    mw__big_cross(r, &a[i], &a[j], &b[i], &b[j]);
+}
+
+/* r += minor * (a - b) / 2^base */
+static void add_term(mw_big *r, const mw_big *minor, double a, double b, int base)
+{
+    mw_big factor, term;
+    mw__big_difference(&factor, a, b, base);
+    mw__big_multiply(&term, minor, &factor);
+    mw__big_add(r, r, &term);
+}
+
+/* The side is *r * 2^(the exponent returned). */
+static int big_side(mw_big *r, const mw_line *line, const double a[3], const double b[3])
+{
+    const double *q = line->q, v[9] = {q[0], q[1], q[2], a[0], a[1], a[2], b[0], b[1], b[2]};
+    int base = mw__big_base(v, 9), motion = mw__big_base(line->m, 3);
+    mw_big from[3], to[3], minor;
+    big_vector(from, a, q, base);
+    big_vector(to, b, q, base);
+    r->sign = r->n = 0;
+    for (int k = 0; k < 3; k++) {
+        big_minor(&minor, from, to, k);
+        add_term(r, &minor, line->m[k], 0, motion);
+    }
+    return 2 * base + motion;
+}
+
+double mw__side_exact(const mw_line *line, const double a[3], const double b[3])
+{
+    bool within = mw__within(line->q, 3, LOW, HIGH) && mw__within(line->m, 3, LOW, HIGH) &&
+                  mw__within(a, 3, LOW, HIGH) && mw__within(b, 3, LOW, HIGH);
+    if (MW_LIKELY(within)) return side_with_expansions(line, a, b);
+    if (!mw__all_finite(a, 3) || !mw__all_finite(b, 3)) return 0;
+    mw_big side;
+    int exponent = big_side(&side, line, a, b);
+    return mw__big_double(&side, exponent);
+}
+
+/* --- hits --------------------------------------------------------------------------------------------------------- */
+
+/* A magnitude lies from low to high. */
+typedef struct range {
+    double low, high;
+} range;
+
+/* A rounded value with its bound is off by bound + u |value|; what is rounded here, by less than 4u (|value| + bound). */
+#define WIDEN 0x1p-50
+
+static range range_of(double value, double bound)
+{
+    double magnitude = fabs(value), off = bound + WIDEN * (magnitude + bound);
+    if (!(magnitude + off <= DBL_MAX)) return (range){0, INFINITY};
+    return (range){fmax(magnitude - off, 0), magnitude + off};
+}
+
+/* Where a plane is met: |N| and |M|. */
+typedef struct estimate {
+    range n, m;
+} estimate;
+
+/* N, rounded: (a - q) . ((a - b) x (a - c)). */
+static double rounded_n(const mw_line *line, const mw_corners s, double *bound)
+{
+    return mw__orient3d_rounded(line->q, s[1], s[2], s[0], bound);
+}
+
+static double rounded_m(const mw_line *line, const mw_corners s, double *bound)
+{
+    mw_line through = {{s[0][0], s[0][1], s[0][2]}, {line->m[0], line->m[1], line->m[2]}};
+    return mw__side_rounded(&through, s[1], s[2], bound);
+}
+
+static estimate estimated(const mw_line *line, const mw_corners s)
+{
+    double n_bound, m_bound, n = rounded_n(line, s, &n_bound), m = rounded_m(line, s, &m_bound);
+    return (estimate){range_of(n, n_bound), range_of(m, m_bound)};
+}
+
+/* Is a * b surely less than c * d? A product that underflows is off by 2^-1075. */
+static bool surely_less(double a, double b, double c, double d)
+{
+    return a * b * (1 + WIDEN) + MW_UNDERFLOW_ERROR < c * d;
+}
+
+/* The same, exactly: t is n / m * 2^(base - motion). */
+typedef struct hit {
+    mw_big n, m;
+} hit;
+
+static void big_hit(hit *h, const mw_line *line, const mw_corners s, int base, int motion)
+{
+    mw_big u[3], v[3], minor;
+    big_vector(u, s[1], s[0], base);
+    big_vector(v, s[2], s[0], base);
+    h->n.sign = h->n.n = h->m.sign = h->m.n = 0;
+    for (int k = 0; k < 3; k++) {
+        big_minor(&minor, u, v, k);
+        add_term(&h->n, &minor, s[0][k], line->q[k], base);
+        add_term(&h->m, &minor, line->m[k], 0, motion);
+    }
+}
+
+/* The base of q, the corners of s, those of t, and d. */
+static int common_base(const mw_line *line, const mw_corners s, const mw_corners t, double d)
+{
+    double v[22] = {d, line->q[0], line->q[1], line->q[2]};
+    for (int i = 0; i < 9; i++) {
+        v[4 + i] = s[i / 3][i % 3];
+        v[13 + i] = t[i / 3][i % 3];
+    }
+    return mw__big_base(v, 22);
+}
+
+/* |a| * |b| against |c| * |d|. */
+static int compare_products(const mw_big *a, const mw_big *b, const mw_big *c, const mw_big *d)
+{
+    mw_big left, right;
+    mw__big_multiply(&left, a, b);
+    mw__big_multiply(&right, c, d);
+    left.sign = abs(left.sign);
+    right.sign = abs(right.sign);
+    mw__big_subtract(&left, &left, &right);
+    return left.sign;
+}
+
+static int compare_hits_exact(const mw_line *line, const mw_corners s, const mw_corners t)
+{
+    hit p, r;
+    int base = common_base(line, s, t, 0), motion = mw__big_base(line->m, 3);
+    big_hit(&p, line, s, base, motion);
+    big_hit(&r, line, t, base, motion);
+    return compare_products(&p.n, &r.m, &r.n, &p.m);
+}
+
+int mw__compare_hits(const mw_line *line, const mw_corners s, const mw_corners t)
+{
+    estimate p = estimated(line, s), r = estimated(line, t);
+    if (surely_less(p.n.high, r.m.high, r.n.low, p.m.low)) return -1;
+    if (surely_less(r.n.high, p.m.high, p.n.low, r.m.low)) return 1;
+    return compare_hits_exact(line, s, t);
+}
+
+/* r = |m|^2 / 2^(2 motion) */
+static void big_square_length(mw_big *r, const double m[3], int motion)
+{
+    mw_big part, square;
+    r->sign = r->n = 0;
+    for (int k = 0; k < 3; k++) {
+        mw__big_difference(&part, m[k], 0, motion);
+        mw__big_multiply(&square, &part, &part);
+        mw__big_add(r, r, &square);
+    }
+}
+
+/* N^2 |m|^2 against d^2 M^2. */
+static int compare_hit_to_exact(const mw_line *line, const mw_corners s, double d)
+{
+    hit h;
+    mw_big length, squares[2];
+    int base = common_base(line, s, s, d), motion = mw__big_base(line->m, 3);
+    big_hit(&h, line, s, base, motion);
+    mw__big_multiply(&squares[0], &h.n, &h.n);
+    mw__big_multiply(&squares[1], &h.m, &h.m);
+    big_square_length(&h.n, line->m, motion);
+    mw__big_difference(&length, d, 0, base);
+    mw__big_multiply(&h.m, &length, &length);
+    return compare_products(&squares[0], &h.n, &h.m, &squares[1]);
+}
+
+/* Where |m|^2 lies here, its rounding errors are relative ones: less than 3u, and of the root 3u. */
+#define SHORT 0x1p-900
+#define LONG 0x1p1000
+
+static range length_of(const double m[3])
+{
+    double square = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
+    if (!(square >= SHORT && square <= LONG)) return (range){0, INFINITY};
+    return range_of(sqrt(square), 0);
+}
+
+int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d)
+{
+    if (isinf(d)) return -1;
+    estimate p = estimated(line, s);
+    range length = length_of(line->m);
+    if (surely_less(p.n.high, length.high, d, p.m.low)) return -1;
+    if (surely_less(d, p.m.high, p.n.low, length.low)) return 1;
+    return compare_hit_to_exact(line, s, d);
+}
+
+/* --- what is told of a hit ---------------------------------------------------------------------------------------- */
+
+/* An estimate is good enough for a distance where its bound is no more than this part of it: N, M and |m| are then off by
+ * less than 2^-43 together. */
+#define FINE 0x1p-45
+
+/* x * 2^exponent, not 0 unless x is: the nearest double, or the least. */
+static double scaled(double x, int exponent)
+{
+    double value = ldexp(x, exponent);
+    return value == 0 && x != 0 ? copysign(DBL_TRUE_MIN, x) : value;
+}
+
+/* |m| = fraction * 2^*exponent, rounded. */
+static double length_fraction(const double m[3], int *exponent)
+{
+    frexp(fmax(fmax(fabs(m[0]), fabs(m[1])), fabs(m[2])), exponent);
+    double x = ldexp(m[0], -*exponent), y = ldexp(m[1], -*exponent), z = ldexp(m[2], -*exponent);
+    return sqrt(x * x + y * y + z * z);
+}
+
+/* N and M as fractions, with their exponents. */
+static void exact_quotient(const mw_line *line, const mw_corners s, double fraction[2], int exponent[2])
+{
+    hit h;
+    int base = common_base(line, s, s, 0), motion = mw__big_base(line->m, 3);
+    big_hit(&h, line, s, base, motion);
+    fraction[0] = mw__big_fraction(&h.n, &exponent[0]);
+    fraction[1] = mw__big_fraction(&h.m, &exponent[1]);
+    exponent[0] += base;
+    exponent[1] += motion;
+}
+
+double mw__hit_distance(const mw_line *line, const mw_corners s)
+{
+    double bound[2], fraction[2] = {rounded_n(line, s, &bound[0]), rounded_m(line, s, &bound[1])};
+    int exponent[3] = {0};
+    bool fine = FINE * fabs(fraction[0]) > bound[0] && FINE * fabs(fraction[1]) > bound[1];
+    if (fine) {
+        for (int i = 0; i < 2; i++) fraction[i] = frexp(fraction[i], &exponent[i]);
+    } else {
+        exact_quotient(line, s, fraction, exponent);
+    }
+    double length = length_fraction(line->m, &exponent[2]);
+    return scaled(fraction[0] * length / fraction[1], exponent[0] - exponent[1] + exponent[2]);
+}
+
+/* The sides as fractions of about the size of the largest. */
+static void exact_sides(const mw_line *line, const mw_corners s, double side[3])
+{
+    int exponent[3], largest = INT_MIN / 2;
+    for (int k = 0; k < 3; k++) {
+        mw_big big;
+        int base = big_side(&big, line, s[(k + 1) % 3], s[(k + 2) % 3]);
+        side[k] = fabs(mw__big_fraction(&big, &exponent[k]));
+        exponent[k] += base;
+        if (side[k] != 0 && exponent[k] > largest) largest = exponent[k];
+    }
+    for (int k = 0; k < 3; k++) side[k] = scaled(side[k], exponent[k] - largest);
+}
+
+/* A side whose sign is sure is good enough for weights where its bound is no more than this part of their sum. */
+#define WEIGHT_FINE 0x1p-44
+#define LEAST_SUM 0x1p-900
+#define MOST_SUM 0x1p900
+
+void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3])
+{
+    double bound[3], sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = s[(k + 1) % 3], *b = s[(k + 2) % 3];
+        side[k] = fabs(mw__side_rounded(line, a, b, &bound[k]));
+        if (!(side[k] > bound[k])) {
+            side[k] = fabs(mw__side_exact(line, a, b));
+            bound[k] = 0;
+        }
+        sum += side[k];
+    }
+    double most = fmax(fmax(bound[0], bound[1]), bound[2]);
+    if (!(most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM)) exact_sides(line, s, side);
+}
