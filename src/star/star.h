@@ -19,12 +19,18 @@ struct mw_star {
     const mw_surface *surface;
     mw_triangle *tri;
     uint32_t *owner; /* per vertex the lowest facet that the ray through it meets; MW_NONE: of no facet */
+    uint32_t *group; /* where some linked facets have no area: per facet where its group of such begins in `flat`, or
+                        MW_NONE; else not looked at */
+    uint32_t *flat;  /* such facets, group by group */
     double *angle;   /* NULL, or longitude phi (-pi to pi) and polar angle theta (0 to pi) of each vertex */
     double centre[3];
-    uint32_t tri_count, point_count, flat_count;
-    uint32_t front;   /* the facet at phi = 0, theta = pi/2: never a flat one */
-    uint64_t version; /* of the surface that all this holds for */
-    bool ready;       /* it is star-shaped, as far as known */
+    double reach; /* the largest difference of a coordinate from the centre's, about */
+    uint32_t tri_count, point_count;
+    uint32_t flat_count; /* facets in `flat`                                                     */
+    uint32_t area_count; /* facets with an area                                                  */
+    uint32_t front;      /* the facet at phi = 0, theta = pi/2: never a flat one */
+    uint64_t version;    /* of the surface that all this holds for */
+    bool ready;          /* it is star-shaped, as far as known */
 };
 
 typedef enum mw_star_verdict {

@@ -100,3 +100,12 @@ __attribute__((weak)) size_t mw_star_path(const mw_star *star, mw_star_cursor *c
 {
     return 0;
 }
+#include "star/index.h"
+__attribute__((weak)) uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last, mw_star_walk *walk)
+{
+    return last == MW_NONE ? star->front : last;
+}
+__attribute__((weak)) mw_star_start_kind mw__star_index_start(const mw_star_index *index)
+{
+    return 0;
+}

@@ -1,0 +1,18 @@
+/* locate.h - the steps of a query that the single and the batch query share. Private. */
+#ifndef MW_SRC_STAR_LOCATE_H
+#define MW_SRC_STAR_LOCATE_H
+
+#include "star/star.h"
+
+/* The facets (as the user numbers them) that a walk visits. */
+typedef struct mw_star_trace {
+    uint32_t *facet;
+    size_t count, capacity; /* more may come than there is room for */
+} mw_star_trace;
+
+/* Answer the query at `point` by the cursor's options; `last` is where the one before it ended, or MW_NONE; it becomes the
+ * facet (as stored) where this one ended. Counts into *counters if the cursor counts. trace may be NULL. */
+mw_location mw__star_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3], uint32_t *last,
+                            uint64_t *random, mw_counters *counters, mw_star_trace *trace);
+
+#endif

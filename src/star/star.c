@@ -1,0 +1,163 @@
+/* star.c - preparing a surface for rays from a centre. */
+#include "star/kernel.h"
+#include "star/tie.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Name the first defect. */
+static mw_status refuse(const mw_defects *defects, mw_error *error)
+{
+    char text[256];
+    const mw_defect *d = &defects->list[0];
+    mw_defect_describe(d, text, sizeof text);
+    return mw__fail_at(error, d->triangle, d->vertex == MW_NONE ? -1 : (int64_t)d->vertex, "%s", text);
+}
+
+static double measure_reach(const mw_star *star)
+{
+    double reach = 0;
+    for (uint32_t v = 0; v < star->point_count; v++)
+        for (int k = 0; k < 3 && star->owner[v] != MW_NONE; k++)
+            reach = fmax(reach, fabs(mw__surface_point(star->surface, v)[k] - star->centre[k]));
+    return reach;
+}
+
+/* From a facet with an area: the lowest owner of a vertex has one. */
+static uint32_t find_front(const mw_star *star)
+{
+    static const double front[3] = {1, 0, 0};
+    uint32_t v = 0;
+    while (star->owner[v] == MW_NONE) v++;
+    return mw__star_facet(star, front, star->owner[v]);
+}
+
+/* Decide, and fill in all that depends on coordinates and links. */
+static mw_status prepare(mw_star *star, mw_error *error)
+{
+    mw_defects defects = {0};
+    star->ready = false;
+    memcpy(star->tri, star->surface->tri, star->tri_count * sizeof *star->tri);
+    mw_status status = mw__star_kernel(star, &defects) ? MW_OK : mw__fail_memory(error);
+    if (status == MW_OK && defects.count) status = refuse(&defects, error);
+    mw__defects_release(&defects);
+    if (status == MW_OK && star->area_count == 0)
+        status = mw__fail(error, MW_ERROR_INPUT, "the polyhedron has no facet with an area");
+    if (status == MW_OK && !mw__star_fill_owners(star)) status = mw__fail_memory(error);
+    if (status) return status;
+    star->reach = measure_reach(star);
+    star->front = find_front(star);
+    if (star->angle) mw__star_fill_angles(star);
+    star->version = star->surface->version;
+    star->ready = true;
+    return MW_OK;
+}
+
+static bool allocate(mw_star *star, bool angles)
+{
+    star->tri = mw__alloc_lines(star->tri_count, sizeof *star->tri);
+    star->owner = mw__alloc(star->point_count, sizeof *star->owner);
+    if (angles) star->angle = mw__alloc_lines(star->point_count, 2 * sizeof *star->angle);
+    return star->tri && star->owner && (star->angle || !angles);
+}
+
+mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options, mw_star **out, mw_error *error)
+{
+    static const mw_star_options defaults;
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the star");
+    *out = NULL;
+    if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
+    if (!options) options = &defaults;
+    if (!mw__is_finite3(options->centre)) return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
+    mw_star *star = mw__calloc(1, sizeof *star);
+    if (!star) return mw__fail_memory(error);
+    star->surface = surface;
+    star->tri_count = surface->tri_count;
+    star->point_count = surface->point_count;
+    memcpy(star->centre, options->centre, sizeof star->centre);
+    mw_status status = allocate(star, options->angles) ? prepare(star, error) : mw__fail_memory(error);
+    if (status)
+        mw_star_destroy(star);
+    else
+        *out = star;
+    return status;
+}
+
+mw_status mw_star_update(mw_star *star, mw_error *error)
+{
+    return prepare(star, error);
+}
+
+void mw_star_destroy(mw_star *star)
+{
+    if (!star) return;
+    free(star->tri);
+    free(star->owner);
+    free(star->group);
+    free(star->flat);
+    free(star->angle);
+    free(star);
+}
+
+void mw_star_describe(const mw_star *star, mw_star_info *info)
+{
+    size_t angles = star->angle ? star->point_count * 2 * sizeof *star->angle : 0;
+    size_t groups = star->group ? (star->tri_count + star->flat_count) * sizeof *star->group : 0;
+    *info = (mw_star_info){
+        .bytes = sizeof *star + star->tri_count * sizeof *star->tri + star->point_count * sizeof *star->owner + angles +
+                 groups,
+        .angle_bytes = angles,
+        .flat_facets = star->tri_count - star->area_count,
+        .centre = {star->centre[0], star->centre[1], star->centre[2]},
+    };
+}
+
+/* --- check -------------------------------------------------------------------------------------------------------- */
+
+/* The arrays make a surface: what keeps it from being star-shaped joins the defects. */
+static mw_status check_kernel(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_defects *defects,
+                              mw_error *error)
+{
+    mw_surface_options how = {.weld = weld};
+    mw_surface *surface;
+    mw_status status = mw_surface_create(arrays, &how, &surface, error);
+    if (status) return status;
+    mw_star star = {.surface = surface, .tri_count = surface->tri_count, .point_count = surface->point_count};
+    if (options) memcpy(star.centre, options->centre, sizeof star.centre);
+    star.tri = mw__alloc_lines(star.tri_count, sizeof *star.tri);
+    if (star.tri) memcpy(star.tri, surface->tri, star.tri_count * sizeof *star.tri);
+    if (!star.tri || !mw__star_kernel(&star, defects)) status = mw__fail_memory(error);
+    free(star.tri);
+    mw_surface_destroy(surface);
+    return status;
+}
+
+mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_check *check,
+                               mw_error *error)
+{
+    if (options && !mw__is_finite3(options->centre))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
+    mw_status status = mw_surface_check_arrays(arrays, weld, check, error);
+    if (status) return status;
+    mw_defects defects = {0};
+    bool usable = true, sound = false;
+    for (size_t i = 0; i < check->defect_count && status == MW_OK; i++) {
+        mw_defect_kind kind = check->defects[i].kind;
+        usable = usable && (kind == MW_DEFECT_FLAT || kind == MW_DEFECT_CLASHING);
+        if (kind != MW_DEFECT_CLASHING && !mw__defects_add(&defects, check->defects[i]))
+            status = mw__fail_memory(error);
+    }
+    size_t before = defects.count;
+    if (status == MW_OK && usable) {
+        status = check_kernel(arrays, weld, options, &defects, error);
+        sound = defects.count == before;
+    }
+    mw_check_release(check);
+    if (status) {
+        mw__defects_release(&defects);
+        return status;
+    }
+    mw__defects_sort(&defects);
+    *check = (mw_check){.defects = defects.list, .defect_count = defects.count, .embedding = sound};
+    return MW_OK;
+}
