@@ -9,6 +9,8 @@
 #include "mesh/fan.h"
 #include "surface/prober.h"
 
+#include <meshwalk/locate.h>
+
 /* --- one triangle ------------------------------------------------------------------------------------------------- */
 
 static void corners_of(const mw_surface *surface, uint32_t triangle, mw_corners corners)
