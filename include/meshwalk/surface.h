@@ -68,7 +68,8 @@ MW_API double *mw_surface_points(mw_surface *surface);
 /* Flip the edge between two triangles, during an update: of triangle a b c with local edge ab, and its neighbour b a d
  * they become, under the same numbers, c d b and d c a (`triangle` keeps the corner c as it was, and the neighbour d).
  * MW_ERROR_INPUT, and nothing is changed: the edge has one triangle only, its triangles are oriented differently, or c
- * and d are joined by an edge already (or the same). Time: the number of triangles round c. */
+ * and d are the same, or joined by an edge already; that is looked for in the fan of `triangle` round c (another fan of a
+ * pinched vertex is not looked at). Time: the number of triangles in that fan. */
 MW_API mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local_edge, mw_error *error);
 
 /* --- what kind of surface it is ----------------------------------------------------------------------------------- */
@@ -90,12 +91,15 @@ typedef struct mw_surface_info {
     double volume; /* of a closed oriented surface: enclosed, positive if fronts face out; else NaN; rounded */
 } mw_surface_info;
 
-/* In O(n). MW_ERROR_MEMORY. Thread-safe. With options.weld vertices with equal coordinates count once. */
+/* In O(n). With options.weld vertices with equal coordinates count once. A triangle that has a vertex twice (with weld: two
+ * vertices with equal coordinates) is flat, and counts neither for edges and fans nor in `euler`. With options.shared this
+ * is a query: not to be called by who is about an update. MW_ERROR_MEMORY, MW_ERROR_ARGUMENT: NULL. Thread-safe. */
 MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, mw_error *error);
 
 /* Find every defect of the arrays as a surface: the unusable group of mw_defect_kind, then MW_DEFECT_CLASHING, and
- * MW_DEFECT_FLAT as a remark; `weld` as in the options. check->embedding: 1 if there is none but flat triangles. O(n).
- * MW_OK also when defects were found. Release with mw_check_release. Thread-safe. */
+ * MW_DEFECT_FLAT as a remark; `weld` as in the options. check->embedding: 1 if there is none but flat triangles. O(n);
+ * of unusable arrays O(n log b) for b edges of one triangle. MW_OK also when defects were found. Release with
+ * mw_check_release. Thread-safe. */
 MW_API mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld, mw_check *check, mw_error *error);
 
 #ifdef __cplusplus

@@ -1,7 +1,6 @@
 /* describe.c - what kind of mesh it is. */
 #include "domain/tiling.h"
-
-#include <stdlib.h>
+#include "mesh/count.h"
 
 /* --- counts --- */
 
@@ -26,103 +25,36 @@ static void count_edges(const mw_mesh *mesh, mw_mesh_info *info)
     info->oriented = info->clashing_edges == 0;
 }
 
-/* The sum with the rounding errors added up beside it [Neumaier 1974]. */
 static void sum_areas(const mw_mesh *mesh, mw_mesh_info *info)
 {
-    double sum = 0, lost = 0;
+    mw_sum sum = {0};
     for (uint32_t t = 0; t < mesh->tri_count; t++) {
         const uint32_t *v = mesh->tri[t].v;
-        double area = mw__orient2d(mesh->point[v[0]], mesh->point[v[1]], mesh->point[v[2]]) / 2;
-        double next = sum + area;
-        lost += fabs(sum) >= fabs(area) ? sum - next + area : area - next + sum;
-        sum = next;
+        mw__sum_add(&sum, mw__orient2d(mesh->point[v[0]], mesh->point[v[1]], mesh->point[v[2]]) / 2);
     }
-    info->area = isfinite(lost) ? sum + lost : sum;
+    info->area = mw__sum_value(&sum);
 }
 
-static void widen(mw_mesh_info *info, mw_point p)
+static void find_extent(const mw_mesh *mesh, mw_mesh_info *info)
 {
-    const double at[2] = {p.x, p.y};
-    if (!isfinite(p.x) || !isfinite(p.y)) return;
-    for (int i = 0; i < 2; i++) {
-        info->low[i] = fmin(info->low[i], at[i]); /* fmin and fmax pass over the NaN they begin with */
-        info->high[i] = fmax(info->high[i], at[i]);
-    }
-}
-
-/* --- pieces: union-find over vertices --- */
-
-static uint32_t root_of(uint32_t *parent, uint32_t v)
-{
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-}
-
-/* Counts used vertices and components, and finds the extent. Returns false when out of memory. */
-static bool count_components(const mw_mesh *mesh, mw_mesh_info *info)
-{
-    uint32_t *parent = mw__alloc(mesh->point_count, sizeof *parent);
-    if (!parent) return false;
-    for (uint32_t v = 0; v < mesh->point_count; v++) parent[v] = MW_NONE;
-    info->unused_vertices = mesh->point_count;
     for (uint32_t t = 0; t < mesh->tri_count; t++)
         for (int k = 0; k < 3; k++) {
-            uint32_t v = mesh->tri[t].v[k];
-            if (parent[v] == MW_NONE) {
-                parent[v] = v;
-                widen(info, mesh->point[v]);
-                info->unused_vertices--;
-                info->components++;
-            }
-            uint32_t a = root_of(parent, v), b = root_of(parent, mesh->tri[t].v[0]);
-            if (a == b) continue;
-            parent[a < b ? b : a] = a < b ? a : b;
-            info->components--;
-        }
-    free(parent);
-    return true;
-}
-
-/* --- border loops --- */
-
-/* A border edge and one of its ends: the corner of its triangle there is `edge` itself (its start) or the next. */
-typedef struct border_end {
-    uint32_t half;
-    bool start;
-} border_end;
-
-/* The border edge that meets this one at its end, turning through the triangles between; and its end there. Works for
- * any orientation, and is its own inverse, so that border edges form closed loops. */
-static border_end meet(const mw_mesh *mesh, border_end e)
-{
-    for (;;) {
-        uint32_t t = mw__link_triangle(e.half), k = mw__link_edge(e.half);
-        uint32_t corner = e.start ? k : mw__next(k), vertex = mesh->tri[t].v[corner];
-        k = e.start ? mw__prev(k) : mw__next(k);
-        uint32_t link = mesh->tri[t].link[k];
-        if (link == MW_NONE) return (border_end){mw__link(t, k), !e.start};
-        e.half = link;
-        e.start = mesh->tri[mw__link_triangle(link)].v[mw__link_edge(link)] == vertex;
-    }
-}
-
-static bool count_loops(const mw_mesh *mesh, mw_mesh_info *info)
-{
-    uint8_t *seen = mw__calloc(mesh->tri_count, sizeof *seen); /* a bit per edge */
-    if (!seen) return false;
-    for (uint32_t t = 0; t < mesh->tri_count; t++)
-        for (uint32_t k = 0; k < 3; k++) {
-            if (mesh->tri[t].link[k] != MW_NONE || seen[t] >> k & 1) continue;
-            info->border_loops++;
-            border_end e = {mw__link(t, k), false};
-            while (!(seen[mw__link_triangle(e.half)] >> mw__link_edge(e.half) & 1)) {
-                seen[mw__link_triangle(e.half)] |= (uint8_t)(1u << mw__link_edge(e.half));
-                e = meet(mesh, e);
-                e.start = !e.start; /* go on from the other end */
+            mw_point p = mesh->point[mesh->tri[t].v[k]];
+            const double at[2] = {p.x, p.y};
+            for (int i = 0; i < 2 && mw__is_finite(p); i++) {
+                info->low[i] = fmin(info->low[i], at[i]); /* fmin and fmax pass over the NaN they begin with */
+                info->high[i] = fmax(info->high[i], at[i]);
             }
         }
-    free(seen);
-    return true;
+}
+
+/* Returns false when out of memory. */
+static bool count_pieces(const mw_mesh *mesh, mw_mesh_info *info)
+{
+    uint32_t used;
+    if (!mw__count_pieces(mesh->tri, mesh->tri_count, mesh->point_count, NULL, &used, &info->components)) return false;
+    info->unused_vertices = mesh->point_count - used;
+    return mw__count_loops(mesh->tri, mesh->tri_count, NULL, &info->border_loops);
 }
 
 /* --- what the tiling tells --- */
@@ -170,6 +102,7 @@ mw_status mw_mesh_describe(const mw_mesh *mesh, mw_mesh_info *info, mw_error *er
                            .high = {NAN, NAN}};
     count_edges(mesh, info);
     sum_areas(mesh, info);
-    if (!count_components(mesh, info) || !count_loops(mesh, info)) return mw__fail_memory(error);
+    find_extent(mesh, info);
+    if (!count_pieces(mesh, info)) return mw__fail_memory(error);
     return describe_tiling(mesh, info, error);
 }
