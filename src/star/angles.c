@@ -1,0 +1,37 @@
+/* angles.c - longitude and polar angle of directions and vertices, and the seam [thesis App. F, sec. 4]. */
+#include "star/star.h"
+
+/* Eq. 3; its arc cosine as an arc tangent, which keeps more digits near the poles. A zero counts as +0: so there is one
+ * longitude on the seam, pi, and one of a pole, 0. */
+void mw__star_angles(const double d[3], double *phi, double *theta)
+{
+    *phi = atan2(d[1] + 0.0, d[0] + 0.0);
+    *theta = atan2(hypot(d[0], d[1]), d[2]);
+}
+
+/* Both angles of a vertex as a point of the plane. */
+static mw_point angles_of(const mw_star *star, uint32_t vertex)
+{
+    return (mw_point){star->angle[2 * (size_t)vertex], star->angle[2 * (size_t)vertex + 1]};
+}
+
+/* Longitude grows eastward and the polar angle southward, so a facet that is counter-clockwise as seen from outside is
+ * clockwise in their plane. One that is not lies across the seam or holds a pole; or rounding has made it flat there, and
+ * the orthogonal walk could not pass it either. */
+static bool is_seam(const mw_star *star, const mw_triangle *t)
+{
+    return !(mw__orient2d(angles_of(star, t->v[0]), angles_of(star, t->v[1]), angles_of(star, t->v[2])) < 0);
+}
+
+void mw__star_fill_angles(mw_star *star)
+{
+    for (uint32_t v = 0; v < star->point_count; v++) {
+        const double *p = mw__surface_point(star->surface, v);
+        double d[3] = {p[0] - star->centre[0], p[1] - star->centre[1], p[2] - star->centre[2]};
+        mw__star_angles(d, &star->angle[2 * (size_t)v], &star->angle[2 * (size_t)v + 1]);
+    }
+    for (uint32_t t = 0; t < star->tri_count; t++) {
+        mw_triangle *facet = &star->tri[t];
+        facet->user = is_seam(star, facet) ? facet->user | MW_SEAM : facet->user & ~MW_SEAM;
+    }
+}
