@@ -39,8 +39,8 @@ static const option bench_options[] = {
     {"enclose", 0, OPTION_CHOICE, offsetof(bench_settings, enclose), "NAME",
      "add the four corners of the domain to the points (default: auto, as the table does):", &enclose_choices},
     {"data", 0, OPTION_TEXT, offsetof(bench_settings, data), "LIST",
-     "files of points, or meshes whose vertices are taken, in place of the sets: ground.las,survey.csv; of D1 meshes, "
-     "taken as they are; nothing is published for them",
+     "files of points, or meshes whose vertices are taken, in place of the sets: ground.las,survey.csv; of D1 and "
+     "F1 to G3 meshes, taken as they are; nothing is published for them, but for the models of G1 to G3",
      NULL},
     {"no-times", 0, OPTION_FLAG, offsetof(bench_settings, no_times), NULL, "count only", NULL},
     {"format", 0, OPTION_CHOICE, offsetof(bench_settings, format), "NAME",
@@ -117,8 +117,9 @@ const command bench_command = {
     .description =
         "'meshwalk bench paper TABLE' makes the sets of points of a published table, triangulates them, counts and "
         "times what the walks do, and prints each figure beside the published one and their ratio. TABLE is one of "
-        "A1, A2, B1, B2, C1, C2, D1, E1 and E2, after the appendix of the thesis. D1, with Fig. 11 and 12 of its "
-        "appendix, is about meshes with pockets and holes: its sets are meshes, and so are its --data. E1 is about "
+        "A1, A2, B1, B2, C1, C2, D1, E1, E2, F1, F2, G1, G2 and G3, after the appendix of the thesis. D1, with Fig. 11 "
+        "and 12 of its appendix, is about meshes with pockets and holes, F1 and F2 are about star-shaped polyhedra, "
+        "G1 to G3 about probes of a surface: their sets are meshes, and so are their --data. E1 is about "
         "kinds of triangulation. E2 is also Fig. 12 of its appendix. Counts are taken over all queries, on all "
         "threads; times are medians over 5 rounds of single queries on one thread, in plain doubles (time_us) and "
         "exact (time_exact_us).\n\n"

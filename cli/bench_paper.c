@@ -1,4 +1,4 @@
-/* bench paper: the tables of the thesis about planar walks, measured again. */
+/* bench paper: the tables of the thesis, measured again. */
 #include "bench.h"
 #include "dataset_file.h"
 #include "files.h"
@@ -14,10 +14,9 @@ static bool encloses(const paper *p)
     return enclose == ENCLOSE_AUTO ? p->table->enclosed : enclose == ENCLOSE_YES;
 }
 
-static int run_generated(paper *p, const size_t *sizes)
+static int run_points(paper *p, const size_t *sizes)
 {
     int end = 0;
-    if (p->table->domains) return paper_domains(p, sizes);
     for (int kind = 0; kind < DATASET_KINDS; kind++)
         for (size_t i = 0; i < MOST_SIZES && sizes[i] && p->table->sets >> kind & 1; i++) {
             dataset data;
@@ -31,22 +30,41 @@ static int run_generated(paper *p, const size_t *sizes)
     return 0;
 }
 
+static int run_generated(paper *p, const size_t *sizes)
+{
+    switch (p->table->subject) {
+    case PAPER_DOMAINS: return paper_domains(p, sizes);
+    case PAPER_STARS: return paper_stars(p, sizes);
+    case PAPER_SURFACES: return paper_surfaces(p, sizes);
+    default: return run_points(p, sizes);
+    }
+}
+
 static const char *base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash && slash[1] ? slash + 1 : path;
 }
 
-static int run_file(const char *path, void *self)
+static int run_point_file(paper *p, const char *path)
 {
-    paper *p = self;
     dataset data;
-    if (p->table->domains) return paper_domain_file(p, path, base_name(path));
     int end = dataset_read(&data, path, encloses(p));
     trial t = paper_trial(p, base_name(path), &data, true);
     if (end == 0) end = paper_measure(p, &t, true);
     dataset_release(&data);
     return end;
+}
+
+static int run_file(const char *path, void *self)
+{
+    paper *p = self;
+    switch (p->table->subject) {
+    case PAPER_DOMAINS: return paper_domain_file(p, path, base_name(path));
+    case PAPER_STARS: return paper_star_file(p, path, base_name(path));
+    case PAPER_SURFACES: return paper_surface_file(p, path, base_name(path));
+    default: return run_point_file(p, path);
+    }
 }
 
 static int check_file(const char *path, void *self)
@@ -67,8 +85,8 @@ int bench_paper(const bench_settings *s, const char *name)
     paper p = {.table = table, .settings = s, .queries = s->queries ? s->queries : 1000000};
     size_list sizes = {0};
     int end = paper_plot_check(s, table);
-    if (end == 0 && table->domains && s->enclose == ENCLOSE_YES) {
-        complain("bench paper: the domains of %s are meshes, which --enclose does not change", table->name);
+    if (end == 0 && table->subject != PAPER_POINTS && s->enclose == ENCLOSE_YES) {
+        complain("bench paper: the sets of %s are meshes, which --enclose does not change", table->name);
         end = END_USAGE;
     }
     if (end == 0 && s->sizes) end = bench_sizes(s->sizes, &sizes);

@@ -1,6 +1,7 @@
 #include "measure.h"
 #include "message.h"
 #include "progress.h"
+#include "rounds.h"
 #include "tally.h"
 
 #include <math.h>
@@ -293,12 +294,14 @@ static int count(scene *s, outcome *o)
     return 0;
 }
 
-/* Microseconds per query of n queries from `begin` on, one after the other. */
-static int time_one(const scene *s, const algorithm *a, mw_arithmetic arithmetic, size_t begin, size_t n, double *time)
+/* Of each walk its time in doubles, then exact. */
+static int time_one(void *self, size_t entry, size_t begin, size_t n, double *time)
 {
     mw_error error;
     mw_cursor cursor;
-    mw_query_options options = options_of(s, a, arithmetic);
+    const scene *s = self;
+    const algorithm *a = s->trial->algorithms[entry / 2];
+    mw_query_options options = options_of(s, a, entry % 2 ? MW_EXACT : MW_DOUBLE);
     options.seed = s->trial->seed + begin;
     if (mw_cursor_init(&cursor, locator_for(s, a), &options, &error) != MW_OK) return fail(s->trial, &error);
     const double *q = s->queries + 2 * begin;
@@ -308,35 +311,17 @@ static int time_one(const scene *s, const algorithm *a, mw_arithmetic arithmetic
     return 0;
 }
 
-static double median(double *times)
-{
-    for (int i = 1; i < TIMED_ROUNDS; i++)
-        for (int k = i; k > 0 && times[k] < times[k - 1]; k--) {
-            double other = times[k];
-            times[k] = times[k - 1];
-            times[k - 1] = other;
-        }
-    return times[TIMED_ROUNDS / 2];
-}
-
-/* Walks and arithmetics in turn, each round begun by another one. Round -1 warms up, with the first share of queries. */
 static int time_all(scene *s, outcome *o)
 {
-    double times[MOST_ALGORITHMS][2][TIMED_ROUNDS];
-    size_t all = s->trial->queries < TIMED_QUERIES ? (size_t)s->trial->queries : TIMED_QUERIES;
-    size_t share = all < TIMED_ROUNDS ? 1 : all / TIMED_ROUNDS, entries = 2 * s->algorithms;
+    double times[2 * MOST_ALGORITHMS];
+    size_t share = rounds_share(s->trial->queries);
     s->random = ~s->trial->seed;
     int end = draw(s, TIMED_ROUNDS * share);
     progress_phase("timing", s->trial->name);
-    for (int round = -1; round < TIMED_ROUNDS; round++)
-        for (size_t k = 0; k < entries && end == 0; k++) {
-            size_t entry = (k + (size_t)(round + 1)) % entries, i = entry / 2, turn = round < 0 ? 0 : (size_t)round;
-            mw_arithmetic arithmetic = entry % 2 ? MW_EXACT : MW_DOUBLE;
-            end = time_one(s, s->trial->algorithms[i], arithmetic, turn * share, share, &times[i][entry % 2][turn]);
-        }
+    if (end == 0) end = rounds_time(2 * s->algorithms, share, time_one, s, times);
     for (size_t i = 0; i < s->algorithms && end == 0; i++) {
-        o->value[i][TIME_US] = median(times[i][0]);
-        o->value[i][TIME_EXACT_US] = median(times[i][1]);
+        o->value[i][TIME_US] = times[2 * i];
+        o->value[i][TIME_EXACT_US] = times[2 * i + 1];
     }
     return end;
 }

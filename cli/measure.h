@@ -30,10 +30,6 @@ typedef struct algorithm {
 
 #define MOST_ALGORITHMS 8
 
-/* Most queries that are timed, and in how many rounds: each round takes its share of them. */
-#define TIMED_QUERIES 20000
-#define TIMED_ROUNDS 5
-
 typedef struct trial {
     const char *name; /* for messages */
     const dataset *data;

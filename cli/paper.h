@@ -6,6 +6,10 @@
 #include "measure.h"
 #include "text.h"
 
+/* What a table is about: points that are triangulated; planar meshes (App. D); star-shaped polyhedra (App. F); surfaces
+ * (App. G). */
+typedef enum paper_subject { PAPER_POINTS, PAPER_DOMAINS, PAPER_STARS, PAPER_SURFACES } paper_subject;
+
 typedef struct paper_table {
     const char *name, *title;
     const algorithm *algorithms[MOST_ALGORITHMS + 1]; /* NULL ends them */
@@ -17,7 +21,9 @@ typedef struct paper_table {
     uint64_t whole_quantities;                        /* these */
     unsigned sets;                                    /* 1 << dataset_kind */
     size_t sizes[MOST_SIZES];
-    bool enclosed, domains; /* four corners are added to the points; no points but meshes */
+    paper_subject subject;
+    bool enclosed; /* four corners are added to the points */
+    int variant;   /* of App. G: which of its three kinds of queries */
     quantity drawn;
 } paper_table;
 
@@ -30,7 +36,9 @@ void paper_sum_columns(const paper_table *table, outcome *o);
 /* One set of points; or a mesh, and one way to draw queries and to begin. */
 typedef struct paper_result {
     char dataset[256];
-    bool own;          /* a file of the user's: nothing is published for it */
+    bool own;          /* a file of the user's: nothing is published for it, but if it is a model of the thesis: */
+    const char *model; /* NULL, or that one's name, */
+    size_t model_vertices;
     bool walks, whole; /* the parts of the outcome that it has */
     outcome outcome;
 } paper_result;
@@ -53,6 +61,14 @@ paper_result *paper_add(paper *p, const char *name, bool own);
  * exit code. */
 int paper_domains(paper *p, const size_t *sizes);
 int paper_domain_file(paper *p, const char *path, const char *name);
+
+/* App. F: polyhedra that are made, of the sizes, which a 0 ends; and one from a file. Return 0 or an exit code. */
+int paper_stars(paper *p, const size_t *sizes);
+int paper_star_file(paper *p, const char *path, const char *name);
+
+/* App. G: surfaces that are made; and one from a file. Return 0 or an exit code. */
+int paper_surfaces(paper *p, const size_t *sizes);
+int paper_surface_file(paper *p, const char *path, const char *name);
 
 /* What is published of an algorithm, or of algorithm i, for this result; NaN if nothing. */
 double paper_published_of(const paper *p, const paper_result *r, const algorithm *a, quantity q);

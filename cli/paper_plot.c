@@ -12,7 +12,8 @@
  * apart. */
 static bool is_scaled(const paper_table *table)
 {
-    return table->drawn == TRIANGLES && !table->domains && strcmp(table->start, "layers") != 0;
+    bool plain = strcmp(table->start, "random") == 0 || strcmp(table->start, "front") == 0;
+    return table->drawn == TRIANGLES && table->subject != PAPER_DOMAINS && plain;
 }
 
 static const char *label_of(const paper_table *table)
@@ -47,7 +48,7 @@ static size_t curves_of(const paper_table *table, curve curves[MOST_ALGORITHMS])
 {
     static const curve phases[] = {{0, TRIANGLES, "walk", "walk"}, {0, TRIANGLES_BORDER, "border walk", "border"}};
     size_t count = 0;
-    if (table->domains) {
+    if (table->subject == PAPER_DOMAINS) {
         memcpy(curves, phases, sizeof phases);
         return sizeof phases / sizeof *phases;
     }
@@ -62,7 +63,7 @@ static size_t curves_of(const paper_table *table, curve curves[MOST_ALGORITHMS])
 static plot_point point_of(const paper *p, const paper_result *r, const curve *c)
 {
     plot_point at = {.x = (double)r->outcome.vertices};
-    if (c->quantity == TRIANGLES && !p->table->domains) {
+    if (c->quantity == TRIANGLES && p->table->subject != PAPER_DOMAINS) {
         double scale = is_scaled(p->table) ? sqrt(at.x) : 1;
         at.ours = paper_sum(p, r, c->algorithm, PAPER_TRIANGLES, false) / scale;
         at.published = paper_sum(p, r, c->algorithm, PAPER_TRIANGLES, true) / scale;
@@ -76,7 +77,7 @@ static plot_point point_of(const paper *p, const paper_result *r, const curve *c
 /* In the figures of Appendix D walks begin at the nearest of a sample. */
 static bool is_drawn(const paper *p, const paper_result *r)
 {
-    return r->walks && (!p->table->domains || r->outcome.value[0][SAMPLE] > 1);
+    return r->walks && (p->table->subject != PAPER_DOMAINS || r->outcome.value[0][SAMPLE] > 1);
 }
 
 /* The panel of a result: that of its set; a file is a set of its own. */

@@ -107,7 +107,7 @@ static void end_line(text *t)
 static int decimals_of(quantity q)
 {
     if (q == LOCATOR_BYTES || q == MESH_TRIANGLES || q == MESH_BORDER_EDGES || q == MESH_HOLES || q == OPTIMAL ||
-        q == SAMPLE)
+        q == SAMPLE || q == FOUND_PER_MILLION)
         return 0;
     if (q == LARGEST_ANGLE) return 4;
     return q == CORRELATION || q == LOCATOR_SECONDS || q == TRIANGULATION_SECONDS ? 3 : 2;
@@ -241,7 +241,9 @@ static void print_table(text *t, const paper *p)
                 p->table->name, p->table->title, p->queries, p->table->from);
     for (size_t i = 0; i < p->count; i++) {
         const paper_result *r = &p->results[i];
-        text_printf(t, "\n%s, %zu vertices\n\n", r->dataset, r->outcome.vertices);
+        text_printf(t, "\n%s, %zu vertices", r->dataset, r->outcome.vertices);
+        if (r->model) text_printf(t, "; published: the thesis' %s", r->model);
+        text_string(t, "\n\n");
         text_printf(t, "  %-24s %-21s %10s %10s %7s\n", "algorithm", "quantity", "ours", "published", "ratio");
         each_figure(p, r, t, table_line);
         if (!r->walks) continue;

@@ -30,12 +30,32 @@ static const algorithm min_weight = {"min-weight", "MWT", "stochastic", FILLED, 
 static const algorithm min_max_angle = {"min-max-angle", "MMA", "stochastic", FILLED, MW_MIN_MAX_ANGLE};
 static const algorithm kinds = {"kinds", "", NULL, FILLED, MW_DELAUNAY};
 
+/* Appendix F, Table 1; and Table 2, whose rows are ways to begin. */
+static const algorithm wu = {"barycentric", "WBW", "barycentric", FILLED, MW_DELAUNAY};
+static const algorithm spatial_forgetful = {"forgetful", "RSW", "forgetful", FILLED, MW_DELAUNAY};
+static const algorithm octahedron = {"octahedron", "WBW", "barycentric", FILLED, MW_DELAUNAY};
+static const algorithm grid = {"grid", "OW", "orthogonal", FILLED, MW_DELAUNAY};
+static const algorithm nonuniform_grid = {"nonuniform-grid", "OW", "orthogonal", FILLED, MW_DELAUNAY};
+
+/* Appendix G has one walk. */
+static const algorithm plane = {"plane", "", "plane", FILLED, MW_DELAUNAY};
+
 #define SET(kind) (1u << DATASET_##kind)
 
 #define ONE(quantity) (UINT64_C(1) << (quantity))
 #define STAGES                                                                                                         \
     (ONE(TRIANGLES_INIT) | ONE(TRIANGLES) | ONE(TRIANGLES_FINAL) | ONE(TRIANGLES_FINAL_MAX) | ONE(ORIENT_INIT) |       \
      ONE(ORIENT) | ONE(ORIENT_FINAL) | ONE(IMPLICIT) | ONE(COMPARISONS) | ONE(LAYERS))
+#define STAR_STAGES                                                                                                    \
+    (ONE(TRIANGLES_INIT) | ONE(TRIANGLES) | ONE(TRIANGLES_FINAL) | ONE(ORIENT_INIT) | ONE(ORIENT) |                    \
+     ONE(ORIENT_FINAL) | ONE(COMPARISONS) | ONE(TIME_EXACT_US))
+#define PROBE_STAGES                                                                                                   \
+    (ONE(SAMPLE) | ONE(FOUND_PER_MILLION) | ONE(TRIANGLES) | ONE(TRIANGLES_WALK_MAX) | ONE(ORIENT) | ONE(ORIENT_MAX) | \
+     ONE(INTERSECTIONS) | ONE(ITERATIONS) | ONE(ITERATIONS_MAX) | ONE(TIME_EXACT_US))
+#define PROBE_SIZES                                                                                                    \
+    {                                                                                                                  \
+        154, 2904, 35946                                                                                               \
+    } /* those of the thesis' pawn, cow and bunny */
 #define TIMES (ONE(TIME_US) | ONE(TIME_EXACT_US))
 
 /* Appendix C calls its improved orthogonal walk OW. */
@@ -123,7 +143,7 @@ static const paper_table tables[] = {
                    ONE(LOCATOR_SECONDS) | TIMES,
      .whole = &mesh,
      .whole_quantities = ONE(MESH_TRIANGLES) | ONE(MESH_BORDER_EDGES) | ONE(MESH_HOLES) | ONE(HULL_PERCENT),
-     .domains = true,
+     .subject = PAPER_DOMAINS,
      .drawn = TRIANGLES},
     {.name = "E1",
      .title = "kinds of triangulation (App. E, Table 1)",
@@ -152,13 +172,76 @@ static const paper_table tables[] = {
      .sizes = {10000, 100000, 1000000},
      .enclosed = true,
      .drawn = TIME_EXACT_US},
+    {.name = "F1",
+     .title = "walks on star-shaped polyhedra (App. F, Table 1)",
+     .algorithms = {&wu, &spatial_forgetful, &stochastic, &orthogonal, &straight},
+     .reference = &spatial_forgetful,
+     .start = "front",
+     .from = "the facet at longitude 0, latitude 0",
+     .quantities = STAR_STAGES,
+     .whole = &mesh,
+     .whole_quantities = ONE(MESH_TRIANGLES),
+     .subject = PAPER_STARS,
+     .sizes = {163842, 100000},
+     .drawn = TRIANGLES},
+    {.name = "F2",
+     .title = "walks on star-shaped polyhedra from an index (App. F, Table 2)",
+     .algorithms = {&octahedron, &grid, &nonuniform_grid},
+     .reference = &octahedron,
+     .start = "index",
+     .from = "a subdivided octahedron or a grid",
+     .quantities = STAR_STAGES | ONE(LOCATOR_BYTES) | ONE(LOCATOR_SECONDS),
+     .whole = &mesh,
+     .whole_quantities = ONE(MESH_TRIANGLES),
+     .subject = PAPER_STARS,
+     .sizes = {163842},
+     .drawn = TRIANGLES},
+    {.name = "G1",
+     .title = "probes on the surface, along its inverted normals (App. G, Table 1)",
+     .algorithms = {&plane},
+     .reference = &plane,
+     .start = "sample",
+     .from = "the nearest of a sample",
+     .quantities = PROBE_STAGES,
+     .whole = &mesh,
+     .whole_quantities = ONE(MESH_TRIANGLES),
+     .subject = PAPER_SURFACES,
+     .sizes = PROBE_SIZES,
+     .variant = 1,
+     .drawn = TRIANGLES},
+    {.name = "G2",
+     .title = "probes near the surface (App. G, Table 2)",
+     .algorithms = {&plane},
+     .reference = &plane,
+     .start = "sample",
+     .from = "the nearest of a sample",
+     .quantities = PROBE_STAGES,
+     .whole = &mesh,
+     .whole_quantities = ONE(MESH_TRIANGLES),
+     .subject = PAPER_SURFACES,
+     .sizes = PROBE_SIZES,
+     .variant = 2,
+     .drawn = TRIANGLES},
+    {.name = "G3",
+     .title = "probes too far from the surface (App. G, Table 3)",
+     .algorithms = {&plane},
+     .reference = &plane,
+     .start = "sample",
+     .from = "the nearest of a sample",
+     .quantities = PROBE_STAGES,
+     .whole = &mesh,
+     .whole_quantities = ONE(MESH_TRIANGLES),
+     .subject = PAPER_SURFACES,
+     .sizes = PROBE_SIZES,
+     .variant = 3,
+     .drawn = TRIANGLES},
 };
 #define TABLES (sizeof tables / sizeof *tables)
 
 const paper_table *paper_table_named(const char *name)
 {
     if (!name) {
-        complain("bench paper: which table? A1, A2, B1, B2, C1, C2, D1, E1 or E2");
+        complain("bench paper: which table? A1, A2, B1, B2, C1, C2, D1, E1, E2, F1, F2, G1, G2 or G3");
         return NULL;
     }
     spelling s = spelling_of(name);

@@ -1,4 +1,4 @@
-/* published.h - what the thesis prints in its tables of planar walks. */
+/* published.h - what the thesis prints in its tables. */
 #ifndef CLI_PUBLISHED_H
 #define CLI_PUBLISHED_H
 

@@ -26,6 +26,11 @@ typedef enum quantity {
     TRIANGLES_TOTAL, /* of all stages, and those looked at to find the first */
     SAMPLE,          /* so many were looked at, the first included           */
     INSIDE_PERCENT,  /* of the queries, in the mesh                          */
+    ORIENT_MAX,
+    INTERSECTIONS, /* triangles that a line met and whose distance was computed */
+    ITERATIONS,    /* walks of one search, from different first triangles       */
+    ITERATIONS_MAX,
+    FOUND_PER_MILLION, /* queries that found a triangle                         */
     LAYERS,
     LOCATOR_BYTES,         /* what the locator has built beside the mesh       */
     LOCATOR_SECONDS,       /* that it took to make                             */

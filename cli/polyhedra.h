@@ -1,0 +1,49 @@
+/* polyhedra.h - closed surfaces in space to measure with, made from a seed. Shared with the programs of bench/. */
+#ifndef CLI_POLYHEDRA_H
+#define CLI_POLYHEDRA_H
+
+#include <meshwalk/meshwalk.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum polyhedron_kind {
+    POLYHEDRON_ICOSAHEDRON, /* each facet cut in four, again and again, and its vertices moved to the unit sphere:
+                               10 * 4^level + 2 of them */
+    POLYHEDRON_STAR,  /* the hull of points uniform on the unit sphere, each then moved in or out by a random factor
+                               from 0.8 to 1.2: star-shaped about the origin */
+    POLYHEDRON_BUMPS, /* the same hull, its points moved by a sum of waves: star-shaped, too, and smooth */
+    POLYHEDRON_KNOT,  /* a tube round a trefoil knot, a grid of its length and its girth */
+    POLYHEDRON_KINDS
+} polyhedron_kind;
+
+/* "icosahedron", "star", "bumps", "knot"; NULL for another number. */
+const char *polyhedron_name(int kind);
+
+/* Facets are counter-clockwise seen from outside. */
+typedef struct polyhedron {
+    double *points; /* x0 y0 z0 x1 y1 z1 ... */
+    size_t point_count;
+    uint32_t *triangles; /* 3 each */
+    size_t triangle_count;
+} polyhedron;
+
+/* Make one of n vertices, at least 10; the same for the same seed. An icosahedron has the level that comes nearest to n
+ * from below, a knot about n. MW_ERROR_MEMORY, or what the triangulation says; then it is empty. */
+mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed, mw_error *error);
+void polyhedron_release(polyhedron *p);
+
+mw_arrays polyhedron_arrays(const polyhedron *p);
+
+/* Has some level of the icosahedron so many vertices? */
+int polyhedron_is_icosahedron(size_t n);
+
+/* A direction uniform on the unit sphere; *random goes on from call to call. */
+void polyhedron_direction(double direction[3], uint64_t *random);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
