@@ -1,20 +1,16 @@
-/* check - every defect of a mesh, with its place. */
+/* check - every defect of a mesh, with its place; of a mesh in the plane, a surface or a star-shaped polyhedron. */
 #include "commands.h"
 #include "files.h"
 #include "message.h"
 #include "progress.h"
 #include "report.h"
+#include "taken_as.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 
-typedef struct check_settings {
-    common_settings common;
-    bool json;
-} check_settings;
-
 static const option check_options[] = {
-    {"json", 0, OPTION_FLAG, offsetof(check_settings, json), NULL, "print the defects as JSON", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(taken_as, json), NULL, "print the defects as JSON", NULL},
     {0},
 };
 
@@ -30,6 +26,11 @@ static const char *const kind_names[MW_DEFECT_COUNT] = {
     [MW_DEFECT_VERTEX_IN_EDGE] = "vertex-in-edge",
     [MW_DEFECT_OVERLAP] = "overlap",
     [MW_DEFECT_FLAT] = "flat",
+    [MW_DEFECT_CLASHING] = "clashing",
+    [MW_DEFECT_OPEN_EDGE] = "open-edge",
+    [MW_DEFECT_THROUGH_CENTRE] = "through-centre",
+    [MW_DEFECT_TURNED] = "turned",
+    [MW_DEFECT_COVERED] = "covered",
 };
 
 static void place(text *t, const char *name, uint32_t value, uint32_t none)
@@ -52,26 +53,40 @@ static void defect_as_json(text *t, const mw_defect *d)
     text_string(t, "}");
 }
 
+/* How the verdict reads, by what the mesh is taken as. */
+static const struct verdict {
+    const char *key; /* in JSON */
+    const char *good, *bad, *empty;
+} verdicts[] = {
+    [AS_PLANE] = {"embedding", "an embedding", "no embedding", "nothing to locate in"},
+    [AS_SURFACE] = {"surface", "a sound surface", "no sound surface", "nothing to touch"},
+    [AS_STAR] = {"star_shaped", "star-shaped about the centre", "not star-shaped about the centre", "nothing to meet"},
+};
+
 /* What a check comes to. */
 typedef struct outcome {
+    const struct verdict *verdict;
     char words[128];
-    bool good; /* points can be located, and every promise holds */
+    bool sound; /* what the mesh is taken as, it is              */
+    bool good;  /* and there is something to find, so that every promise holds */
 } outcome;
 
-static outcome outcome_of(const mw_check *check, const mw_mesh_file *file)
+static outcome outcome_of(const taken_as *s, const mw_check *check, const mw_mesh_file *file)
 {
-    outcome o = {.good = check->embedding && files_has_area(file)};
     size_t flat = 0;
     for (size_t i = 0; i < check->defect_count; i++) flat += check->defects[i].kind == MW_DEFECT_FLAT;
+    bool area = s->as == AS_PLANE ? files_has_area(file) : flat < file->triangle_count;
+    outcome o = {&verdicts[s->as], .sound = check->embedding, .good = check->embedding && area};
     size_t defects = check->defect_count - flat;
     char remark[48] = "";
     if (flat) snprintf(remark, sizeof remark, "; %zu flat triangle%s", flat, flat == 1 ? "" : "s");
-    if (!check->embedding)
-        snprintf(o.words, sizeof o.words, "no embedding: %zu defect%s%s", defects, defects == 1 ? "" : "s", remark);
-    else
-        snprintf(o.words, sizeof o.words, "%s%s",
-                 o.good ? "an embedding: every promise holds" : "no triangle with an area: nothing to locate in",
+    if (!o.sound)
+        snprintf(o.words, sizeof o.words, "%s: %zu defect%s%s", o.verdict->bad, defects, defects == 1 ? "" : "s",
                  remark);
+    else if (!o.good)
+        snprintf(o.words, sizeof o.words, "no triangle with an area: %s%s", o.verdict->empty, remark);
+    else
+        snprintf(o.words, sizeof o.words, "%s: every promise holds%s", o.verdict->good, remark);
     return o;
 }
 
@@ -79,7 +94,7 @@ static void as_json(text *t, const char *path, const mw_check *check, const outc
 {
     text_string(t, "{\n \"file\": ");
     report_quote(t, path);
-    text_printf(t, ",\n \"embedding\": %s,\n \"verdict\": ", check->embedding ? "true" : "false");
+    text_printf(t, ",\n \"%s\": %s,\n \"verdict\": ", o->verdict->key, o->sound ? "true" : "false");
     report_quote(t, o->words);
     text_string(t, ",\n \"defects\": [");
     for (size_t i = 0; i < check->defect_count; i++) {
@@ -99,15 +114,24 @@ static void as_text(text *t, const char *path, const mw_check *check, const outc
     text_printf(t, "%s: %s\n", path, o->words);
 }
 
-static int check_file(const check_settings *s, const char *path, const mw_mesh_file *file)
+static mw_status check_arrays(const taken_as *s, const mw_arrays *arrays, mw_check *check, mw_error *error)
+{
+    mw_star_options star = {.centre = {s->centre[0], s->centre[1], s->centre[2]}};
+    int weld = taken_as_welded(s);
+    if (s->as == AS_SURFACE) return mw_surface_check_arrays(arrays, weld, check, error);
+    if (s->as == AS_STAR) return mw_star_check_arrays(arrays, weld, &star, check, error);
+    return mw_check_arrays(arrays, check, error);
+}
+
+static int check_file(const taken_as *s, const char *path, const mw_mesh_file *file)
 {
     mw_error error;
     mw_check check;
     text t = {0};
     mw_arrays arrays = mw_mesh_file_arrays(file);
     progress_phase("checking", path);
-    if (mw_check_arrays(&arrays, &check, &error) != MW_OK) return fail_mesh(path, &error);
-    outcome o = outcome_of(&check, file);
+    if (check_arrays(s, &arrays, &check, &error) != MW_OK) return fail_mesh(path, &error);
+    outcome o = outcome_of(s, &check, file);
     if (s->json)
         as_json(&t, path, &check, &o);
     else
@@ -120,16 +144,15 @@ static int check_file(const check_settings *s, const char *path, const mw_mesh_f
 
 static int run(const void *settings, const char *const *operands)
 {
-    const check_settings *s = settings;
+    const taken_as *s = settings;
     mw_mesh_file file = {0};
-    int end = files_check(s->common.output, operands, 1);
-    if (end == 0) end = files_read_mesh(operands[0], &file);
+    int end = taken_as_read(s, operands, &file);
     if (end == 0) end = check_file(s, operands[0], &file);
     mw_mesh_file_release(&file);
     return end;
 }
 
-static const option *const tables[] = {check_options, common_options, NULL};
+static const option *const tables[] = {taken_as_options, check_options, common_options, NULL};
 
 const command check_command = {
     .name = "check",
@@ -140,8 +163,9 @@ const command check_command = {
         "Prints every defect of MESH with its place, one on a line, and then whether the mesh is an "
         "embedding: whether its triangles cover the plane without folds and overlaps. Exits with 0 if it "
         "is one and with 3 if not, or if no triangle has an area. Flat triangles beside others are listed, but do "
-        "no harm. '-' is standard input.",
+        "no harm. With --as, MESH is checked as a surface or as a star-shaped polyhedron in the same way. '-' is "
+        "standard input.",
     .options = tables,
-    .settings_size = sizeof(check_settings),
+    .settings_size = sizeof(taken_as),
     .run = run,
 };

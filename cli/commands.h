@@ -4,6 +4,7 @@
 
 #include "options.h"
 
-extern const command info_command, check_command, triangulate_command, locate_command, sample_command, bench_command;
+extern const command info_command, check_command, triangulate_command, locate_command, sample_command, star_command,
+    probe_command, bench_command;
 
 #endif

@@ -2,9 +2,7 @@
 #include "commands.h"
 #include "message.h"
 #include "query.h"
-
-#include <math.h>
-#include <string.h>
+#include "row.h"
 
 typedef struct locate_settings {
     query_settings query;
@@ -19,56 +17,28 @@ static const option locate_options[] = {
     {0},
 };
 
-/* A number or an empty cell, after a comma. */
-static void cell(text *out, bool filled, uint32_t value)
-{
-    char digits[12];
-    size_t at = sizeof digits;
-    if (filled) {
-        do {
-            digits[--at] = (char)('0' + value % 10);
-            value /= 10;
-        } while (value);
-    }
-    digits[--at] = ',';
-    text_bytes(out, digits + at, sizeof digits - at);
-}
-
-static void double_cell(text *out, bool filled, double value)
-{
-    text_bytes(out, ",", 1);
-    if (filled) text_double(out, value);
-}
-
 /* The nearest border edge is told of points that are not in a triangle. */
 static void details(const query *q, const double point[2], const mw_location *where, text *out)
 {
     mw_border_hit hit = {0};
     bool away = where->where == MW_OUTSIDE || where->where == MW_IN_HOLE || where->where == MW_NEAR;
     if (away) away = mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) == MW_OK;
-    cell(out, where->local != 255, where->local);
-    cell(out, away, hit.triangle);
-    cell(out, away, hit.edge);
-    double_cell(out, away, hit.distance);
-    cell(out, where->hole != MW_NONE, where->hole);
+    row_count(out, where->local != 255, where->local);
+    row_count(out, away, hit.triangle);
+    row_count(out, away, hit.edge);
+    row_double(out, away, hit.distance);
+    row_count(out, where->hole != MW_NONE, where->hole);
 }
 
 static bool locate_row(const query *q, const void *self, const double point[2], const mw_location *where, text *out)
 {
     const locate_settings *s = self;
-    bool found = where->triangle != MW_NONE;
-    text_double(out, point[0]);
-    double_cell(out, true, point[1]);
-    text_bytes(out, ",", 1);
-    text_string(out, mw_where_name((mw_where)where->where));
-    if (found)
-        cell(out, true, where->triangle);
-    else
-        text_bytes(out, ",-1", 3);
-    for (int k = 0; k < 3; k++) double_cell(out, found && !isnan(where->weight[k]), where->weight[k]);
+    row_numbers(out, point, 2);
+    row_triangle(out, mw_where_name((mw_where)where->where), where->triangle);
+    row_weights(out, where->triangle, where->weight);
     if (s->details) details(q, point, where, out);
-    text_bytes(out, "\n", 1);
-    return found;
+    row_end(out);
+    return where->triangle != MW_NONE;
 }
 
 static int run(const void *settings, const char *const *operands)
@@ -85,7 +55,7 @@ static int run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {locate_options, query_options, common_options, NULL};
+static const option *const tables[] = {locate_options, query_options, stream_options, common_options, NULL};
 
 const command locate_command = {
     .name = "locate",

@@ -3,13 +3,18 @@
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
     local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --tolerance --columns'
-    query="$query --any --strict --stats --json"
+    query="$query --any"
+    local stream='--strict --stats --json'
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
-        info | check) echo "--json $common" ;;
+        info | check) echo "--as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --keep --split --kind --limit --format --columns --class --json $common" ;;
-        locate) echo "--details $query $common" ;;
-        sample) echo "--field --outside $query $common" ;;
+        locate) echo "--details $query $stream $common" ;;
+        sample) echo "--field --outside $query $stream $common" ;;
+        star) echo "--centre --lonlat --walk --start --sample --cells --levels --columns $stream $common" ;;
+        probe)
+            echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
+            ;;
         bench) echo "--queries --sizes --enclose --data --no-times --format --plot $common" ;;
     esac
 }
@@ -25,15 +30,23 @@ _meshwalk_names() {
             fi
             ;;
         --enclose) echo 'auto yes no' ;;
+        --as) echo 'plane surface star' ;;
         --walk)
+            [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return
             echo 'auto lawson remembering stochastic fast-stochastic barycentric direct straight normal-straight'
             echo 'orthogonal improved-orthogonal hybrid celestial border'
             ;;
-        --start) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
+        --start)
+            case $1 in
+                star) echo 'auto random sample front last sorted grid nonuniform-grid octahedron' ;;
+                probe) echo 'auto last sample random' ;;
+                *) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
+            esac
+            ;;
         --arithmetic) echo 'exact double' ;;
         --finish) echo 'auto remembering stochastic' ;;
         --fill) echo 'auto yes no' ;;
-        --sample) echo 'cube-root fourth-root' ;;
+        --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
         --keep) echo 'auto hull inside' ;;
@@ -54,7 +67,8 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        mapfile -t COMPREPLY < <(compgen -W 'info check triangulate locate sample bench --help --version' -- "$word")
+        names='info check triangulate locate sample star probe bench --help --version'
+        mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
     names=$(_meshwalk_names "$command" "$before")
@@ -65,7 +79,8 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --cells | --layers | --tolerance | --columns | --field | --queries | --sizes | --limit) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field) return ;;
+        --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

@@ -39,6 +39,12 @@ int fail_mesh(const char *path, const mw_error *error)
     return end_of(error->status);
 }
 
+int fail_query(const mw_error *error)
+{
+    complain("%s", error->message);
+    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
+}
+
 /* The reader at the other end of a pipe has seen enough: nothing went wrong that a person should read about. */
 static int closed_pipe(const mw_error *error)
 {

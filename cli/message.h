@@ -19,9 +19,11 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Report a failure of the library and return the exit code it means.
  *   fail_reading  a reader's error: its message begins with the file
  *   fail_mesh     an error about the mesh that was read from `path`
+ *   fail_query    an option that the library refuses, or a limit
  *   fail_writing  an output's error; a closed pipe ends the program without a message */
 int fail_reading(const mw_error *error);
 int fail_mesh(const char *path, const mw_error *error);
+int fail_query(const mw_error *error);
 int fail_writing(const mw_error *error);
 int fail_memory(void);
 

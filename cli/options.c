@@ -4,8 +4,10 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <meshwalk/locate.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,13 +63,31 @@ static bool parse_natural(const char *value, uint64_t most, uint64_t *number)
     return *value && errno == 0 && parsed <= most;
 }
 
-/* A decimal number >= 0, finite: no hexadecimal, no blank, no decimal comma, no rest. */
-static bool parse_length(const char *value, double *number)
+/* A finite decimal number up to `stop`: no hexadecimal, no blank, no rest. NULL, or what follows it. */
+static const char *parse_number(const char *value, char stop, double *number)
 {
-    if (strspn(value, "0123456789.eE+-") != strlen(value) || !*value) return false;
+    size_t length = strspn(value, "0123456789.eE+-");
+    if (length == 0 || value[length] != stop) return NULL;
     char *end;
     *number = strtod(value, &end);
-    return !*end && isfinite(*number) && *number >= 0;
+    return end == value + length && isfinite(*number) ? end : NULL;
+}
+
+/* A number >= 0; no decimal comma. */
+static bool parse_length(const char *value, double *number)
+{
+    return parse_number(value, 0, number) && *number >= 0;
+}
+
+/* X,Y,Z. */
+static bool parse_point(const char *value, double point[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const char *end = parse_number(value, k < 2 ? ',' : 0, &point[k]);
+        if (!end) return false;
+        value = end + 1;
+    }
+    return true;
 }
 
 /* How many to sample: a number or the name of a rule. */
@@ -110,7 +130,7 @@ static int take(const option *o, const char *value, void *settings)
 {
     char *target = (char *)settings + o->offset;
     uint64_t natural = 0;
-    double length = 0;
+    double length = 0, point[3];
     uint32_t sample = 0;
     int choice = 0, end;
     switch (o->kind) {
@@ -122,6 +142,10 @@ static int take(const option *o, const char *value, void *settings)
     case OPTION_LENGTH:
         if (!parse_length(value, &length)) return bad_value(o, value, "a length, 0 or more");
         memcpy(target, &length, sizeof length);
+        return 0;
+    case OPTION_POINT:
+        if (!parse_point(value, point)) return bad_value(o, value, "a point X,Y,Z");
+        memcpy(target, point, sizeof point);
         return 0;
     case OPTION_COUNT:
         if (!parse_natural(value, UINT32_MAX, &natural)) return bad_value(o, value, "a whole number below 2^32");
@@ -141,6 +165,15 @@ static int take(const option *o, const char *value, void *settings)
         if (end == 0) memcpy(target, &choice, sizeof choice);
         return end;
     }
+    return END_USAGE;
+}
+
+int options_limit(const char *name, uint32_t value, uint32_t most, const char *written)
+{
+    char digits[16];
+    if (value <= most) return 0;
+    snprintf(digits, sizeof digits, "%" PRIu32, most);
+    complain("option '--%s' wants at most %s, not '%" PRIu32 "'", name, written ? written : digits, value);
     return END_USAGE;
 }
 

@@ -11,6 +11,7 @@ typedef enum option_kind {
     OPTION_FLAG,   /* bool: no argument                          */
     OPTION_TEXT,   /* const char *                               */
     OPTION_LENGTH, /* double: finite and not negative            */
+    OPTION_POINT,  /* double[3]: X,Y,Z, finite                   */
     OPTION_COUNT,  /* uint32_t                                   */
     OPTION_SAMPLE, /* uint32_t: a number, not 0, or MW_SAMPLE_.. */
     OPTION_SEED,   /* uint64_t                                   */
@@ -62,6 +63,10 @@ extern const option common_options[];
 /* Parse the arguments after the command's name. Returns 0, or an exit code after a complaint. With `help` set in the
  * settings nothing else has been checked. */
 int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MOST_OPERANDS]);
+
+/* Refuse a count that the library does not take; `written`: the most as words, NULL: as digits. Returns 0 or an exit code
+ * after a complaint. */
+int options_limit(const char *name, uint32_t value, uint32_t most, const char *written);
 
 /* The text that `--help` prints. */
 void options_help(text *t, const command *c);

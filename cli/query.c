@@ -2,15 +2,6 @@
 #include "files.h"
 #include "message.h"
 #include "progress.h"
-#include "signals.h"
-#include "tally.h"
-
-#include <stdlib.h>
-#include <string.h>
-
-#define BLOCK ((size_t)1 << 18) /* points in memory at a time */
-#define CHUNK ((size_t)1 << 12) /* of a block: rows that one thread formats in one go */
-#define CHUNKS (BLOCK / CHUNK)
 
 static const char *walk_name(int i)
 {
@@ -82,23 +73,19 @@ const option query_options[] = {
      "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
     {"tolerance", 0, OPTION_LENGTH, offsetof(query_settings, tolerance), "D",
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
-    {"columns", 0, OPTION_TEXT, offsetof(query_settings, columns), "LIST",
+    {"columns", 0, OPTION_TEXT, offsetof(query_settings, stream.columns), "LIST",
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
      "calls x and y, lon and lat, ..., else the first two)",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(query_settings, any), NULL,
      "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
-    {"strict", 0, OPTION_FLAG, offsetof(query_settings, strict), NULL, "exit with 1 if a point has no answer", NULL},
-    {"stats", 0, OPTION_FLAG, offsetof(query_settings, stats), NULL,
-     "print counts and times on standard error when done", NULL},
-    {"json", 0, OPTION_FLAG, offsetof(query_settings, json), NULL, "with --stats: as JSON", NULL},
     {0},
 };
 
 static void warn_if_void(const query *q, const char *path)
 {
     const char *promise = mw_locator_void_promise(q->locator);
-    if (promise && !q->settings->common.quiet) complain("%s: warning: %s", path, promise);
+    if (promise && !q->settings->stream.common.quiet) complain("%s: warning: %s", path, promise);
 }
 
 /* With `area`, a triangle that has one, a mesh is refused for its defects only, and --any helps. */
@@ -133,21 +120,11 @@ static int make_locator(query *q, const char *path, bool border, bool area)
     return 0;
 }
 
-/* The library refuses an option, or a limit is reached. */
-static int fail_query(const mw_error *error)
-{
-    complain("%s", error->message);
-    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
-}
-
 /* The limits of the library, found out before the mesh is read. */
 static int check_index(const query_settings *settings)
 {
-    const uint32_t most_cells = UINT32_C(1) << 30;
-    if (settings->cells > most_cells) complain("option '--cells' wants at most 2^30, not '%u'", settings->cells);
-    if (settings->layers > MW_MAX_LAYERS)
-        complain("option '--layers' wants at most %d, not '%u'", MW_MAX_LAYERS, settings->layers);
-    return settings->cells > most_cells || settings->layers > MW_MAX_LAYERS ? END_USAGE : 0;
+    int end = options_limit("cells", settings->cells, UINT32_C(1) << 30, "2^30");
+    return end ? end : options_limit("layers", settings->layers, MW_MAX_LAYERS, NULL);
 }
 
 /* Only the border walk does without what fills pockets and holes. */
@@ -165,7 +142,8 @@ static int make_index(query *q)
     const query_settings *settings = q->settings;
     mw_start_kind start = (mw_start_kind)settings->start;
     if (!mw_start_has_index(start)) return 0;
-    mw_index_options options = {.cells = settings->cells, .layers = settings->layers, .seed = settings->common.seed};
+    mw_index_options options = {
+        .cells = settings->cells, .layers = settings->layers, .seed = settings->stream.common.seed};
     return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
@@ -175,7 +153,7 @@ int query_open(query *q, const query_settings *settings, const char *const *oper
     const char *path = operands[0];
     mw_mesh_file file;
     *q = (query){.settings = settings, .begin = tally_clock()};
-    int end = files_check(settings->common.output, operands, 2);
+    int end = files_check(settings->stream.common.output, operands, 2);
     if (end == 0) end = check_index(settings);
     if (end == 0) end = check_fill(settings);
     if (end == 0) end = files_read_mesh(path, &file);
@@ -195,51 +173,18 @@ void query_release(query *q)
     mw_mesh_destroy(q->mesh);
 }
 
-/* The stream of points, a block of it, and its rows. */
-typedef struct stream {
+/* What the stream of points carries along. */
+typedef struct asking {
     const query *query;
     query_row *row;
     const void *self;
-    mw_point_reader *reader;
-    mw_output *out;
-    double *values;
-    size_t width;
-    mw_location *locations;
-    text chunk[CHUNKS];
-    uint64_t unanswered[CHUNKS];
-    tally tally;
-} stream;
+    location_tally tally;
+} asking;
 
-static void format_chunk(stream *s, size_t k, size_t count)
+static int locate_block(void *self, const queries *block, void *answers)
 {
-    size_t begin = k * CHUNK, end = begin + CHUNK < count ? begin + CHUNK : count;
-    text_clear(&s->chunk[k]);
-    s->unanswered[k] = 0;
-    for (size_t i = begin; i < end; i++)
-        s->unanswered[k] += !s->row(s->query, s->self, s->values + i * s->width, &s->locations[i], &s->chunk[k]);
-}
-
-/* Rows are made by several threads, none of them without work, and written in order. */
-static int write_block(stream *s, size_t count)
-{
-    long chunks = (long)((count + CHUNK - 1) / CHUNK);
-    long threads = tally_threads(s->query->settings->common.threads);
-    if (threads > chunks) threads = chunks;
-#ifdef _OPENMP
-#pragma omp parallel for num_threads((int)threads) if (threads > 1) schedule(dynamic)
-#endif
-    for (long k = 0; k < chunks; k++) format_chunk(s, (size_t)k, count);
-    for (long k = 0; k < chunks; k++) {
-        if (s->chunk[k].failed) return fail_memory();
-        mw_output_write(s->out, s->chunk[k].bytes, s->chunk[k].size);
-        s->tally.unanswered += s->unanswered[k];
-    }
-    return 0;
-}
-
-static int locate_block(stream *s, size_t count)
-{
-    const query_settings *settings = s->query->settings;
+    asking *a = self;
+    const query_settings *settings = a->query->settings;
     mw_error error;
     mw_counters counters = {0};
     mw_query_options options = {
@@ -247,79 +192,84 @@ static int locate_block(stream *s, size_t count)
         .start = (mw_start_kind)settings->start,
         .arithmetic = (mw_arithmetic)settings->arithmetic,
         .finish = finishes[settings->finish],
-        .seed = settings->common.seed + s->tally.blocks, /* other random numbers in each block */
+        .seed = settings->stream.common.seed + block->block, /* other random numbers in each block */
         .sample = settings->sample,
         .steps = settings->steps,
-        .threads = settings->common.threads,
+        .threads = settings->stream.common.threads,
         .tolerance = settings->tolerance,
-        .count = settings->stats,
-        .index = s->query->index,
+        .count = settings->stream.stats,
+        .index = a->query->index,
     };
-    double begin = tally_clock();
-    mw_status status =
-        mw_locate_batch(s->query->locator, s->values, count, s->width, &options, s->locations, &counters, &error);
+    mw_status status = mw_locate_batch(a->query->locator, block->values, block->count, block->stride, &options, answers,
+                                       &counters, &error);
     if (status != MW_OK) return fail_query(&error);
-    tally_block(&s->tally, s->locations, count, &counters, tally_clock() - begin);
+    tally_locations(&a->tally, answers, block->count, &counters);
     return 0;
 }
 
-static int run_blocks(stream *s)
+static bool point_row(const void *self, const double *point, const void *answer, text *out)
 {
-    mw_error error;
-    while (!mw_output_failed(s->out)) {
-        size_t count;
-        if (mw_points_read(s->reader, s->values, BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
-        if (count == 0) return 0;
-        int end = locate_block(s, count);
-        if (end == 0) end = write_block(s, count);
-        if (end) return end;
-        progress_points(s->tally.points);
-    }
-    return 0; /* closing the output reports what failed */
+    const asking *a = self;
+    return a->row(a->query, a->self, point, answer, out);
 }
 
-/* Points and output are open. */
-static int run_stream(stream *s, const char *header)
+static void report_border_walks(report *r, const mw_counters *c)
 {
-    mw_error error;
-    signals_remove(mw_output_temporary(s->out));
-    s->width = mw_points_width(s->reader);
-    s->values = malloc(BLOCK * s->width * sizeof *s->values);
-    s->locations = malloc(BLOCK * sizeof *s->locations);
-    int end = s->values && s->locations ? 0 : fail_memory();
-    if (end == 0) {
-        mw_output_write(s->out, header, strlen(header));
-        end = run_blocks(s);
-    }
-    progress_phase("writing", NULL);
-    if (mw_output_close(s->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
-    signals_remove(NULL);
-    for (size_t k = 0; k < CHUNKS; k++) text_release(&s->chunk[k]);
-    free(s->locations);
-    free(s->values);
-    return end;
+    tally_report_mean(r, "implicit", c->implicit, c->queries);
+    tally_report_mean(r, "walk_runs", c->walk_runs, c->queries);
+    report_count(r, "triangles_walk_max", c->triangles_walk_max);
+    tally_report_mean(r, "border_runs", c->border_runs, c->queries);
+    tally_report_mean(r, "triangles_border", c->triangles_border, c->queries);
+    report_count(r, "triangles_border_max", c->triangles_border_max);
+    tally_report_mean(r, "orient_border", c->orient_border, c->queries);
+    tally_report_mean(r, "border_edges", c->border_edges, c->queries);
+    report_count(r, "border_edges_max", c->border_edges_max);
+}
+
+static void report_memory(report *r, const query *q)
+{
+    mw_locator_info locator;
+    mw_index_info index = {0};
+    mw_locator_describe(q->locator, &locator);
+    if (q->index) mw_index_describe(q->index, &index);
+    report_count(r, "mesh_bytes", mw_mesh_bytes(q->mesh));
+    report_count(r, "locator_bytes", locator.bytes);
+    report_count(r, "area_bytes", locator.area_bytes);
+    report_count(r, "start_bytes", index.bytes);
+    tally_report_seconds(r, "start_seconds", index.seconds);
+    report_count(r, "ghost_triangles", locator.ghost_triangles);
+    report_count(r, "fill_bytes", locator.fill_bytes);
+    report_count(r, "pieces", locator.pieces);
+}
+
+static void report_query(const void *self, report *r)
+{
+    const asking *a = self;
+    const query_settings *settings = a->query->settings;
+    for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(r, mw_where_name((mw_where)i), a->tally.where[i]);
+    report_string(r, "walk", walk_name(settings->walk));
+    report_string(r, "start", start_name(settings->start));
+    report_string(r, "arithmetic", arithmetic_name(settings->arithmetic));
+    tally_report_run(r, &settings->stream.common);
+    tally_report_walks(r, &a->tally.counters);
+    report_border_walks(r, &a->tally.counters);
+    report_memory(r, a->query);
 }
 
 int query_run(const query *q, const char *points, const char *header, query_row *row, const void *self)
 {
-    const query_settings *settings = q->settings;
-    mw_error error;
-    mw_points_options options = {.columns = settings->columns};
-    stream *s = calloc(1, sizeof *s);
-    if (!s) return fail_memory();
-    *s = (stream){.query = q, .row = row, .self = self};
-    tally_begin(&s->tally);
-    int end;
-    progress_phase("locating", points);
-    if (mw_points_open(points, &options, &s->reader, &error) != MW_OK)
-        end = fail_reading(&error);
-    else if (mw_output_open(settings->common.output ? settings->common.output : "-", &s->out, &error) != MW_OK)
-        end = fail_writing(&error);
-    else
-        end = run_stream(s, header);
-    mw_points_close(s->reader);
-    if (end == 0 && settings->stats) end = tally_print(&s->tally, q);
-    if (end == 0 && settings->strict && s->tally.unanswered) end = END_UNLOCATED;
-    free(s);
-    return end;
+    asking a = {.query = q, .row = row, .self = self};
+    stream s = {
+        .settings = &q->settings->stream,
+        .begin = q->begin,
+        .doing = "locating",
+        .header = header,
+        .columns = {.names = {"x", "y"}, .count = 2, .loose = true},
+        .answer_size = sizeof(mw_location),
+        .answer = locate_block,
+        .row = point_row,
+        .report = report_query,
+        .self = &a,
+    };
+    return stream_run(&s, points);
 }

@@ -2,18 +2,17 @@
 #ifndef CLI_QUERY_H
 #define CLI_QUERY_H
 
-#include "options.h"
+#include "stream.h"
 
 #include <meshwalk/meshwalk.h>
 
 typedef struct query_settings {
-    common_settings common;
-    const char *columns;
+    stream_settings stream;
     double tolerance;
     uint32_t sample, steps, cells, layers;
     int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
     int finish, fill;            /* numbers of names of --finish and --fill */
-    bool areas, any, strict, stats, json;
+    bool areas, any;
 } query_settings;
 
 extern const option query_options[];
@@ -41,7 +40,7 @@ int query_open(query *q, const query_settings *settings, const char *const *oper
                const void *self);
 void query_release(query *q);
 
-/* Write `header`, then the row of every point, in order, in blocks of a fixed size. Returns the exit code. */
+/* Write `header`, then the row of every point, in order. Returns the exit code. */
 int query_run(const query *q, const char *points, const char *header, query_row *row, const void *self);
 
 #endif

@@ -52,13 +52,14 @@ void report_number(report *r, const char *name, double value)
     end_of_value(r);
 }
 
-void report_pair(report *r, const char *name, const double value[2])
+void report_numbers(report *r, const char *name, const double *values, size_t count)
 {
     name_of(r, name);
     if (r->json) text_string(&r->text, "[");
-    number(r, value[0]);
-    text_string(&r->text, r->json ? ", " : " ");
-    number(r, value[1]);
+    for (size_t i = 0; i < count; i++) {
+        if (i) text_string(&r->text, r->json ? ", " : " ");
+        number(r, values[i]);
+    }
     if (r->json) text_string(&r->text, "]");
     end_of_value(r);
 }

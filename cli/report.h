@@ -16,7 +16,7 @@ typedef struct report {
 void report_begin(report *r, bool json);
 void report_count(report *r, const char *name, uint64_t value);
 void report_number(report *r, const char *name, double value); /* JSON null where it is not finite */
-void report_pair(report *r, const char *name, const double value[2]);
+void report_numbers(report *r, const char *name, const double *values, size_t count);
 void report_flag(report *r, const char *name, bool value); /* yes, no; true, false */
 void report_string(report *r, const char *name, const char *value);
 void report_strings(report *r, const char *name, char *const *values, size_t count);

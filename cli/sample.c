@@ -3,6 +3,7 @@
 #include "files.h"
 #include "message.h"
 #include "query.h"
+#include "row.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -80,12 +81,9 @@ static bool sample_row(const query *q, const void *self, const double point[2], 
         mw_interpolate(q->mesh, s->values, where, 1, &value);
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
         value = value_outside(q, s, point);
-    text_double(out, point[0]);
-    text_bytes(out, ",", 1);
-    text_double(out, point[1]);
-    text_bytes(out, ",", 1);
-    if (!isnan(value)) text_double(out, value);
-    text_bytes(out, "\n", 1);
+    row_numbers(out, point, 2);
+    row_double(out, !isnan(value), value);
+    row_end(out);
     return !isnan(value);
 }
 
@@ -154,7 +152,7 @@ static int run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {sample_options, query_options, common_options, NULL};
+static const option *const tables[] = {sample_options, query_options, stream_options, common_options, NULL};
 
 const command sample_command = {
     .name = "sample",

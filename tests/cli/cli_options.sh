@@ -3,7 +3,7 @@
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 
-commands=(info check triangulate locate sample bench)
+commands=(info check triangulate locate sample star probe bench)
 
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
@@ -45,11 +45,30 @@ run triangulate a -o b.ply --class 2,256; refused 2 "unknown class '256'"
 run triangulate a -o b.ply --class grond; refused 2 "did you mean 'ground'\?"
 run triangulate a -o b.ply --class 2,; refused 2 "unknown class ''"
 run triangulate a -o b.ply --format pyl; refused 2 "unknown format 'pyl'; did you mean 'ply'\?"
+run star --walk orthogonl a b; refused 2 "unknown walk 'orthogonl'; did you mean 'orthogonal'\?"
+run star --walk lawson a b; refused 2 "unknown walk 'lawson'"
+run star --start octaedron a b; refused 2 "unknown start 'octaedron'; did you mean 'octahedron'\?"
+run star --center 1,2,3 a b; refused 2 "unknown option '--center'; did you mean '--centre'\?"
+run star --cells 1073741825 a b; refused 2 "'--cells' wants at most 2\^30, not '1073741825'"
+run star --levels 14 a b; refused 2 "'--levels' wants at most 13, not '14'"
+run probe --start lst a b; refused 2 "unknown start 'lst'; did you mean 'last'\?"
+run probe --race 257 a b; refused 2 "'--race' wants at most 256, not '257'"
+run probe a; refused 2 "wants SURFACE QUERIES, not 1 argument;"
+for c in info check; do
+    run $c --as sphere a; refused 2 "unknown way to take a mesh 'sphere'"
+    run $c --as str a; refused 2 "did you mean 'star'\?"
+    run $c --centre 1,0,0 a; refused 2 "'--centre' wants --as star"
+    run $c --as surface --lonlat a; refused 2 "'--lonlat' wants --as star"
+    run $c --weld a; refused 2 "'--weld' wants --as surface"
+done
 run check --fix weld a; refused 2 "unknown option '--fix'"
 
 # Numbers are taken as a whole or not at all.
 for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5; do
     run locate --tolerance "$value" a b; refused 2 "'--tolerance' wants a length"
+done
+for value in '' x 1 1,2 1,2, 1,2,3,4 1,2,x ' 1,2,3' '1, 2,3' '1;2;3' 1,2,inf nan,0,0 1,2,1e999 0x1,2,3 ,,; do
+    run star --centre "$value" a b; refused 2 "'--centre' wants a point X,Y,Z, not"
 done
 for value in '' x 1.5 -1 +1 ' 1' 1e3 0x10 4294967296 99999999999999999999; do
     run locate --threads "$value" a b; refused 2 "'--threads' wants"
@@ -139,6 +158,23 @@ for option in format enclose; do
         test "$(complete_words meshwalk bench --$option '')" == "$(row $option)"
 done
 holds "tables are completed" test "$(complete_words meshwalk bench paper C | tr '\n' ' ')" == 'C1 C2 '
+run star --help
+for option in walk start; do
+    holds "help and completion of star --$option differ" \
+        test "$(complete_words meshwalk star --$option '')" == "$(listed $option)"
+    holds "the help lists names of star --$option" test -n "$(listed $option)"
+    for name in $(listed $option); do
+        holds "meshwalk-star.1 names $name" grep -Eq "^\.Cm .*\<$name\>" "$source_tree/docs/man/meshwalk-star.1"
+    done
+done
+run probe --help
+holds "help and completion of probe --start differ" \
+    test "$(complete_words meshwalk probe --start '')" == "$(listed start)"
+for c in info check; do
+    run $c --help
+    holds "help and completion of $c --as differ" test "$(complete_words meshwalk $c --as '')" == "$(listed as)"
+    holds "the help lists names of --as" test -n "$(listed as)"
+done
 run sample --help
 holds "help and completion of --outside differ" \
     test "$(complete_words meshwalk sample --outside '')" == "$(listed outside)"
