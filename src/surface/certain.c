@@ -23,8 +23,10 @@
 #define END_ERROR 0x1p-48
 #define SMALL_COMPONENT 0x1p-800
 #define LEAST_WIDTH 0x1p-600
-/* Distances are off by 2^-40 of themselves, and |m| and the quotient by a few 2^-53 more. */
+/* Distances are off by 2^-40 of themselves, or where they underflow by less than TINY_LENGTH; |m| and the quotient by a few
+ * 2^-53 more. */
 #define REACH_ERROR (1 + 0x1p-38)
+#define TINY_LENGTH 0x1p-1070
 #define GREATEST_REACH 0x1p1000
 
 /* The line in the frame of the boxes. */
@@ -46,7 +48,7 @@ typedef struct search {
 
 static void set_reach(beam *b, double distance)
 {
-    double reach = distance * b->per_length * REACH_ERROR + LEAST_WIDTH;
+    double reach = (distance + TINY_LENGTH) * b->per_length * REACH_ERROR + LEAST_WIDTH;
     b->reach = reach < GREATEST_REACH ? reach : GREATEST_REACH;
 }
 
