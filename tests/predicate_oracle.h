@@ -56,7 +56,7 @@ static void oracle_cross(oracle *o, mpz_t r, mpz_t a, mpz_t b, mpz_t c, mpz_t d)
     mpz_sub(r, o->s, o->t);
 }
 
-static long oracle_orient2d(oracle *o, const double *p)
+__attribute__((unused)) static long oracle_orient2d(oracle *o, const double *p)
 {
     long base = oracle_load(o, p, 6);
     for (int i = 0; i < 4; i++) mpz_sub(o->d[i], o->v[2 + i], o->v[i % 2]); /* b - a, c - a */
@@ -65,7 +65,7 @@ static long oracle_orient2d(oracle *o, const double *p)
 }
 
 /* (b - a) . (c - a) */
-static long oracle_dot2d(oracle *o, const double *p)
+__attribute__((unused)) static long oracle_dot2d(oracle *o, const double *p)
 {
     long base = oracle_load(o, p, 6);
     for (int i = 0; i < 4; i++) mpz_sub(o->d[i], o->v[2 + i], o->v[i % 2]);
@@ -75,7 +75,7 @@ static long oracle_dot2d(oracle *o, const double *p)
 }
 
 /* The determinant of b - a, c - a, d - a. */
-static long oracle_orient3d(oracle *o, const double *p)
+__attribute__((unused)) static long oracle_orient3d(oracle *o, const double *p)
 {
     long base = oracle_load(o, p, 12);
     for (int i = 0; i < 9; i++) mpz_sub(o->d[i], o->v[3 + i], o->v[i % 3]);
@@ -91,7 +91,7 @@ static long oracle_orient3d(oracle *o, const double *p)
 
 /* -x (y bar z - z bar y) + ... of the rows b - a, c - a, d - a lifted: a is taken for the origin, unlike in the
  * library. */
-static long oracle_incircle(oracle *o, const double *p)
+__attribute__((unused)) static long oracle_incircle(oracle *o, const double *p)
 {
     long base = oracle_load(o, p, 8);
     for (int i = 0; i < 6; i++) mpz_sub(o->d[i], o->v[2 + i], o->v[i % 2]);
@@ -151,7 +151,7 @@ static int oracle_compare_ratios(oracle *o)
 }
 
 /* p: q, a, b, c, d */
-static int oracle_compare_distance(oracle *o, const double *p)
+__attribute__((unused)) static int oracle_compare_distance(oracle *o, const double *p)
 {
     oracle_load(o, p, 10);
     oracle_distance(o, 2, 0);
@@ -160,7 +160,7 @@ static int oracle_compare_distance(oracle *o, const double *p)
 }
 
 /* p: q, a, b, then the length */
-static int oracle_compare_distance_to(oracle *o, const double *p)
+__attribute__((unused)) static int oracle_compare_distance_to(oracle *o, const double *p)
 {
     oracle_load(o, p, 7);
     oracle_distance(o, 2, 0);
