@@ -73,7 +73,7 @@ _meshwalk() {
     fi
     names=$(_meshwalk_names "$command" "$before")
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] && names=paper
-    [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2'
+    [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     if [[ -n $names ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return

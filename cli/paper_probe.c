@@ -1,16 +1,17 @@
 /* paper_probe.c - thesis, App. G, Tables 1 to 3: which triangle of a surface a probe touches.
  *
- * A query is made from a point that is uniform on the surface. Table 1: the probe is there, and moves along the inverted
- * normal. Table 2: it moves in a direction that deviates from the inverted normal by less than a right angle, and is up to
- * D before the point. Table 3: the same, but a little farther than D, and nothing else is within D either. D itself is not
- * published. Every touch that is told is compared with what a complete search finds. */
+ * A query is made from a point of the surface: a random triangle, each as likely as the others, and a point uniform in
+ * it. Table 1: the probe is there, and moves along the inverted normal. Table 2: it moves in a direction uniform among
+ * those that deviate from the inverted normal by less than a right angle, and is up to D before the point. Table 3: the
+ * same, but a little farther than D, and nothing else is within D. D itself is not published, nor is how triangles and
+ * directions were drawn: with these the counts come near to the published ones. Every touch that is told is compared with
+ * what a complete search finds. */
 #include "datasets.h"
 #include "files.h"
 #include "message.h"
 #include "paper.h"
 #include "polyhedra.h"
 #include "progress.h"
-#include "published.h"
 #include "rounds.h"
 #include "tally.h"
 
@@ -21,9 +22,12 @@
 
 #define BLOCK ((size_t)1 << 16) /* queries in memory at a time */
 
-#define DISTANCE 0.01 /* D, of the diagonal of the surface's extent */
-#define FARTHER 1.1   /* times D at most, in Table 3 */
-#define ITERATIONS_LIMIT 10
+#define DISTANCE 0.003 /* D, of the diagonal of the surface's extent */
+#define FARTHER 1.1    /* times D at most, in Table 3 */
+
+/* Walks at most. Table 1 has no limit: this is many times what any search has taken that came to an end. */
+#define LIMIT 10
+#define NO_LIMIT 100000
 
 enum { ON_SURFACE = 1, NEAR_SURFACE, OFF_SURFACE };
 
@@ -33,7 +37,6 @@ typedef struct scene {
     const char *name;
     const mw_surface *surface;
     mw_prober *prober;
-    double *areas; /* of the triangles up to each, summed */
     double distance;
     double *queries;
     mw_touch *answers, *touches;
@@ -43,7 +46,6 @@ typedef struct scene {
 static void release(scene *s)
 {
     mw_prober_destroy(s->prober);
-    free(s->areas);
     free(s->queries);
     free(s->answers);
     free(s->touches);
@@ -68,55 +70,52 @@ static double length_of(const double a[3])
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
+/* Is the normal a direction? Not so of a triangle without area, or beyond the range of doubles. */
+static bool is_usable(const double normal[3])
+{
+    double length = length_of(normal);
+    return length > 0 && isfinite(length);
+}
+
+static bool has_usable(const scene *s)
+{
+    double corner[3][3], normal[3];
+    for (uint32_t i = 0; i < mw_surface_triangle_count(s->surface); i++) {
+        corners_of(s, i, corner, normal);
+        if (is_usable(normal)) return true;
+    }
+    return false;
+}
+
 static int prepare(scene *s, const mw_surface_info *info)
 {
     mw_error error;
     mw_prober_options options = {.boxes = 1};
-    uint32_t count = info->triangles;
     double diagonal[3];
     progress_phase("preparing", s->name);
-    s->areas = malloc(count * sizeof *s->areas);
-    s->queries = malloc(6 * BLOCK * sizeof *s->queries);
-    s->answers = malloc(BLOCK * sizeof *s->answers);
-    s->touches = malloc(BLOCK * sizeof *s->touches);
-    if (!s->areas || !s->queries || !s->answers || !s->touches) return fail_memory();
     for (size_t k = 0; k < 3; k++) diagonal[k] = info->high[k] - info->low[k];
     s->distance = DISTANCE * length_of(diagonal);
-    double sum = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        double corner[3][3], normal[3];
-        corners_of(s, i, corner, normal);
-        s->areas[i] = sum += length_of(normal);
-    }
-    if (!(sum > 0) || !isfinite(sum) || !isfinite(s->distance)) {
+    if (!has_usable(s) || !isfinite(s->distance)) {
         complain("%s: the surface has no area, or one too large for a double", s->name);
         return END_INPUT;
     }
+    s->queries = malloc(6 * BLOCK * sizeof *s->queries);
+    s->answers = malloc(BLOCK * sizeof *s->answers);
+    s->touches = malloc(BLOCK * sizeof *s->touches);
+    if (!s->queries || !s->answers || !s->touches) return fail_memory();
     return mw_prober_create(s->surface, &options, &s->prober, &error) == MW_OK ? 0 : fail_mesh(s->name, &error);
 }
 
 /* --- queries */
 
-static uint32_t draw_triangle(scene *s)
+/* A point of a random triangle, and its normal of length 1. */
+static void draw_point(scene *s, double point[3], double normal[3])
 {
-    uint32_t low = 0, high = mw_surface_triangle_count(s->surface) - 1;
-    double area = dataset_unit(&s->random) * s->areas[high];
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (s->areas[middle] > area)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
-}
-
-/* A point of the triangle, and its normal of length 1. */
-static void draw_point(scene *s, uint32_t triangle, double point[3], double normal[3])
-{
-    double corner[3][3], a = dataset_unit(&s->random), b = dataset_unit(&s->random);
-    corners_of(s, triangle, corner, normal);
-    double length = length_of(normal);
+    double corner[3][3], count = mw_surface_triangle_count(s->surface);
+    do {
+        corners_of(s, (uint32_t)(dataset_unit(&s->random) * count), corner, normal);
+    } while (!is_usable(normal));
+    double a = dataset_unit(&s->random), b = dataset_unit(&s->random), length = length_of(normal);
     if (a + b > 1) {
         a = 1 - a;
         b = 1 - b;
@@ -141,7 +140,7 @@ static void deviate(scene *s, const double normal[3], double motion[3])
 static void draw_query(scene *s, double query[6])
 {
     double normal[3], *motion = query + 3, before = 0;
-    draw_point(s, draw_triangle(s), query, normal);
+    draw_point(s, query, normal);
     for (size_t k = 0; k < 3; k++) motion[k] = -normal[k];
     if (s->paper->table->variant != ON_SURFACE) deviate(s, normal, motion);
     if (s->paper->table->variant == NEAR_SURFACE) before = s->distance * dataset_unit(&s->random);
@@ -152,12 +151,11 @@ static void draw_query(scene *s, double query[6])
 
 static mw_probe_options options_of(const scene *s)
 {
-    bool unlimited = s->paper->table->variant == ON_SURFACE;
     return (mw_probe_options){
         .max_distance = s->distance,
         .start = MW_PROBE_SAMPLE,
         .samples = 2 * (uint32_t)cbrt((double)mw_surface_vertex_count(s->surface)),
-        .iterations = unlimited ? UINT32_MAX : ITERATIONS_LIMIT,
+        .iterations = s->paper->table->variant == ON_SURFACE ? NO_LIMIT : LIMIT,
         .seed = s->paper->settings->common.seed,
         .threads = s->paper->settings->common.threads,
     };
@@ -177,8 +175,8 @@ static int search(scene *s, const double *queries, size_t n, mw_touch *found)
 /* So many drawn in vain, beyond a thousand for each found, are no accident. */
 #define DRAWN_IN_VAIN 100000
 
-/* n queries and what a complete search finds; those that should touch nothing, and do, are drawn anew. So are those that by
- * rounding alone touch nothing on the surface, where the search has no limit. */
+/* n queries and what a complete search finds. Those that should touch nothing, and do, are drawn anew; so are those on the
+ * surface that by rounding miss it, since the search has no limit. */
 static int draw(scene *s, size_t n)
 {
     int variant = s->paper->table->variant;

@@ -19,7 +19,7 @@ sound() { # sound LINES
 }
 publishes() { # publishes SET VERTICES ALGORITHM QUANTITY VALUE
     checks=$((checks + 1))
-    grep -Pq "^[A-E][12]\t$1\t$2\t$3\t$4\t[^\t]+\t$5\t" "$logs/out" || fail "$1 $2 $3 $4: $5 should be published"
+    grep -Pq "^[A-G][123]\t$1\t$2\t$3\t$4\t[^\t]+\t$5\t" "$logs/out" || fail "$1 $2 $3 $4: $5 should be published"
 }
 ours() { # ours SET VERTICES ALGORITHM QUANTITY: what was measured
     awk -F '\t' -v OFS='\t' -v key="$1 $2 $3 $4" '$2 " " $3 " " $4 " " $5 == key { print $6 }' "$logs/out"
@@ -171,7 +171,93 @@ run bench paper D1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is no mesh'
 run bench paper D1 --data ring.off --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'
 printf 'OFF\n3 1 0\n0 0 0\n1 1 0\n2 2 0\n3 0 1 2\n' >flat.off
 run bench paper D1 --data flat.off "${few[@]}"; refused 3 'flat.off'
-rm flat.off one.tsv
+rm one.tsv
+
+# Appendix F: rays from the centre. Seven quantities a walk without times, and the triangles of the mesh. A number of
+# vertices of a subdivided icosahedron makes it, another one a random star. All walks are compared by the program.
+run bench paper F1 --sizes 42,500,10 "${few[@]}"; exits 0; says_nothing; sound 108
+holds "an icosahedron" test "$(ours icosahedron 42 mesh mesh_triangles)" == 80
+holds "a star" test "$(ours star 500 mesh mesh_triangles)" == 996
+holds "the barycentric walk makes three tests a triangle" test "$(ours star 500 barycentric orient)" == \
+    "$(awk -v n="$(ours star 500 barycentric triangles)" 'BEGIN { print 3 * n }')"
+holds "to remember the entry edge saves tests" test "$(tail -n +2 "$logs/out" | awk -F '\t' '
+    $2 == "star" && $3 == 500 && $5 == "orient" { n[$4] = $6 } END { print (n["stochastic"] < n["forgetful"]) }')" == 1
+run bench paper F1 --sizes 163842 --queries 4000 --no-times --format tsv; exits 0; says_nothing; sound 36
+publishes icosahedron 163842 barycentric triangles 361.2
+publishes icosahedron 163842 forgetful orient 680.7
+publishes icosahedron 163842 orthogonal triangles_final 1.93
+publishes icosahedron 163842 mesh mesh_triangles 327680
+for figure in 'barycentric triangles 361.2' 'barycentric orient 1083.5' 'forgetful triangles 392.3' \
+    'forgetful orient 680.7' 'orthogonal triangles 515.1' 'orthogonal comparisons 1030.2'; do
+    read -r walk quantity value <<<"$figure"
+    measured=$(ours icosahedron 163842 "$walk" "$quantity")
+    holds "$walk, $quantity: $measured is within 3 percent of $value" \
+        between 0.97 "$(awk "BEGIN { print $measured / $value }")" 1.03
+done
+run bench paper F2 --sizes 10242 "${few[@]}"; exits 0; says_nothing; sound 75
+for elements in 128 512 2048; do
+    holds "an octahedron of so many facets is gone down" \
+        between 3 "$(ours icosahedron-$elements 10242 octahedron triangles_init)" 12
+done
+holds "more cells, shorter walks" between 1 "$(ours icosahedron-2048 10242 grid triangles)" \
+    "$(ours icosahedron-128 10242 grid triangles)"
+run bench paper F2 --sizes 163842 --queries 10 --format tsv; exits 0; sound 93
+publishes icosahedron-128 163842 octahedron triangles_init 6.2
+publishes icosahedron-512 163842 grid time_exact_us 4.96
+publishes icosahedron-2048 163842 nonuniform-grid comparisons 16.5
+run bench paper F1 --sizes 300 "${few[@]}" --threads 1; cp "$logs/out" one.tsv
+run bench paper F1 --sizes 300 "${few[@]}" --threads 2
+holds "the number of threads changes nothing" same_text one.tsv "$logs/out"
+rm one.tsv
+# Polyhedra of one's own: about the origin, or else about the mean of the vertices.
+for at in 0 100; do
+    awk -v a=$at 'BEGIN { print "OFF\n4 4 0"; print a + 1, 1, 1; print a + 1, -1, -1; print a - 1, 1, -1; print a - 1, -1, 1
+        print "3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2" }' >tetrahedron.off
+    run bench paper F1 --data tetrahedron.off --queries 100; exits 0; says_nothing
+    prints_line '^tetrahedron.off, 4 vertices$'
+    prints_line '^  barycentric +WBW  exact time +[0-9.]+  0\.772 to 0\.786$'
+done
+run bench paper F1 --data ring.off "${few[@]}"; refused 3 'ring.off'
+run bench paper F1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is no mesh'
+run bench paper F1 --sizes 42 --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'
+
+# Appendix G: probes of a surface. Nine quantities without times, and the triangles of the mesh. What is found is compared
+# with a complete search by the program.
+for table in G1 G2 G3; do
+    run bench paper $table --sizes 154,600 "${few[@]}"; exits 0; says_nothing; sound 40
+    holds "the hull of n points has 2n - 4 triangles" test "$(ours bumps 154 mesh mesh_triangles)" == 304
+    holds "two times the whole cube root of the vertices" test "$(ours bumps 600 plane sample)" == 16
+    case $table in
+        G1) least=1000000 most=1000000 ;;
+        G2) least=900000 most=1000000 ;;
+        G3) least=0 most=0 ;;
+    esac
+    holds "so many are found" between $least "$(ours bumps 600 plane found_per_million)" $most
+done
+holds "all iterations are made in vain" test "$(ours bumps 600 plane iterations)" == 10
+run bench paper G2 --sizes 154 "${few[@]}" --threads 1; cp "$logs/out" one.tsv
+run bench paper G2 --sizes 154 "${few[@]}" --threads 2
+holds "the number of threads changes nothing" same_text one.tsv "$logs/out"
+rm one.tsv
+# A file with the name of a model and about as many triangles stands beside the published numbers; another does not.
+awk 'BEGIN { print "OFF\n152 304 0"; p = 3.14159265358979
+    for (i = 0; i < 19; i++) for (k = 0; k < 8; k++) {
+        r = 3 + cos(k * p / 4); print r * cos(i * 2 * p / 19), r * sin(i * 2 * p / 19), sin(k * p / 4) }
+    for (i = 0; i < 19; i++) for (k = 0; k < 8; k++) {
+        a = i * 8 + k; b = i * 8 + (k + 1) % 8; c = (i + 1) % 19 * 8 + (k + 1) % 8; d = (i + 1) % 19 * 8 + k
+        print 3, a, d, c; print 3, a, c, b } }' >pawn-like.off
+cp pawn-like.off ring19.off
+run bench paper G1 --data pawn-like.off,ring19.off "${few[@]}"; exits 0; says_nothing; sound 20
+publishes pawn-like.off 152 mesh mesh_triangles 304
+publishes pawn-like.off 152 plane iterations_max 14
+holds "nothing is published for the other" test -z "$(grep ring19 "$logs/out" | cut -f 7 | tr -d '\n')"
+run bench paper G1 --data pawn-like.off --queries 100; exits 0; says_nothing
+prints_line "^pawn-like.off, 152 vertices; published: the thesis' pawn$"
+prints_line '^  plane +time_exact_us +[0-9.]+ +2\.30 +[0-9.]+$'
+run bench paper G1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is no mesh'
+run bench paper G1 --data flat.off "${few[@]}"; refused 3 'flat.off: the surface has no area'
+run bench paper G3 --sizes 154 --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'
+rm flat.off tetrahedron.off pawn-like.off ring19.off
 
 # Appendix E: four triangulations of the same points.
 run bench paper E1 --sizes 1000 "${few[@]}"; exits 0; says_nothing; sound 25
@@ -266,6 +352,11 @@ else
     holds "the plot has the panels of Fig. 11 and 12" test "$(grep -c '<svg' d1.svg)" == 1
     run bench paper D1 --plot d1.svg --data ring.off "${few[@]}"; exits 0; says_nothing
     run bench paper E1 --plot e1.svg --sizes 50,60 "${few[@]}"; exits 0; says_nothing
+    for table in F1 F2 G3; do
+        run bench paper $table --plot $table.svg --sizes 42,500 "${few[@]}"; exits 0; says_nothing
+        holds "the plot of $table is an SVG" grep -q '<svg' $table.svg
+        rm $table.svg
+    done
     rm e2.svg a2.PNG b2.pdf d1.svg e1.svg
     # Where the clock stands still all times are 0, which a logarithmic axis has no place for beside the published ones.
     # (Under a sanitizer no other clock can be loaded.)
