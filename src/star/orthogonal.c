@@ -93,7 +93,11 @@ static MW_INLINE mw_star_verdict turn_upright(mw_star_walk *w, mw_star_policy P)
 
 static MW_INLINE mw_star_verdict start(mw_star_walk *w, mw_star_policy P)
 {
-    mw__star_angles(w->d, &w->phi, &w->theta);
+    double d[3] = {w->d[0], w->d[1], w->d[2]}; /* by value: a walk whose address is known leaves the registers */
+    double phi, theta;
+    mw__star_angles(d, &phi, &theta);
+    w->phi = phi;
+    w->theta = theta;
     w->height = (polar_angle(w, 0) + polar_angle(w, 1) + polar_angle(w, 2)) / 3;
     bool west = w->phi < (longitude(w, 0) + longitude(w, 1) + longitude(w, 2)) / 3, north = w->theta < w->height;
     w->phase = FOLLOW | (west ? WEST : 0) | (north ? NORTH : 0);
@@ -107,7 +111,8 @@ static MW_INLINE mw_star_verdict orthogonal_step(mw_star_walk *w, mw_star_policy
     uint32_t s = mw__prev(w->e); /* entered over edge e = lr */
     if (MW_UNLIKELY(ends(w, s, P))) return w->phase & UPRIGHT ? MW_STAR_CLOSE : turn_upright(w, P);
     count_comparison(w, P);
-    return cross(w, is_left(w, s) ? mw__next(w->e) : mw__prev(w->e), P);
+    if (is_left(w, s)) return cross(w, mw__next(w->e), P);
+    return cross(w, s, P);
 }
 
 MW_STAR_STAMP(orthogonal)
