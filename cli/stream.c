@@ -23,6 +23,7 @@ typedef struct flow {
     const stream *stream;
     mw_point_reader *reader;
     mw_output *out;
+    const char *path;
     size_t width, pick[MOST_COLUMNS];
     bool in_order; /* the columns wanted come first, as they are wanted */
     double *values;
@@ -86,31 +87,34 @@ static int answer_block(flow *f, size_t count)
     return end;
 }
 
-static int run_blocks(flow *f)
+static int read_block(flow *f, size_t *count)
 {
     mw_error error;
-    while (!mw_output_failed(f->out)) {
-        size_t count;
-        if (mw_points_read(f->reader, f->values, STREAM_BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
-        if (count == 0) return 0;
-        int end = answer_block(f, count);
-        if (end == 0) end = write_block(f, count);
-        if (end) return end;
-        progress_points(f->tally.queries);
-    }
-    return 0; /* closing the output reports what failed */
+    return mw_points_read(f->reader, f->values, STREAM_BLOCK, count, &error) == MW_OK ? 0 : fail_reading(&error);
 }
 
-static int open_queries(flow *f, const char *path)
+static int pick(flow *f)
 {
     const stream *s = f->stream;
-    mw_error error;
-    mw_points_options options = {.columns = s->settings->columns};
-    if (mw_points_open(path, &options, &f->reader, &error) != MW_OK) return fail_reading(&error);
-    f->width = mw_points_width(f->reader);
-    int end = columns_pick(&s->columns, path, f->reader, s->settings->columns, f->pick);
+    int end = columns_pick(&s->columns, f->path, f->reader, s->settings->columns, f->pick);
     f->in_order = true;
     for (size_t k = 0; k < s->columns.count; k++) f->in_order = f->in_order && f->pick[k] == k;
+    return end;
+}
+
+/* A file without rows has no columns that could be wrong. */
+static int run_blocks(flow *f)
+{
+    size_t count;
+    int end = read_block(f, &count);
+    if (end == 0 && count > 0) end = pick(f);
+    if (end == 0) mw_output_write(f->out, f->stream->header, strlen(f->stream->header));
+    while (end == 0 && count > 0 && !mw_output_failed(f->out)) { /* closing the output reports what failed */
+        end = answer_block(f, count);
+        if (end == 0) end = write_block(f, count);
+        progress_points(f->tally.queries);
+        if (end == 0) end = read_block(f, &count);
+    }
     return end;
 }
 
@@ -119,14 +123,11 @@ static int run_flow(flow *f)
 {
     mw_error error;
     const stream *s = f->stream;
+    f->width = mw_points_width(f->reader);
     signals_remove(mw_output_temporary(f->out));
     f->values = malloc(STREAM_BLOCK * f->width * sizeof *f->values);
     f->answers = malloc(STREAM_BLOCK * s->answer_size);
-    int end = f->values && f->answers ? 0 : fail_memory();
-    if (end == 0) {
-        mw_output_write(f->out, s->header, strlen(s->header));
-        end = run_blocks(f);
-    }
+    int end = f->values && f->answers ? run_blocks(f) : fail_memory();
     progress_phase("writing", NULL);
     if (mw_output_close(f->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
     signals_remove(NULL);
@@ -152,14 +153,16 @@ int stream_run(const stream *s, const char *path)
     const stream_settings *settings = s->settings;
     const char *output = settings->common.output ? settings->common.output : "-";
     mw_error error;
+    mw_points_options options = {.columns = settings->columns};
+    int end = 0;
     flow *f = calloc(1, sizeof *f);
     if (!f) return fail_memory();
-    f->stream = s;
-    f->tally.begin = s->begin;
-    f->tally.ready = tally_clock();
+    *f = (flow){.stream = s, .path = path, .tally = {.begin = s->begin, .ready = tally_clock()}};
     progress_phase(s->doing, path);
-    int end = open_queries(f, path);
-    if (end == 0 && mw_output_open(output, &f->out, &error) != MW_OK) end = fail_writing(&error);
+    if (mw_points_open(path, &options, &f->reader, &error) != MW_OK)
+        end = fail_reading(&error);
+    else if (mw_output_open(output, &f->out, &error) != MW_OK)
+        end = fail_writing(&error);
     if (end == 0) end = run_flow(f);
     mw_points_close(f->reader);
     if (end == 0 && settings->stats) end = print_stats(f);
