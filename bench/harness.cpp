@@ -19,6 +19,14 @@ void fail(const std::string &why)
     std::exit(1);
 }
 
+size_t whole(const std::string &text)
+{
+    char *end;
+    double value = std::strtod(text.c_str(), &end);
+    if (*end || !(value >= 0 && value <= 1e9)) fail("not a number from 0 to 1e9: " + text);
+    return static_cast<size_t>(value);
+}
+
 namespace
 {
 
@@ -27,14 +35,17 @@ namespace
     std::fprintf(status ? stderr : stdout,
                  "%s: %s\n"
                  "  --sizes N,N,...     numbers of points\n"
-                 "  --data NAME,...     uniform grid gaussian clusters arcs rectangle, or files\n"
+                 "  --data NAME,...     uniform grid gaussian clusters arcs rectangle, or files; of surfaces\n"
+                 "                      icosahedron:N star:N bumps:N knot:N (vertices), or files\n"
                  "  --rounds N          rounds that count\n"
                  "  --warmup N          rounds before them that do not\n"
                  "  --seed S            of all random numbers\n"
                  "  --format table|tsv\n"
                  "only for location:\n"
                  "  --queries N         points to locate\n"
-                 "  --walks NAME,...    walks to measure\n",
+                 "  --walks NAME,...    walks to measure\n"
+                 "only beside Embree:\n"
+                 "  --threads N         that build and fit\n",
                  program, what_it_does);
     std::exit(status);
 }
@@ -45,15 +56,6 @@ std::vector<std::string> split(const std::string &text)
     std::stringstream stream(text);
     for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
     return parts;
-}
-
-// A whole number, "1e6" too.
-size_t whole(const std::string &text)
-{
-    char *end;
-    double value = std::strtod(text.c_str(), &end);
-    if (*end || !(value >= 0 && value <= 1e9)) fail("not a number from 0 to 1e9: " + text);
-    return static_cast<size_t>(value);
 }
 
 void set(Options &o, const std::string &name, const std::string &value, const std::function<void()> &misuse)
@@ -71,6 +73,8 @@ void set(Options &o, const std::string &name, const std::string &value, const st
         o.rounds = std::max(1, static_cast<int>(whole(value)));
     } else if (name == "--warmup") {
         o.warmup = static_cast<int>(whole(value));
+    } else if (name == "--threads") {
+        o.threads = std::max(1u, static_cast<unsigned>(whole(value)));
     } else if (name == "--seed") {
         o.seed = whole(value);
     } else if (name == "--format" && (value == "table" || value == "tsv")) {

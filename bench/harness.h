@@ -16,9 +16,10 @@ namespace bench
 struct Options {
     std::vector<size_t> sizes;      // --sizes 10000,100000: numbers of points
     std::vector<std::string> data;  // --data uniform,grid: sets of points, see datasets.h, or files
-    std::vector<std::string> walks; // --walks straight,lawson (bench_locate)
-    size_t queries = 0;             // --queries N (bench_locate)
+    std::vector<std::string> walks; // --walks straight,lawson (location)
+    size_t queries = 0;             // --queries N (location)
     int rounds = 7, warmup = 1;     // --rounds N --warmup N
+    unsigned threads = 1;           // --threads N: that build and fit (bench_star, bench_probe)
     uint64_t seed = 1;              // --seed S
     bool tsv = false;               // --format table|tsv
 };
@@ -62,6 +63,9 @@ class Table
     void row(std::vector<std::string> cells) { rows.push_back(std::move(cells)); }
     void print(bool tsv) const;
 };
+
+// A whole number, "1e6" too; of anything else the program ends.
+size_t whole(const std::string &text);
 
 std::string number(double value, int decimals);
 
