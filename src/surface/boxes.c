@@ -301,8 +301,9 @@ static uint32_t *order_along_curve(const mw_surface *surface)
     return order;
 }
 
-/* An order of one's own costs 4 bytes a triangle: it is kept where it makes the leaves smaller by more than WORTHWHILE. So
- * that a few large triangles do not hide what the many do, no leaf counts more than LARGE common ones. */
+/* An order of one's own costs 4 bytes a triangle: it is kept where the leaves of the file's order have WORTHWHILE times the
+ * area. Those of scanned models commonly have 10 to 300 times. So that a few large triangles do not hide what the many do,
+ * no leaf counts more than LARGE common ones. */
 #define WORTHWHILE 1.5
 #define LARGE 64
 

@@ -88,14 +88,14 @@ static MW_INLINE bool meets_box(const beam *b, const mw_surface_box *box, double
     }
     low -= fabs(low) * END_ERROR;
     high += fabs(high) * END_ERROR;
-    *near = fmax(0, fmax(low, -high));
+    *near = low > 0 ? low : high < 0 ? -high : 0;
     return low <= high;
 }
 
 static void look_at_triangle(search *s, uint32_t t)
 {
     const mw_surface *surface = s->prober->surface;
-    if (!mw__touches(surface, s->line, t)) return;
+    if (t == s->best || !mw__touches(surface, s->line, t)) return;
     s->hits++;
     bool better = s->best == MW_NONE ? mw__in_reach(surface, s->line, t, s->max_distance)
                                      : mw__better(surface, s->line, t, s->best);
