@@ -92,8 +92,9 @@ typedef struct mw_surface_info {
 } mw_surface_info;
 
 /* In O(n). With options.weld vertices with equal coordinates count once. A triangle that has a vertex twice (with weld: two
- * vertices with equal coordinates) is flat, and counts neither for edges and fans nor in `euler`. With options.shared this
- * is a query: not to be called by who is about an update. MW_ERROR_MEMORY, MW_ERROR_ARGUMENT: NULL. Thread-safe. */
+ * vertices with equal coordinates) is flat, and counts neither for edges and fans nor in `euler`; the third triangle at an
+ * edge of a tolerant surface has a border edge of its own there. With options.shared this is a query: not to be called
+ * between begin and end of an update. MW_ERROR_MEMORY, MW_ERROR_ARGUMENT: NULL. Thread-safe. */
 MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, mw_error *error);
 
 /* Find every defect of the arrays as a surface: the unusable group of mw_defect_kind, then MW_DEFECT_CLASHING, and
