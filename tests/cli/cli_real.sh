@@ -18,6 +18,8 @@ holds "each height is the one in the file: $(<"$logs/differ")" test ! -s "$logs/
 
 [[ -d $data ]] || finish
 printf '0 0\n' >q.xyz
+printf '0 0 1\n' >ray.xyz
+printf '0 0 9 0 0 -1\n' >probe.xyz
 survives() { # survives COMMAND...: 0 or 3, and messages as they should be
     run "$@"
     checks=$((checks + 1))
@@ -31,6 +33,13 @@ for file in "$data"/*/*; do
     survives check "$file"
     survives locate --any "$file" q.xyz
     survives triangulate -q "$file" -o mesh.off
+    for kind in surface star; do
+        survives info --as $kind "$file"
+        survives check --as $kind "$file"
+    done
+    survives star "$file" ray.xyz
+    survives probe --any --weld "$file" probe.xyz
+    survives probe --any --certain "$file" probe.xyz
     count=$((count + 1))
 done
 holds "there are files" test "$count" -gt 0
