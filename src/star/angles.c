@@ -1,6 +1,8 @@
 /* angles.c - longitude and polar angle of directions and vertices, and the seam [thesis App. F, sec. 4]. */
 #include "star/star.h"
 
+#define HALF_TURN 3.14159265358979323846
+
 /* Eq. 3; its arc cosine as an arc tangent, which keeps more digits near the poles. A zero counts as +0: so there is one
  * longitude on the seam, pi, and one of a pole, 0. */
 void mw__star_angles(const double d[3], double *phi, double *theta)
@@ -16,11 +18,15 @@ static mw_point angles_of(const mw_star *star, uint32_t vertex)
 }
 
 /* Longitude grows eastward and the polar angle southward, so a facet that is counter-clockwise as seen from outside is
- * clockwise in their plane. One that is not lies across the seam or holds a pole; or rounding has made it flat there, and
- * the orthogonal walk could not pass it either. */
+ * clockwise in their plane. One that is not lies across the seam or holds a pole; or it is so thin there that arcs and their
+ * chords differ, and the orthogonal walk could not pass it either. Departure from the thesis: a facet across the seam may be
+ * clockwise, too, where its vertex on the far side lies farther north, or south, than both others. So the longitudes tell,
+ * too: they are less than a half turn apart in each facet else. */
 static bool is_seam(const mw_star *star, const mw_triangle *t)
 {
-    return !(mw__orient2d(angles_of(star, t->v[0]), angles_of(star, t->v[1]), angles_of(star, t->v[2])) < 0);
+    mw_point a = angles_of(star, t->v[0]), b = angles_of(star, t->v[1]), c = angles_of(star, t->v[2]);
+    double span = fmax(a.x, fmax(b.x, c.x)) - fmin(a.x, fmin(b.x, c.x));
+    return !(mw__orient2d(a, b, c) < 0) || span > HALF_TURN;
 }
 
 void mw__star_fill_angles(mw_star *star)

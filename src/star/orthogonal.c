@@ -6,8 +6,8 @@
  *        |   \ | / s           entry edge, past the end of the leg? If not, on which side of the line is it? To its left:
  *              \|/             leave over rs; else over sl. The facet where that ends is not tested: the ray is there or
  *               r              near, and the stochastic walk ends the search.
- * The walk does not know that longitudes -pi and pi are one. It ends, too, in a facet of the seam: one that is no
- * triangle with the right orientation in the plane, because it lies across longitude pi or holds a pole.
+ * The walk does not know that longitudes -pi and pi are one. It ends, too, in a facet of the seam: one that lies across
+ * longitude pi or holds a pole, and any other that is no triangle with the right orientation in the plane.
  * a is the centroid. The printed case, q to the north-east of a (or the south-east, as one draws it), and the three others
  * are the same code in turned coordinates: along the heading, and to its left. Left stays left, so l and r are the ends of
  * the entry edge in the order in which the facet has them.
