@@ -1,0 +1,218 @@
+/* test_probe_threads.c - probes in threads: batches, races, cursors of their own, and a surface that moves between queries;
+ * the same answers, and (under ThreadSanitizer) no data race. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "touch_oracle.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+enum { QUERIES = 10000, FEW = 300, THREADS = 4 };
+
+typedef struct world {
+    shape s;
+    mw_surface *surface;
+    mw_prober *prober;
+    double *query;
+} world;
+
+static int make_world(void **state)
+{
+    static world w;
+    uint64_t random = 40;
+    w.s = shape_join(ball_shape(6, 64, 0.3, &random), torus_shape(20, 12, 8), 70);
+    w.surface = shape_surface(&w.s, (mw_surface_options){.shared = 1});
+    mw_prober_options options = {.boxes = 1};
+    assert_int_equal(mw_prober_create(w.surface, &options, &w.prober, NULL), MW_OK);
+    w.query = shape_queries(&w.s, QUERIES, &random);
+    w.query[6 * 100] = NAN;
+    *state = &w;
+    return 0;
+}
+
+static int destroy_world(void **state)
+{
+    world *w = *state;
+    mw_prober_destroy(w->prober);
+    mw_surface_destroy(w->surface);
+    shape_free(&w->s);
+    free(w->query);
+    return 0;
+}
+
+static mw_touch *probe_batch(const world *w, mw_probe_options options, mw_probe_counters *counters)
+{
+    mw_touch *touch = calloc(QUERIES, sizeof *touch);
+    assert_non_null(touch);
+    assert_int_equal(mw_probe_batch(w->prober, w->query, QUERIES, 0, &options, touch, counters, NULL), MW_OK);
+    return touch;
+}
+
+/* Answers and counters do not depend on the threads, in any mode and from any start. */
+static void test_batches(void **state)
+{
+    const world *w = *state;
+    for (int start = 0; start < 2 * MW_PROBE_START_COUNT; start++) {
+        mw_probe_options options = {.start = (mw_probe_start)(start % MW_PROBE_START_COUNT),
+                                    .certain = start >= MW_PROBE_START_COUNT,
+                                    .max_distance = 100,
+                                    .seed = 5,
+                                    .count = 1,
+                                    .threads = 1};
+        mw_probe_counters one, many;
+        mw_touch *expected = probe_batch(w, options, &one);
+        assert_int_equal(one.queries, QUERIES);
+        assert_true(one.hits > QUERIES / 4);
+        assert_int_equal(expected[100].state, MW_TOUCH_BAD);
+        for (uint32_t threads = 0; threads <= THREADS; threads++) {
+            options.threads = threads;
+            mw_touch *touch = probe_batch(w, options, &many);
+            assert_memory_equal(touch, expected, QUERIES * sizeof *touch);
+            assert_memory_equal(&many, &one, sizeof one);
+            free(touch);
+        }
+        options.count = 0;
+        mw_touch *uncounted = probe_batch(w, options, &many);
+        assert_memory_equal(uncounted, expected, QUERIES * sizeof *expected);
+        assert_int_equal(many.queries + many.triangles, 0);
+        free(uncounted);
+        free(expected);
+    }
+}
+
+/* A query of a batch that knows nothing of the one before is answered as one alone. */
+static void test_batch_as_single(void **state)
+{
+    const world *w = *state;
+    mw_probe_options options = {.start = MW_PROBE_SAMPLE};
+    mw_touch *touch = probe_batch(w, options, NULL), *wide = calloc(FEW, sizeof *wide);
+    double *spread = calloc(FEW, 8 * sizeof *spread);
+    for (size_t i = 0; i < FEW; i++) memcpy(spread + 8 * i, w->query + 6 * i, 6 * sizeof *spread);
+    assert_int_equal(mw_probe_batch(w->prober, spread, FEW, 8, &options, wide, NULL, NULL), MW_OK);
+    assert_memory_equal(wide, touch, FEW * sizeof *wide);
+    free(wide);
+    free(spread);
+    free(touch);
+}
+
+/* What a race finds is a touch; it finds where one walk after the other does; in certain mode the answer is the same. */
+static void test_race(void **state)
+{
+    const world *w = *state;
+    size_t hits = 0;
+    mw_probe_cursor serial, race, certain, sure;
+    mw_probe_options options = {.start = MW_PROBE_SAMPLE, .iterations = 12, .max_distance = 200, .count = 1};
+    assert_int_equal(mw_probe_cursor_init(&serial, w->prober, &options, NULL), MW_OK);
+    options.race = THREADS;
+    assert_int_equal(mw_probe_cursor_init(&race, w->prober, &options, NULL), MW_OK);
+    options.certain = 1;
+    assert_int_equal(mw_probe_cursor_init(&sure, w->prober, &options, NULL), MW_OK);
+    options.race = 0;
+    assert_int_equal(mw_probe_cursor_init(&certain, w->prober, &options, NULL), MW_OK);
+    for (size_t i = 0; i < FEW; i++) {
+        const double *q = w->query + 6 * i;
+        mw_touch a = mw_probe(w->prober, &serial, q, q + 3), b = mw_probe(w->prober, &race, q, q + 3);
+        mw_touch c = mw_probe(w->prober, &certain, q, q + 3), d = mw_probe(w->prober, &sure, q, q + 3);
+        assert_memory_equal(&c, &d, sizeof c);
+        assert_int_equal(a.state, b.state);
+        if (b.state != MW_TOUCH_HIT) continue;
+        sights o = sights_make(&w->s, q);
+        assert_true(o.touched[b.triangle]);
+        assert_true(sights_in_reach(&o, b.triangle, 200));
+        assert_int_equal(b.triangle, sights_lowest_linked(&o, w->surface, b.triangle));
+        sights_free(&o);
+        hits++;
+    }
+    assert_true(hits > FEW / 4);
+    assert_int_equal(race.counters.queries, FEW);
+    assert_int_equal(race.counters.hits, hits);
+    assert_true(race.counters.iterations >= FEW);
+    assert_true(race.counters.iterations_max <= 12);
+    assert_true(race.counters.triangles >= hits);
+}
+
+static void test_race_in_batch(void **state)
+{
+    const world *w = *state;
+    mw_touch touch[FEW];
+    mw_probe_counters counters;
+    mw_probe_options options = {.race = 3, .threads = THREADS, .count = 1};
+    assert_int_equal(mw_probe_batch(w->prober, w->query, FEW, 6, &options, touch, &counters, NULL), MW_OK);
+    assert_int_equal(counters.queries, FEW);
+    size_t hits = 0;
+    for (size_t i = 0; i < FEW; i++) hits += touch[i].state == MW_TOUCH_HIT;
+    assert_int_equal(counters.hits, hits);
+    assert_true(hits > FEW / 4);
+}
+
+/* --- a surface that moves between queries -------------------------------------------------------------------------- */
+
+typedef struct job {
+    const world *world;
+    uint32_t number;
+    const _Atomic int *stop;
+    size_t hits;
+} job;
+
+/* Probes from the outside to the middle of the ball, until told to stop. Wherever it has moved, they touch. */
+static void *probing(void *argument)
+{
+    job *j = argument;
+    mw_probe_options options = {
+        .certain = j->number % 2, .race = j->number == 2 ? 2 : 0, .iterations = 10000, .seed = j->number};
+    mw_probe_cursor cursor;
+    if (mw_probe_cursor_init(&cursor, j->world->prober, &options, NULL)) return "no cursor";
+    uint64_t random = j->number;
+    do {
+        double q[3], m[3];
+        for (int k = 0; k < 3; k++) {
+            m[k] = random_unit(&random) - 0.5;
+            q[k] = -200 * m[k];
+        }
+        mw_touch touch = mw_probe(j->world->prober, &cursor, q, m);
+        if (touch.state != MW_TOUCH_HIT) return "a probe of the middle touches nothing";
+        j->hits++;
+    } while (!atomic_load(j->stop) || j->hits < 200);
+    return NULL;
+}
+
+static void test_moving(void **state)
+{
+    world *w = *state;
+    _Atomic int stop = 0;
+    pthread_t thread[THREADS];
+    job jobs[THREADS];
+    for (uint32_t i = 0; i < THREADS; i++) {
+        jobs[i] = (job){w, i, &stop, 0};
+        assert_int_equal(pthread_create(&thread[i], NULL, probing, &jobs[i]), 0);
+    }
+    for (int frame = 0; frame < 60; frame++) {
+        double scale = frame % 2 ? 0.5 : 2;
+        mw_surface_begin_update(w->surface);
+        double *points = mw_surface_points(w->surface);
+        for (uint32_t i = 0; i < 3 * w->s.point_count; i++) points[i] *= scale;
+        mw_prober_update(w->prober, -1, 1);
+        mw_surface_end_update(w->surface);
+    }
+    atomic_store(&stop, 1);
+    const char *wrong = NULL;
+    for (uint32_t i = 0; i < THREADS; i++) {
+        void *result;
+        assert_int_equal(pthread_join(thread[i], &result), 0);
+        if (result) wrong = result;
+    }
+    if (wrong) fail_msg("%s", wrong);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_batches),       cmocka_unit_test(test_batch_as_single), cmocka_unit_test(test_race),
+        cmocka_unit_test(test_race_in_batch), cmocka_unit_test(test_moving),
+    };
+    return cmocka_run_group_tests(tests, make_world, destroy_world);
+}
