@@ -1,6 +1,8 @@
 /* kernel.c - does a centre lie in the kernel of a closed surface [thesis App. F, sec. 1]? */
 #include "star/kernel.h"
 
+#include "mesh/place.h"
+
 #include <stdlib.h>
 
 /* What is known of each facet on the way. */
@@ -19,13 +21,6 @@ static const double *corner(const mw_star *star, const mw_triangle *t, uint32_t 
     return mw__surface_point(star->surface, t->v[k]);
 }
 
-bool mw__star_is_void(const mw_surface *surface, const mw_triangle *t)
-{
-    uint32_t v[3];
-    for (int k = 0; k < 3; k++) v[k] = surface->place ? surface->place[t->v[k]] : t->v[k];
-    return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
-}
-
 static bool add(mw_survey *s, mw_defect_kind kind, uint32_t t, uint32_t other, uint32_t edge)
 {
     mw_defect defect = mw__defect(kind, t);
@@ -36,9 +31,17 @@ static bool add(mw_survey *s, mw_defect_kind kind, uint32_t t, uint32_t other, u
 
 /* --- facet by facet ----------------------------------------------------------------------------------------------- */
 
+/* A facet that is linked to nothing is void only if two of its corners are at one place; else its edges are open. */
+static bool vanishes(const mw_star *star, const mw_triangle *t)
+{
+    const uint32_t *place = star->surface->place;
+    uint32_t a = mw__place_of(place, t->v[0]), b = mw__place_of(place, t->v[1]), c = mw__place_of(place, t->v[2]);
+    return a == b || b == c || c == a;
+}
+
 static uint8_t face(const mw_star *star, const mw_triangle *t)
 {
-    if (mw__star_is_void(star->surface, t)) return VOID;
+    if (vanishes(star, t)) return VOID;
     double side = mw__orient3d(corner(star, t, 0), corner(star, t, 1), corner(star, t, 2), star->centre);
     return side < 0   ? FRONT
            : side > 0 ? BACK
@@ -48,7 +51,7 @@ static uint8_t face(const mw_star *star, const mw_triangle *t)
 static bool look_at_facets(mw_survey *s)
 {
     mw_star *star = s->star;
-    star->flat_count = star->area_count = 0;
+    star->area_count = 0;
     for (uint32_t i = 0; i < star->tri_count; i++) {
         const mw_triangle *t = &star->tri[i];
         for (uint32_t k = 0; k < 3; k++)
@@ -58,7 +61,6 @@ static bool look_at_facets(mw_survey *s)
                 break;
             }
         s->faces[i] = face(star, t);
-        star->flat_count += s->faces[i] == LEVEL;
         star->area_count += s->faces[i] == FRONT || s->faces[i] == BACK;
         if (s->faces[i] == LEVEL && !mw__collinear3(corner(star, t, 0), corner(star, t, 1), corner(star, t, 2)) &&
             !add(s, MW_DEFECT_THROUGH_CENTRE, i, MW_NONE, 3))
@@ -160,7 +162,6 @@ static void turn_facet(mw_triangle *t)
     t->v[2] = v;
     t->link[0] = t->link[2];
     t->link[2] = link;
-    t->user |= MW_FLIPPED;
 }
 
 /* Exchanging vertices 1 and 2 of a facet exchanges its edges 0 and 2, here and in the links of its neighbours. */

@@ -16,7 +16,4 @@
  * of memory. */
 bool mw__star_kernel(mw_star *star, mw_defects *defects);
 
-/* Two corners are one place in a welded surface: the facet is not linked. */
-bool mw__star_is_void(const mw_surface *surface, const mw_triangle *t);
-
 #endif

@@ -1,6 +1,7 @@
 /* star.c - preparing a surface for rays from a centre. */
+#include "mesh/place.h"
+#include "star/flat.h"
 #include "star/kernel.h"
-#include "star/tie.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,40 @@ static mw_status refuse(const mw_defects *defects, mw_error *error)
     return mw__fail_at(error, d->triangle, d->vertex == MW_NONE ? -1 : (int64_t)d->vertex, "%s", text);
 }
 
+/* Where facets have no area, vertices may be at one place. */
+static bool find_places(mw_star *star)
+{
+    star->place = star->surface->place;
+    if (star->place) return true;
+    free(star->own_place);
+    star->place = star->own_place = mw__places_create(star->surface->point, star->point_count);
+    return star->place != NULL;
+}
+
+static void fill_owners(mw_star *star)
+{
+    for (uint32_t v = 0; v < star->point_count; v++) star->owner[v] = MW_NONE;
+    for (uint32_t t = 0; t < star->tri_count; t++)
+        for (uint32_t k = 0; k < 3 && !mw__star_is_void(&star->tri[t]); k++) {
+            uint32_t *owner = &star->owner[mw__place_of(star->place, star->tri[t].v[k])];
+            uint32_t user = star->tri[t].user & MW_USER_MASK;
+            if (user < *owner) *owner = user;
+        }
+    for (uint32_t v = 0; v < star->point_count; v++) star->owner[v] = star->owner[mw__place_of(star->place, v)];
+}
+
+/* Void facets are linked to nothing: where a walk begins in one, it begins in another. */
+static void replace_voids(mw_star *star, uint32_t any)
+{
+    for (uint32_t t = 0; t < star->tri_count; t++) {
+        const mw_triangle *facet = &star->tri[t];
+        if (!mw__star_is_void(facet)) continue;
+        uint32_t near = star->owner[facet->v[0]];
+        if (near == MW_NONE) near = star->owner[facet->v[1]];
+        star->tri[t] = star->tri[near == MW_NONE ? any : near];
+    }
+}
+
 static double measure_reach(const mw_star *star)
 {
     double reach = 0;
@@ -23,30 +58,37 @@ static double measure_reach(const mw_star *star)
     return reach;
 }
 
-/* From a facet with an area: the lowest owner of a vertex has one. */
-static uint32_t find_front(const mw_star *star)
+/* Some facet with an area. */
+static uint32_t find_any(const mw_star *star)
 {
-    static const double front[3] = {1, 0, 0};
     uint32_t v = 0;
     while (star->owner[v] == MW_NONE) v++;
-    return mw__star_facet(star, front, star->owner[v]);
+    return star->owner[v];
 }
 
 /* Decide, and fill in all that depends on coordinates and links. */
 static mw_status prepare(mw_star *star, mw_error *error)
 {
+    static const double front[3] = {1, 0, 0};
     mw_defects defects = {0};
     star->ready = false;
+    star->place = star->surface->place;
     memcpy(star->tri, star->surface->tri, star->tri_count * sizeof *star->tri);
     mw_status status = mw__star_kernel(star, &defects) ? MW_OK : mw__fail_memory(error);
     if (status == MW_OK && defects.count) status = refuse(&defects, error);
     mw__defects_release(&defects);
     if (status == MW_OK && star->area_count == 0)
         status = mw__fail(error, MW_ERROR_INPUT, "the polyhedron has no facet with an area");
-    if (status == MW_OK && !mw__star_fill_owners(star)) status = mw__fail_memory(error);
     if (status) return status;
+    if (star->area_count < star->tri_count) {
+        if (!find_places(star)) return mw__fail_memory(error);
+        mw__star_remove_flats(star);
+    }
+    fill_owners(star);
+    uint32_t any = find_any(star);
+    replace_voids(star, any);
     star->reach = measure_reach(star);
-    star->front = find_front(star);
+    star->front = mw__star_facet(star, front, any);
     if (star->angle) mw__star_fill_angles(star);
     star->version = star->surface->version;
     star->ready = true;
@@ -92,20 +134,19 @@ void mw_star_destroy(mw_star *star)
 {
     if (!star) return;
     free(star->tri);
+    free(star->own_place);
     free(star->owner);
-    free(star->group);
-    free(star->flat);
     free(star->angle);
     free(star);
 }
 
 void mw_star_describe(const mw_star *star, mw_star_info *info)
 {
+    size_t places = star->own_place ? star->point_count * sizeof *star->own_place : 0;
     size_t angles = star->angle ? star->point_count * 2 * sizeof *star->angle : 0;
-    size_t groups = star->group ? (star->tri_count + star->flat_count) * sizeof *star->group : 0;
     *info = (mw_star_info){
         .bytes = sizeof *star + star->tri_count * sizeof *star->tri + star->point_count * sizeof *star->owner + angles +
-                 groups,
+                 places,
         .angle_bytes = angles,
         .flat_facets = star->tri_count - star->area_count,
         .centre = {star->centre[0], star->centre[1], star->centre[2]},

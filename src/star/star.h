@@ -1,6 +1,6 @@
 /* star.h - what a star-shaped polyhedron holds, and its walks. Private.
  *
- * Facets are stored counter-clockwise as seen from outside (marked MW_FLIPPED where the user's are not), so the cone of
+ * Facets are stored counter-clockwise as seen from outside, whatever the user's orientation, so the cone of
  * a facet over the centre c has the ray through q inside where det(v[k] - c, v[k+1] - c, q - c) > 0 for its three edges.
  * `beyond` an edge: that determinant is negative. Everything planar walks ask of an edge is asked of it in the same way;
  * the great circle through an edge takes the place of its line. */
@@ -17,21 +17,25 @@
 
 struct mw_star {
     const mw_surface *surface;
-    mw_triangle *tri;
+    mw_triangle *tri;      /* `user` is the user's number; where flat facets were flipped away, several have the same */
+    const uint32_t *place; /* per vertex the lowest at its place: the surface's, or its own; NULL: no two are at one */
+    uint32_t *own_place;
     uint32_t *owner; /* per vertex the lowest facet that the ray through it meets; MW_NONE: of no facet */
-    uint32_t *group; /* where some linked facets have no area: per facet where its group of such begins in `flat`, or
-                        MW_NONE; else not looked at */
-    uint32_t *flat;  /* such facets, group by group */
     double *angle;   /* NULL, or longitude phi (-pi to pi) and polar angle theta (0 to pi) of each vertex */
     double centre[3];
     double reach; /* the largest difference of a coordinate from the centre's, about */
     uint32_t tri_count, point_count;
-    uint32_t flat_count; /* facets in `flat`                                                     */
-    uint32_t area_count; /* facets with an area                                                  */
-    uint32_t front;      /* the facet at phi = 0, theta = pi/2: never a flat one */
+    uint32_t area_count; /* facets of the user's with an area */
+    uint32_t front;      /* the facet at phi = 0, theta = pi/2 */
     uint64_t version;    /* of the surface that all this holds for */
     bool ready;          /* it is star-shaped, as far as known */
 };
+
+/* A facet that is linked to nothing, because two of its corners are at one place, counts for nothing. */
+static MW_INLINE bool mw__star_is_void(const mw_triangle *facet)
+{
+    return (facet->link[0] & facet->link[1] & facet->link[2]) == MW_NONE;
+}
 
 typedef enum mw_star_verdict {
     MW_STAR_GO,    /* crossed into another facet                                      */

@@ -14,13 +14,18 @@
  * Why it ends, and rightly. Let p be at angle 0 on the circle, q at an angle below pi. The arc leaves each facet farther on
  * than it came in, or at the same place where it rests at a vertex, and there the walk turns one way. So no facet comes
  * twice after the turn. Beyond the exit edge are the angles from the exit y to y + pi; q comes after the place where the
- * arc came in and before pi <= y + pi, so where q is not beyond the edge it lies in the facet. Facets without area change
- * nothing: their edges lie on one circle, q is strictly on one side of it when the walk comes in, and so beyond the edge
- * where it leaves. */
-#include "star/tie.h"
+ * arc came in and before pi <= y + pi, so where q is not beyond the edge it lies in the facet. */
 #include "star/walk.h"
 
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
+
+/* On one line with c: do a and b lie on the same side of it? Along a line coordinates grow or fall together. */
+static bool same_way(const double c[3], const double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (a[k] != c[k] && b[k] != c[k]) return (a[k] > c[k]) == (b[k] > c[k]);
+    return false;
+}
 
 /* > 0: s lies to the left of the arc from p to q. det(p - c, q - c, s - c) = det(s - c, p - c, q - c). */
 static MW_INLINE double side(mw_star_walk *w, const double s[3], mw_star_policy P)
@@ -40,7 +45,7 @@ static mw_star_verdict aim(mw_star_walk *w, mw_star_policy P)
 {
     uint32_t k = 0;
     while (k < 2 && mw__collinear3(w->c, star_corner(w, k), w->q)) {
-        if (mw__same_ray(w->c, star_corner(w, k), w->q)) return MW_STAR_FOUND;
+        if (same_way(w->c, star_corner(w, k), w->q)) return MW_STAR_FOUND;
         k++;
     }
     w->p = w->tri[w->t].v[k];

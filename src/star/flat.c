@@ -1,0 +1,113 @@
+/* flat.c - facets without area are flipped away.
+ *
+ * Where two vertices are at one place, the two facets at the edge between them go as if it was shrunk to a point, and their
+ * neighbours are linked; they are void then. Why it ends: each of that takes two facets away. A facet without area is flipped at its longest edge. If the facet across has an area, both have one
+ * afterwards. If it has none, and a longer edge, that one is flipped first; edges grow along the way, so it comes to an end. If
+ * both have the same longest edge, both have shorter ones afterwards, between vertices of the same line. */
+#include "star/flat.h"
+
+static const double *corner(const mw_star *star, uint32_t t, uint32_t k)
+{
+    return mw__surface_point(star->surface, star->tri[t].v[k]);
+}
+
+static bool is_flat(const mw_star *star, uint32_t t)
+{
+    return mw__collinear3(corner(star, t, 0), corner(star, t, 1), corner(star, t, 2));
+}
+
+/* Of a flat facet, whose corners are three places: the edge off the middle one. On a line that is not perpendicular to an
+ * axis different points have different coordinates. */
+static uint32_t longest_edge(const mw_star *star, uint32_t t)
+{
+    int axis = 0;
+    while (axis < 2 && corner(star, t, 0)[axis] == corner(star, t, 1)[axis]) axis++;
+    uint32_t middle = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        double x = corner(star, t, k)[axis], y = corner(star, t, mw__next(k))[axis],
+               z = corner(star, t, mw__prev(k))[axis];
+        if ((y < x && x < z) || (z < x && x < y)) middle = k;
+    }
+    return mw__next(middle);
+}
+
+static void join(mw_star *star, uint32_t t, uint32_t edge, uint32_t link)
+{
+    star->tri[t].link[edge] = link;
+    star->tri[mw__link_triangle(link)].link[mw__link_edge(link)] = mw__link(t, edge);
+}
+
+static void set_corners(mw_triangle *t, uint32_t a, uint32_t b, uint32_t c)
+{
+    t->v[0] = t->v[3] = a;
+    t->v[1] = b;
+    t->v[2] = c;
+}
+
+/* Facet f = b a v, with edge ba, becomes v b x; that across, g = a b x, becomes a v x. */
+static void flip(mw_star *star, uint32_t f, uint32_t edge)
+{
+    mw_triangle *flat = &star->tri[f];
+    uint32_t link = flat->link[edge], g = mw__link_triangle(link), across = mw__link_edge(link);
+    mw_triangle *whole = &star->tri[g];
+    uint32_t b = flat->v[edge], a = flat->v[edge + 1], v = flat->v[mw__prev(edge)], x = whole->v[mw__prev(across)];
+    uint32_t av = flat->link[mw__next(edge)], vb = flat->link[mw__prev(edge)];
+    uint32_t bx = whole->link[mw__next(across)], xa = whole->link[mw__prev(across)];
+    set_corners(whole, a, v, x);
+    set_corners(flat, v, b, x);
+    flat->user = whole->user;
+    join(star, g, 0, av);
+    join(star, g, 2, xa);
+    join(star, f, 0, vb);
+    join(star, f, 1, bx);
+    join(star, f, 2, mw__link(g, 1));
+}
+
+/* Facet t is no more: what it lies between, beside edge `edge`, is linked. */
+static void take_out(mw_star *star, uint32_t t, uint32_t edge)
+{
+    mw_triangle *facet = &star->tri[t];
+    uint32_t next = facet->link[mw__next(edge)], prev = facet->link[mw__prev(edge)];
+    join(star, mw__link_triangle(next), mw__link_edge(next), prev);
+    for (int k = 0; k < 3; k++) facet->link[k] = MW_NONE;
+}
+
+/* An edge whose ends are at one place, or MW_STAR_NO_EDGE. */
+static uint32_t short_edge(const mw_star *star, uint32_t t)
+{
+    uint32_t k = 0;
+    while (k < 3 && star->place[star->tri[t].v[k]] != star->place[star->tri[t].v[k + 1]]) k++;
+    return k;
+}
+
+static void shrink(mw_star *star, uint32_t t, uint32_t edge)
+{
+    uint32_t link = star->tri[t].link[edge];
+    take_out(star, t, edge);
+    take_out(star, mw__link_triangle(link), mw__link_edge(link));
+}
+
+/* Take facet f away, and what has to go before it. */
+static void remove_flat(mw_star *star, uint32_t f)
+{
+    for (uint32_t t = f; !mw__star_is_void(&star->tri[f]) && is_flat(star, f);) {
+        if (mw__star_is_void(&star->tri[t]) || !is_flat(star, t)) t = f;
+        uint32_t small = short_edge(star, t);
+        if (small != MW_STAR_NO_EDGE) {
+            shrink(star, t, small);
+            continue;
+        }
+        uint32_t edge = longest_edge(star, t), link = star->tri[t].link[edge], other = mw__link_triangle(link);
+        if (is_flat(star, other) &&
+            (short_edge(star, other) != MW_STAR_NO_EDGE || longest_edge(star, other) != mw__link_edge(link)))
+            t = other;
+        else
+            flip(star, t, edge);
+    }
+}
+
+void mw__star_remove_flats(mw_star *star)
+{
+    for (uint32_t t = 0; t < star->tri_count; t++)
+        if (!mw__star_is_void(&star->tri[t])) remove_flat(star, t);
+}

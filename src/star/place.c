@@ -1,0 +1,87 @@
+/* place.c - the answer about a ray in a facet that it meets. */
+#include "star/place.h"
+
+static const double *corner(const mw_star *star, const mw_triangle *facet, uint32_t k)
+{
+    return mw__surface_point(star->surface, facet->v[k]);
+}
+
+/* Rounded determinants are off by less than their bound; where that is not little, exact ones are, by 2^-50 of themselves. */
+void mw__star_areas(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+{
+    const double *c = star->centre;
+    double sum = 0, off = 0;
+    bool sure = true;
+    for (uint32_t k = 0; k < 3; k++) {
+        double bound;
+        area[k] =
+            mw__orient3d_rounded(corner(star, facet, mw__next(k)), corner(star, facet, mw__prev(k)), q, c, &bound);
+        sure = sure && fabs(area[k]) > bound;
+        sum += area[k];
+        off += bound;
+    }
+    if (MW_LIKELY(sure && off < 0x1p-42 * fabs(sum))) return;
+    for (uint32_t k = 0; k < 3; k++)
+        area[k] = mw__orient3d_exact(corner(star, facet, mw__next(k)), corner(star, facet, mw__prev(k)), q, c);
+}
+
+/* Beyond the range of doubles: the determinants of facet and ray made about 1 each. What was exactly 0 stays so. */
+static void rescale(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+{
+    const double *c = star->centre;
+    double v[4][3], large = 0, most[2] = {0, 0}; /* of the facet, of the ray */
+    for (int k = 0; k < 3; k++) large = fmax(large, fmax(fmax(fabs(c[k]), fabs(q[k])), star->reach));
+    double half = large > 0x1p1000 ? 0.5 : 1; /* differences do not overflow */
+    for (uint32_t i = 0; i < 4; i++) {
+        const double *p = i < 3 ? corner(star, facet, i) : q;
+        for (int k = 0; k < 3; k++) {
+            v[i][k] = half * p[k] - half * c[k];
+            most[i == 3] = fmax(most[i == 3], fabs(v[i][k]));
+        }
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        int exponent;
+        frexp(most[i == 3], &exponent);
+        for (int k = 0; k < 3; k++) v[i][k] = ldexp(v[i][k], -exponent);
+    }
+    for (uint32_t k = 0; k < 3; k++) {
+        const double *a = v[mw__next(k)], *b = v[mw__prev(k)], *d = v[3];
+        double det = d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
+                     d[2] * (a[0] * b[1] - a[1] * b[0]);
+        if (area[k] != 0) area[k] = fmax(fabs(det), DBL_MIN);
+    }
+}
+
+mw_location mw__star_place(const mw_star *star, uint32_t number, const double q[3], double area[3])
+{
+    double sum = area[0] + area[1] + area[2];
+    if (MW_UNLIKELY(!(fabs(sum) > 0x1p-900 && fabs(sum) < 0x1p900))) {
+        rescale(star, &star->surface->tri[number], q, area);
+        sum = area[0] + area[1] + area[2];
+    }
+    mw_location location = {.triangle = number, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
+    uint32_t zeros = 0, on = 0, at = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        location.weight[k] = area[k] == 0 ? 0 : area[k] / sum; /* never -0 */
+        if (area[k] != 0) {
+            at = k;
+        } else {
+            zeros++;
+            on = mw__next(k); /* the edge opposite to vertex k */
+        }
+    }
+    if (zeros == 1) {
+        location.where = MW_ON_EDGE;
+        location.local = (uint8_t)on;
+    } else if (zeros == 2) {
+        location.where = MW_ON_VERTEX;
+        location.local = (uint8_t)at;
+    }
+    return location;
+}
+
+mw_location mw__star_nowhere(void)
+{
+    return (mw_location){
+        .weight = {NAN, NAN, NAN}, .triangle = MW_NONE, .hole = MW_NONE, .where = MW_BAD, .local = 255};
+}
