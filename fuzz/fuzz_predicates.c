@@ -1,13 +1,13 @@
 /* The predicates against GMP on any bytes. The first byte says how to read the rest: as doubles, or as small integers
  * times a power of two, each moved by some units in the last place, which are often degenerate. */
-#include "predicates/predicates.h"
+#include "predicates/line.h"
 
-#include "../tests/predicate_oracle.h"
+#include "../tests/line_oracle.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define COORDINATES 12
+#define COORDINATES LINE_COORDINATES
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -46,6 +46,23 @@ static void compare(oracle *truth, long exponent, double filtered, double exact)
     require(oracle_agrees(truth, exponent, exact));
 }
 
+static mw_line line_at(const double *p)
+{
+    return (mw_line){{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
+}
+
+static void check_hits(line_oracle *truth, const double p[COORDINATES])
+{
+    mw_line line = line_at(p);
+    mw_corners s = {p + 6, p + 9, p + 12}, t = {p + 15, p + 18, p + 21};
+    line_oracle_load(truth, p);
+    if (!line_oracle_ready(truth)) return;
+    require(mw__compare_hits(&line, s, t) == line_oracle_compare_hits(truth));
+    require(mw__compare_hit_to(&line, s, fabs(p[24])) == line_oracle_compare_hit_to(truth));
+    double distance = mw__hit_distance(&line, s);
+    require((distance > 0) - (distance < 0) == mpz_sgn(truth->n[0]) * mpz_sgn(truth->m[0]));
+}
+
 static void check(oracle *truth, const double p[COORDINATES])
 {
     mw_point a = at(p, 0), b = at(p, 1), c = at(p, 2), d = at(p, 3), e = at(p, 4);
@@ -54,6 +71,8 @@ static void check(oracle *truth, const double p[COORDINATES])
     compare(truth, oracle_incircle(truth, p), mw__incircle(a, b, c, d), mw__incircle_exact(a, b, c, d));
     compare(truth, oracle_orient3d(truth, p), mw__orient3d(p, p + 3, p + 6, p + 9),
             mw__orient3d_exact(p, p + 3, p + 6, p + 9));
+    mw_line line = line_at(p);
+    compare(truth, oracle_side(truth, p), mw__side(&line, p + 6, p + 9), mw__side_exact(&line, p + 6, p + 9));
     require(mw__compare_distance(a, b, c, d, e) == oracle_compare_distance(truth, p));
     require(mw__compare_distance_to(a, b, c, p[6]) == oracle_compare_distance_to(truth, p));
 }
@@ -65,7 +84,10 @@ static void check_not_finite(const double p[COORDINATES])
     bool plane = isfinite(a.x) && isfinite(a.y) && isfinite(b.x) && isfinite(b.y) && isfinite(c.x) && isfinite(c.y);
     double orientation = mw__orient2d(a, b, c), dot = mw__dot2d(a, b, c);
     require(plane || (orientation == 0 && dot == 0));
-    require(mw__orient3d(p, p + 3, p + 6, p + 9) == 0);
+    mw_line line = line_at(p);
+    bool space = true;
+    for (int i = 0; i < 12; i++) space = space && isfinite(p[i]);
+    require(space || (mw__orient3d(p, p + 3, p + 6, p + 9) == 0 && mw__side(&line, p + 6, p + 9) == 0));
     require((plane && isfinite(d.x) && isfinite(d.y)) || mw__incircle(a, b, c, d) == 0);
     require(abs(mw__compare_distance(a, b, c, d, e)) <= 1);
     require(abs(mw__compare_distance_to(a, b, c, p[6])) <= 1);
@@ -74,9 +96,13 @@ static void check_not_finite(const double p[COORDINATES])
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static oracle truth;
+    static line_oracle line_truth;
     static bool ready;
     double p[COORDINATES] = {0};
-    if (!ready) oracle_init(&truth);
+    if (!ready) {
+        oracle_init(&truth);
+        line_oracle_init(&line_truth);
+    }
     ready = true;
     if (size < 2) return 0;
     if (data[0] % 2 == 0)
@@ -85,9 +111,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         read_integers(p, data + 2, size - 2, 8 * (int8_t)data[1]);
     bool finite = true;
     for (int i = 0; i < COORDINATES; i++) finite = finite && isfinite(p[i]);
-    if (finite)
+    if (finite) {
         check(&truth, p);
-    else
+        check_hits(&line_truth, p);
+    } else {
         check_not_finite(p);
+    }
     return 0;
 }

@@ -73,13 +73,14 @@ static void test_known_sides(void **unused)
     assert_true(mw__facing(line.m, a, b, c) < 0); /* counter-clockwise from above, where the line comes from */
     const double bad[3] = {0, NAN, 1}, far[3] = {INFINITY, 0, 0};
     assert_true(mw__side(&line, a, bad) == 0 && mw__side(&line, bad, b) == 0 && mw__side(&line, a, far) == 0);
+    assert_true(mw__facing(line.m, bad, b, c) == 0 && mw__facing(line.m, a, far, c) == 0);
 }
 
 static void test_sides(void **unused)
 {
     (void)unused;
     long zeros = 0;
-    for (long i = case_count(400000); i > 0; i--) {
+    for (long i = case_count(200000); i > 0; i--) {
         double p[12];
         generate(p, 12, 3);
         if (below(4) == 0) rescale(p + 3, 3);
@@ -87,7 +88,7 @@ static void test_sides(void **unused)
         zeros += mpz_sgn(truth.result) == 0;
     }
     fprintf(stderr, "%ld zeros\n", zeros);
-    assert_true(zeros > 10000);
+    assert_true(zeros > 5000);
 }
 
 /* The bound of the filter holds for every side, and the worst case comes near enough to tell if it were too small. */
@@ -157,7 +158,7 @@ static void test_comparisons(void **unused)
     (void)unused;
     double p[LINE_COORDINATES];
     long ties = 0, reached = 0;
-    for (long i = case_count(150000); i > 0; i--) {
+    for (long i = case_count(80000); i > 0; i--) {
         generate_hits(p);
         line_oracle_load(&line_truth, p);
         if (!line_oracle_ready(&line_truth)) continue;
@@ -174,7 +175,7 @@ static void test_comparisons(void **unused)
         reached += to == 0;
     }
     fprintf(stderr, "%ld ties, %ld in reach to the bit\n", ties, reached);
-    assert_true(ties > 10000 && reached > 2000);
+    assert_true(ties > 10000 && reached > 3000);
 }
 
 /* r = z * 2^exponent */
@@ -220,7 +221,7 @@ static void test_distances(void **unused)
     (void)unused;
     double p[LINE_COORDINATES];
     long infinite = 0, small = 0, zeros = 0;
-    for (long i = case_count(100000); i > 0; i--) {
+    for (long i = case_count(40000); i > 0; i--) {
         generate_hits(p);
         line_oracle_load(&line_truth, p);
         if (!line_oracle_ready(&line_truth)) continue;
@@ -229,12 +230,12 @@ static void test_distances(void **unused)
         corners_at(p + 6, s);
         double distance = mw__hit_distance(&line, s);
         if (!distance_agrees(distance)) fail_case("hit_distance", p, 15, distance);
-        infinite += isinf(distance);
+        infinite += isinf(distance) != 0;
         small += fabs(distance) < DBL_MIN;
-        zeros += distance == 0;
+        zeros += distance == 0 && !signbit(distance);
     }
     fprintf(stderr, "%ld infinite, %ld small, %ld zero\n", infinite, small, zeros);
-    assert_true(infinite > 20 && small > zeros && zeros > 1000);
+    assert_true(infinite > 10 && small > zeros && zeros > 1000);
 }
 
 /* The sides of the first triangle as p has it: their signs, and whether the line meets it. */
@@ -296,7 +297,7 @@ static void test_weights(void **unused)
     mpz_t side[3];
     mpz_inits(side[0], side[1], side[2], NULL);
     long exponent[3], met = 0, zeros = 0;
-    for (long i = case_count(150000); i > 0; i--) {
+    for (long i = case_count(80000); i > 0; i--) {
         double p[15], told[3];
         generate(p, 15, 3);
         if (below(4) == 0) rescale(p + 3, 3);
@@ -510,7 +511,7 @@ static void test_touches(void **unused)
 {
     (void)unused;
     long touched = 0, lowered = 0, by_flat = 0, backs = 0;
-    for (long i = case_count(12000); i > 0; i--) {
+    for (long i = case_count(5000); i > 0; i--) {
         lattice l;
         generate_surface(&l);
         for (int j = 0; j < 8; j++) {
@@ -534,7 +535,7 @@ static void test_touches(void **unused)
     }
     fprintf(stderr, "%ld touched, %ld with a lower one, %ld of them behind flat triangles; %ld from behind\n", touched,
             lowered, by_flat, backs);
-    assert_true(touched > 50000 && lowered > 10000 && by_flat > 500 && backs > 50000);
+    assert_true(touched > 50000 && lowered > 7000 && by_flat > 500 && backs > 50000);
 }
 
 /* A fan of more triangles than anything that is remembered: from each, the first is found. */
@@ -561,6 +562,28 @@ static void test_large_fan(void **unused)
         assert_int_equal(mw__touches(surface, &line, t), whole);
         if (whole) assert_int_equal(mw__lowest_touched(surface, &line, t), 0);
     }
+    mw_surface_destroy(surface);
+}
+
+/* Triangles that a weld joined are neighbours still when their vertices move apart, but no longer at one place. */
+static void test_parted_weld(void **unused)
+{
+    (void)unused;
+    const double points[] = {2, 0, 0, 0, 0, 0, 1, -2, 0, 0, 0, 0, 2, 0, 0, 1, 2, 0};
+    const uint32_t triangles[] = {0, 1, 2, 3, 4, 5};
+    mw_arrays arrays = {.points = points, .point_count = 6, .triangles = triangles, .triangle_count = 2};
+    mw_surface_options options = {.weld = 1};
+    mw_surface *surface;
+    assert_int_equal(mw_surface_create(&arrays, &options, &surface, NULL), MW_OK);
+    mw_line edge = {{1, 0, 5}, {0, 0, -1}}, vertex = {{0, 0, 5}, {0, 0, -1}};
+    assert_int_equal(mw__lowest_touched(surface, &edge, 1), 0);
+    assert_int_equal(mw__lowest_touched(surface, &vertex, 1), 0);
+    mw_surface_begin_update(surface);
+    for (int i = 0; i < 3; i++) mw_surface_points(surface)[3 * i + 2] = 1;
+    mw_surface_end_update(surface);
+    assert_true(mw__touches(surface, &edge, 0) && mw__touches(surface, &edge, 1));
+    assert_int_equal(mw__lowest_touched(surface, &edge, 1), 1);
+    assert_int_equal(mw__lowest_touched(surface, &vertex, 1), 1);
     mw_surface_destroy(surface);
 }
 
@@ -594,7 +617,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_sides), cmocka_unit_test(test_sides),     cmocka_unit_test(test_bound),
         cmocka_unit_test(test_comparisons), cmocka_unit_test(test_distances), cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_touches),     cmocka_unit_test(test_large_fan), cmocka_unit_test(test_no_touch),
+        cmocka_unit_test(test_touches),     cmocka_unit_test(test_large_fan), cmocka_unit_test(test_parted_weld),
+        cmocka_unit_test(test_no_touch),
     };
     return cmocka_run_group_tests_name("line", tests, set_up, tear_down);
 }

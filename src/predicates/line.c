@@ -79,10 +79,14 @@ static int big_side(mw_big *r, const mw_line *line, const double a[3], const dou
 
 double mw__side_exact(const mw_line *line, const double a[3], const double b[3])
 {
-    bool within = mw__within(line->q, 3, LOW, HIGH) && mw__within(line->m, 3, LOW, HIGH) &&
-                  mw__within(a, 3, LOW, HIGH) && mw__within(b, 3, LOW, HIGH);
+    const double *const all[4] = {line->q, line->m, a, b};
+    bool within = true, finite = true;
+    for (int i = 0; i < 4; i++) {
+        within = within && mw__within(all[i], 3, LOW, HIGH);
+        finite = finite && mw__all_finite(all[i], 3);
+    }
     if (MW_LIKELY(within)) return side_with_expansions(line, a, b);
-    if (!mw__all_finite(a, 3) || !mw__all_finite(b, 3)) return 0;
+    if (!finite) return 0;
     mw_big side;
     int exponent = big_side(&side, line, a, b);
     return mw__big_double(&side, exponent);
@@ -246,11 +250,12 @@ int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d)
  * less than 2^-43 together. */
 #define FINE 0x1p-45
 
-/* x * 2^exponent, not 0 unless x is: the nearest double, or the least. */
+/* x * 2^exponent, not 0 unless x is, and then without a sign. */
 static double scaled(double x, int exponent)
 {
+    if (x == 0) return 0;
     double value = ldexp(x, exponent);
-    return value == 0 && x != 0 ? copysign(DBL_TRUE_MIN, x) : value;
+    return value == 0 ? copysign(DBL_TRUE_MIN, x) : value;
 }
 
 /* |m| = fraction * 2^*exponent, rounded. */

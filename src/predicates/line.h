@@ -11,7 +11,7 @@ typedef struct mw_line {
     double q[3], m[3]; /* all finite, m not zero */
 } mw_line;
 
-/* The exact stage of mw__side. */
+/* The exact stage of mw__side: 0 with a coordinate that is not finite. */
 double mw__side_exact(const mw_line *line, const double a[3], const double b[3]);
 
 /* Bound for m . ((a - q) x (b - q)) in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as in orient3d; m
@@ -63,8 +63,8 @@ int mw__compare_hits(const mw_line *line, const mw_corners s, const mw_corners t
 /* The same against the length d >= 0, which may be infinite. */
 int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d);
 
-/* How far from q, along m: in units of length, negative behind q. Off by less than 2^-40 of itself; 0 only where it is 0,
- * infinite beyond the largest double. */
+/* How far from q, along m: in units of length, negative behind q. Off by less than 2^-40 of itself; 0 only where it is 0:
+ * below the normal doubles it has its sign at least, and beyond the largest double it is infinite. */
 double mw__hit_distance(const mw_line *line, const mw_corners s);
 
 /* Magnitudes of the three sides, each opposite to its corner, up to a common factor: exactly 0 where they are 0, off by
