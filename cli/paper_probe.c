@@ -344,7 +344,7 @@ int paper_surfaces(paper *p, const size_t *sizes)
         for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++) {
             mw_error error;
             polyhedron made;
-            const char *name = polyhedron_name(kinds[k]);
+            const char *name = polyhedron_name((int)kinds[k]);
             progress_phase("making the surface", name);
             if (polyhedron_make(&made, kinds[k], sizes[i], p->settings->common.seed, &error) != MW_OK)
                 return fail_mesh(name, &error);

@@ -261,7 +261,7 @@ int paper_stars(paper *p, const size_t *sizes)
         mw_error error;
         polyhedron made;
         polyhedron_kind kind = polyhedron_is_icosahedron(sizes[i]) ? POLYHEDRON_ICOSAHEDRON : POLYHEDRON_STAR;
-        const char *name = polyhedron_name(kind);
+        const char *name = polyhedron_name((int)kind);
         progress_phase("making the polyhedron", name);
         if (polyhedron_make(&made, kind, sizes[i], p->settings->common.seed, &error) != MW_OK)
             return fail_mesh(name, &error);
