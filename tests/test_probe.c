@@ -354,6 +354,44 @@ static void test_certain(void **state)
     }
 }
 
+/* In certain mode the walk from the last triangle is a short one. */
+static void test_seed_is_short(void **state)
+{
+    (void)state;
+    uint64_t random = 29;
+    world w = world_of("long patch", patch_shape(60, 3, &random), (mw_surface_options){0});
+    const double far[6] = {238, 239, 20, 0, 0, -1}, past[6] = {250, 250, 20, 0, 0, -1};
+    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.certain = 1, .count = 1});
+    cursor.last = 0;
+    mw_touch touch = ask(&w, &cursor, far);
+    assert_int_equal(touch.state, MW_TOUCH_HIT);
+    assert_int_equal(cursor.counters.triangles, 64);
+    cursor.last = 0;
+    assert_int_equal(ask(&w, &cursor, past).state, MW_TOUCH_NONE);
+    assert_int_equal(cursor.counters.triangles, 128);
+    world_free(&w);
+}
+
+/* The nearest of a sample is a better first triangle than any. */
+static void test_sample_helps(void **state)
+{
+    (void)state;
+    uint64_t random = 30;
+    world w = world_of("large ball", ball_shape(20, 1000, 0.1, &random), (mw_surface_options){0});
+    uint64_t visited[2];
+    for (int i = 0; i < 2; i++) {
+        mw_probe_cursor cursor =
+            cursor_of(&w, (mw_probe_options){.start = i ? MW_PROBE_RANDOM : MW_PROBE_SAMPLE, .count = 1});
+        for (uint32_t v = 0; v < w.s.point_count; v++) {
+            const double *p = w.s.points + 3 * (size_t)v, q[6] = {p[0], p[1], p[2], 0.5 - p[0], 0.25 - p[1], -p[2]};
+            assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_HIT);
+        }
+        visited[i] = cursor.counters.triangles;
+    }
+    assert_true(3 * visited[0] < 2 * visited[1]);
+    world_free(&w);
+}
+
 /* The triangle touched before is the first of the next walk, if it faces the probe. */
 static void test_coherence(void **state)
 {
@@ -375,7 +413,8 @@ static void test_coherence(void **state)
     assert_int_equal(cursor.counters.hits, 3);
 }
 
-/* The path is what the counters count: no walk visits a triangle twice, its triangles are linked; on any surface. */
+/* The path is what the counters count: no walk visits a triangle twice, its triangles are linked, and it passes by none that
+ * is touched; on any surface. */
 static void test_path(void **state)
 {
     (void)state;
@@ -399,7 +438,11 @@ static void test_path(void **state)
             if (touch.state == MW_TOUCH_BAD) continue;
             assert_true(cursor.counters.iterations >= 1);
             uint32_t first = 0;
+            sights o = sights_make(&w->s, q);
             for (uint32_t k = 0; k < length; k++) {
+                int last = touch.state == MW_TOUCH_HIT && k + 1 == length;
+                int touched = o.touched[path[k]] && sights_in_reach(&o, path[k], options.max_distance);
+                assert_int_equal(touched, last);
                 assert_true(walk[k] < cursor.counters.iterations);
                 int begins = k == 0 || walk[k] != walk[k - 1];
                 if (begins) first = path[k];
@@ -413,6 +456,7 @@ static void test_path(void **state)
                 assert_true(linked || to_first);
                 turned += !linked;
             }
+            sights_free(&o);
             uint32_t two[2] = {MW_NONE, MW_NONE};
             other = cursor_of(w, options);
             assert_int_equal(mw_probe_path(w->prober, &other, q, q + 3, two, NULL, 1, NULL), length);
@@ -488,6 +532,11 @@ static void test_degenerate_planes(void **state)
         }
         sights_free(&o);
     }
+    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.iterations = 1, .max_distance = 1e-9, .count = 1});
+    const double middle[6] = {2, 2, 2, -1, -1, -1};
+    cursor.last = 2; /* its middle (1, 1, 1) lies on the line and spans no plane with it */
+    assert_int_equal(ask(&w, &cursor, middle).state, MW_TOUCH_LIMIT);
+    assert_true(cursor.counters.triangles > 1);
     world_free(&w);
 }
 
@@ -619,6 +668,8 @@ int main(void)
         cmocka_unit_test(test_through_the_centre),
         cmocka_unit_test(test_finds_in_the_end),
         cmocka_unit_test(test_certain),
+        cmocka_unit_test(test_seed_is_short),
+        cmocka_unit_test(test_sample_helps),
         cmocka_unit_test(test_coherence),
         cmocka_unit_test(test_path),
         cmocka_unit_test(test_border),

@@ -77,7 +77,8 @@ typedef struct mw_touch {
 
 typedef enum mw_probe_start {
     MW_PROBE_AUTO = 0, /* as LAST                                                                                    */
-    MW_PROBE_LAST,     /* the triangle touched last by this cursor, if any; else, and in further iterations, SAMPLE  */
+    MW_PROBE_LAST,     /* the triangle touched last by this cursor, if any, and if m points at its front; else, and in
+                          further iterations, SAMPLE                                                               */
     MW_PROBE_SAMPLE,   /* the nearest of k random triangles whose fronts m points at [thesis App. G, Alg. 1]         */
     MW_PROBE_RANDOM,   /* a random triangle whose front m points at                                                  */
     MW_PROBE_START_COUNT
@@ -138,9 +139,10 @@ MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, 
                                 const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
                                 mw_error *error);
 
-/* The triangles that the walks of a probe visit, in order; each walk's first triangle has its number in *iteration (may be
- * NULL, else of `capacity`). One query by the cursor, whose answer goes to *touch (may be NULL). Writes at most `capacity`
- * and returns how many there were. */
+/* The triangles that the walks of a probe visit, in order; iteration[i] (may be NULL, else of `capacity`) is the number of the
+ * walk, from 0, that triangles[i] is of. Within a walk each triangle is linked to the one before it; where a border made the
+ * walk go back, to the walk's first. One query by the cursor, without a race, whose answer goes to *touch (may be NULL). Writes
+ * at most `capacity` and returns how many there were. */
 MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                             const double motion[3], uint32_t *triangles, uint32_t *iteration, size_t capacity,
                             mw_touch *touch);

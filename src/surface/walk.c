@@ -78,6 +78,8 @@ static MW_INLINE bool is_touched(mw_slice *w, mw_slice_policy P)
 static MW_INLINE mw_course enter(mw_slice *w, uint32_t link, mw_slice_policy P)
 {
     if (MW_UNLIKELY(link == MW_NONE || mw__link_triangle(link) == w->first)) return MW_COURSE_END;
+    if (MW_UNLIKELY(w->fuel == 0)) return MW_COURSE_END;
+    w->fuel--;
     w->t = mw__link_triangle(link);
     w->e = mw__link_edge(link);
     if (P.count) w->work->triangles++;
@@ -163,8 +165,6 @@ static MW_INLINE mw_course follow(mw_slice *w, mw_slice_policy P)
 static MW_INLINE mw_course step(mw_slice *w, mw_slice_policy P)
 {
     if (P.raced && atomic_load_explicit(w->found, memory_order_relaxed) != MW_NONE) return MW_COURSE_END;
-    if (w->fuel == 0) return MW_COURSE_END;
-    w->fuel--;
     return MW_LIKELY(w->e != MW_SLICE_FIRST) ? follow(w, P) : aim(w, P);
 }
 
@@ -181,7 +181,7 @@ mw_slice mw__slice_begin(const mw_search *search, uint32_t t, const _Atomic uint
                       .first = t,
                       .t = t,
                       .e = MW_SLICE_FIRST,
-                      .fuel = search->steps,
+                      .fuel = search->steps - 1,
                       .found = found,
                       .work = work};
 }

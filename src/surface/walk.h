@@ -19,7 +19,7 @@ typedef struct mw_search {
     bool nearest;        /* of the samples that m points at, the nearest; or the first one                    */
     uint32_t iterations; /* walks at most                                                                     */
     uint32_t race;       /* of them at a time                                                                 */
-    uint32_t steps;      /* triangles of one walk at most; the number of all of them does not limit it        */
+    uint32_t steps;      /* triangles of one walk at most, > 0; the number of all of them does not limit it   */
     uint64_t random;     /* walk number i has its random numbers from this and i, whatever thread it runs in  */
     bool count;
 } mw_search;
@@ -50,7 +50,7 @@ typedef struct mw_slice {
     uint32_t back;  /* the edge of the first triangle that the plane crosses and the walk did not        */
     int side;       /* of the line against rl: the walk has it ahead (1) or behind (-1), or meets it (0) */
     bool turned;    /* went back to the first triangle, and on over its edge `back`                      */
-    uint32_t fuel;  /* steps left                                                                        */
+    uint32_t fuel;  /* triangles that may still be entered                                               */
     const _Atomic uint32_t *found; /* of a race: another walk's triangle, or MW_NONE                      */
     mw_probe_counters *work;       /* of counting kernels                                                 */
 } mw_slice;
