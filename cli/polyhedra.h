@@ -14,7 +14,7 @@ typedef enum polyhedron_kind {
     POLYHEDRON_STAR,  /* the hull of points uniform on the unit sphere, each then moved in or out by a random factor
                                from 0.8 to 1.2: star-shaped about the origin */
     POLYHEDRON_BUMPS, /* the same hull, its points moved by a sum of waves: star-shaped, too, and smooth */
-    POLYHEDRON_KNOT,  /* a tube round a trefoil knot, a grid of its length and its girth */
+    POLYHEDRON_KNOT, /* a tube round a trefoil knot, a grid of its length and girth; below 40 vertices it meets itself */
     POLYHEDRON_KINDS
 } polyhedron_kind;
 
