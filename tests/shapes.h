@@ -1,5 +1,5 @@
-/* shapes.h - small surfaces for tests, on a lattice so that lines run through their vertices and along their edges, and lines to
- * ask them. */
+/* shapes.h - small surfaces for tests, on a lattice so that lines run through their vertices and along their edges,
+ * and lines to ask them. */
 #ifndef MW_TEST_SHAPES_H
 #define MW_TEST_SHAPES_H
 
@@ -76,8 +76,8 @@ static inline void shape_weld(shape *s)
     free(to);
 }
 
-/* A closed surface round the origin, star-shaped from there: an octahedron of 8 n^2 triangles whose vertices are pushed to
- * lattice points about `radius` from the origin, off by a share of it. */
+/* A closed surface round the origin, star-shaped from there: an octahedron of 8 n^2 triangles whose vertices are
+ * pushed to lattice points about `radius` from the origin, off by a share of it. */
 static inline shape ball_shape(uint32_t n, double radius, double share, uint64_t *random)
 {
     shape s = shape_make(4 * (n + 1) * (n + 2), 8 * n * n);
@@ -97,7 +97,7 @@ static inline shape ball_shape(uint32_t n, double radius, double share, uint64_t
     return s;
 }
 
-/* n x m quadrangles, each of two triangles; x and y closed or not, as a sheet with heights or bent to a torus. */
+/* A torus of n x m quadrangles, each of two triangles, on lattice points. */
 static inline shape torus_shape(uint32_t n, uint32_t m, double scale)
 {
     shape s = shape_make(n * m, 2 * n * m);
@@ -223,9 +223,9 @@ static inline mw_surface *shape_surface(const shape *s, mw_surface_options optio
     return surface;
 }
 
-/* Lines that find fault: query (point, then motion) by query, through a vertex, the middle of an edge or of a triangle, or
- * anywhere; along an axis, to another vertex, or anywhere; the point on the surface or away from it. Without rounding, on
- * lattices that are not too wide. */
+/* Lines that find fault: query (point, then motion) by query, through a vertex, the middle of an edge or of a
+ * triangle, or anywhere; along an axis, to another vertex, or anywhere; the point on the surface or away from it.
+ * Without rounding, on lattices that are not too wide. */
 static inline double *shape_queries(const shape *s, size_t n, uint64_t *random)
 {
     double *queries = malloc(6 * n * sizeof *queries);

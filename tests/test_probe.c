@@ -9,7 +9,7 @@
 
 #include <float.h>
 
-/* --- surfaces ------------------------------------------------------------------------------------------------------ */
+/* --- surfaces ----------------------------------------------------------------------------------------------------- */
 
 typedef struct world {
     const char *name;
@@ -96,7 +96,7 @@ static mw_touch ask(const world *w, mw_probe_cursor *cursor, const double query[
     return mw_probe(w->prober, cursor, query, query + 3);
 }
 
-/* --- what is right ------------------------------------------------------------------------------------------------- */
+/* --- what is right ------------------------------------------------------------------------------------------------ */
 
 static void check_fields(const sights *o, const mw_touch *touch)
 {
@@ -128,7 +128,7 @@ static void check_touch(const world *w, const sights *o, const mw_touch *touch, 
     check_fields(o, touch);
 }
 
-/* --- tests --------------------------------------------------------------------------------------------------------- */
+/* --- tests -------------------------------------------------------------------------------------------------------- */
 
 static void test_names(void **state)
 {
@@ -413,8 +413,8 @@ static void test_coherence(void **state)
     assert_int_equal(cursor.counters.hits, 3);
 }
 
-/* The path is what the counters count: no walk visits a triangle twice, its triangles are linked, and it passes by none that
- * is touched; on any surface. */
+/* The path is what the counters count: no walk visits a triangle twice, its triangles are linked, and it passes by
+ * none that is touched; on any surface. */
 static void test_path(void **state)
 {
     (void)state;
@@ -472,12 +472,13 @@ static void test_path(void **state)
     }
 }
 
-/* An iteration that starts near one border finds what lies beyond the first triangle, on the way to the other border. */
+/* An iteration that starts near one border finds what lies beyond the first triangle, on the way to the other
+ * border. */
 static void test_border(void **state)
 {
     (void)state;
-    /* A strip of quadrangles bent upwards at its ends, and a line through its last one: from any triangle that faces the line
-     * the walk must find it, to whatever side it sets out first. */
+    /* A strip of quadrangles bent upwards at its ends, and a line through its last one: from any triangle that faces
+     * the line the walk must find it, to whatever side it sets out first. */
     enum { N = 12 };
     shape s = shape_make(2 * N + 2, 2 * N);
     for (int i = 0; i <= N; i++) {

@@ -1,5 +1,5 @@
-/* test_probe_threads.c - probes in threads: batches, races, cursors of their own, and a surface that moves between queries;
- * the same answers, and (under ThreadSanitizer) no data race. */
+/* test_probe_threads.c - probes in threads: batches, races, cursors of their own, and a surface that moves between
+ * queries; the same answers, and (under ThreadSanitizer) no data race. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -99,7 +99,8 @@ static void test_batch_as_single(void **state)
     free(touch);
 }
 
-/* What a race finds is a touch; it finds where one walk after the other does; in certain mode the answer is the same. */
+/* What a race finds is a touch; it finds where one walk after the other does; in certain mode the answer is the
+ * same. */
 static void test_race(void **state)
 {
     const world *w = *state;
@@ -149,7 +150,7 @@ static void test_race_in_batch(void **state)
     assert_true(hits > FEW / 4);
 }
 
-/* --- a surface that moves between queries -------------------------------------------------------------------------- */
+/* --- a surface that moves between queries ------------------------------------------------------------------------- */
 
 typedef struct job {
     const world *world;

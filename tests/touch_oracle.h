@@ -182,7 +182,8 @@ static inline int edge_holds(const sights *o, uint32_t i, uint32_t k, uint32_t m
     return holds;
 }
 
-/* Of the triangles that are linked to triangle i, which is touched, over edges that hold the place: the lowest touched. */
+/* Of the triangles that are linked to triangle i, which is touched, over edges that hold the place: the lowest
+ * touched. */
 static inline uint32_t sights_lowest_linked(const sights *o, const mw_surface *surface, uint32_t i)
 {
     uint32_t lowest = i, depth = 0, *stack = calloc(3 * (size_t)o->count + 1, sizeof *stack);

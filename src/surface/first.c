@@ -1,7 +1,7 @@
-/* first.c - the first triangle of a walk [thesis App. G, Alg. 1]: the nearest to q of k random triangles whose fronts m
- * points at. Nearness is that of one vertex and is rounded: a farther first triangle costs steps, never the answer.
- * Departure from the printed pseudocode: where m points at none of the k, at most 8 k more are looked at, not as many as it
- * takes; there may be none. */
+/* first.c - the first triangle of a walk [thesis App. G, Alg. 1]: the nearest to q of k random triangles whose
+ * fronts m points at. Nearness is that of one vertex and is rounded: a farther first triangle costs steps, never the
+ * answer. Departure from the printed pseudocode: where m points at none of the k, at most 8 k more are looked at,
+ * not as many as it takes; there may be none. */
 #include "base/random.h"
 #include "surface/walk.h"
 

@@ -1,5 +1,5 @@
-/* probe.c - one probe [thesis App. G]: published mode, what walks find; certain mode, what the boxes say, with what a short
- * walk from the triangle touched last finds as a first bound. */
+/* probe.c - one probe [thesis App. G]: published mode, what walks find; certain mode, what the boxes say, with what
+ * a short walk from the triangle touched last finds as a first bound. */
 #include "base/random.h"
 #include "surface/walk.h"
 
@@ -58,8 +58,8 @@ static void count(mw_probe_counters *sum, mw_probe_counters *work, bool hit)
 
 /* --- the cursor --------------------------------------------------------------------------------------------------- */
 
-/* k of Alg. 1, but no more than there are triangles: a query must end soon. The roots are rounded down, which gives all the
- * k that the thesis tells. */
+/* k of Alg. 1, but no more than there are triangles: a query must end soon. The roots are rounded down, which gives
+ * all the k that the thesis tells. */
 static uint32_t sample_count(const mw_surface *surface, uint32_t samples)
 {
     if (samples == 0) samples = 2 * (uint32_t)cbrt(surface->point_count);

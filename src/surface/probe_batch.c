@@ -1,7 +1,7 @@
 /* probe_batch.c - many probes: chunks for the threads.
  *
- * Chunks have a fixed size, a chunk knows nothing of the one before it, and the random numbers of a probe come from its own
- * number: so answers and counters do not depend on the threads. Where walks race, the threads are theirs. */
+ * Chunks have a fixed size, a chunk knows nothing of the one before it, and the random numbers of a probe come from
+ * its own number: so answers and counters do not depend on the threads. Where walks race, the threads are theirs. */
 #include "base/random.h"
 #include "surface/walk.h"
 
@@ -32,7 +32,8 @@ static mw_probe_counters answer(const batch *b, size_t first)
     return cursor.counters;
 }
 
-/* Threads for `chunks` chunks: as many as asked for, or as OpenMP gives, but none without work; one where walks race. */
+/* Threads for `chunks` chunks: as many as asked for, or as OpenMP gives, but none without work; one where walks
+ * race. */
 static int choose_threads(const mw_probe_options *options, int64_t chunks)
 {
 #ifdef _OPENMP

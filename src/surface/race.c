@@ -1,8 +1,9 @@
-/* race.c - walks from different first triangles, until one finds [thesis App. G, Alg. 2]: one after the other, or several at
- * a time in threads, the first to find stops the others.
+/* race.c - walks from different first triangles, until one finds [thesis App. G, Alg. 2]: one after the other, or
+ * several at a time in threads, the first to find stops the others.
  *
- * Walk number i is the same wherever it runs. So one after the other they find the same triangle each time; in a race that
- * depends on which walk is the first. Without OpenMP, and where it gives one thread only, they run one after the other. */
+ * Walk number i is the same wherever it runs. So one after the other they find the same triangle each time; in a
+ * race that depends on which walk is the first. Without OpenMP, and where it gives one thread only, they run one
+ * after the other. */
 #include "base/random.h"
 #include "surface/walk.h"
 

@@ -1,32 +1,33 @@
 /* walk.c - the walk along a plane through the line [thesis App. G, Alg. 2].
  *
- *        l                 The plane holds the line and a point o of the first triangle. Seen along the line, it is another line,
- *       /|\                that passes through q. Follow it over the surface: with r and l the ends of the edge just
- *   o  / | \ s   . q       crossed, l above the plane and r not above it, and s the third vertex, the plane leaves over rs
- *   ---r-|--'---'---       where s lies above it, over sl otherwise: one test a triangle. A second test of the edge by
- *       \|/                which it leaves tells whether the line is still ahead or behind; where that changes, the
- *        '                 triangle is tested in full: does m point at its front, is it in reach?
+ *        l                 The plane holds the line and a point o of the first triangle. Seen along the line, it is
+ *       /|\                another line, that passes through q. Follow it over the surface: with r and l the ends of
+ *   o  / | \ s   . q       the edge just crossed, l above the plane and r not above it, and s the third vertex, the
+ *   ---r-|--'---'---       plane leaves over rs where s lies above it, over sl otherwise: one test a triangle. A second
+ *       \|/                test, of the edge by which it leaves, tells whether the line is ahead or behind; where that
+ *        '                 changes, the triangle is tested in full: does m point at its front, is it in reach?
  *
  * m points at the front of the first triangle, which is therefore clockwise seen along m: the plane leaves it towards
- * the line over the edge that goes up, from a vertex not above the plane to one above it, and away from the line over the edge
- * that goes down. There are one of each, or none.
- * A vertex in the plane counts as not above it: the walk follows a plane that is moved a little upwards, parallel to itself,
- * and meets no vertex. Only an edge with a vertex on the line (test 0) then passes on neither side; triangles at such edges are
- * tested in full. Nothing is decided by what a test along the way says, it only tells where to look.
+ * the line over the edge that goes up, from a vertex not above the plane to one above it, and away from the line over
+ * the edge that goes down. There are one of each, or none.
+ * A vertex in the plane counts as not above it: the walk follows a plane that is moved a little upwards, parallel to
+ * itself, and meets no vertex. Where an edge passes the line on neither side (test 0), the triangles at it are tested
+ * in full. What the tests along the way say only tells where to look; nothing is decided by it.
  * o is the middle of the first triangle, rounded. Where rounding has moved it so far that the plane does not cut the
- * triangle, or where it lies on the line and spans no plane with it, a corner is taken. One corner does, as not all edges
- * of a triangle whose front m points at lie in planes with the line.
- * Departures from the printed pseudocode: a border ends a walk. Here it goes back to the first triangle, on over the other
- * edge, and ends at the next border: so it visits all of the slice that it began in. And the mark, which changes at every
- * triangle that the line meets, is the sign of the last test: the two are the same but for tests that are 0.
+ * triangle, or where it lies on the line and spans no plane with it, a corner is taken. One corner does, as not all
+ * edges of a triangle whose front m points at lie in planes with the line.
+ * Departures from the printed pseudocode: a border ends a walk. Here it goes back to the first triangle, on over the
+ * other edge, and ends at the next border: so it visits all of the slice that it began in. And the mark, which changes
+ * at every triangle that the line meets, is the sign of the last test: the same but where tests are 0.
  *
- * Ends, on any surface, without visiting a triangle twice. Whether a vertex is above the plane does not change during a walk, so
- * every triangle has two edges with ends on different sides, or none. Links join edges in pairs, with the same ends. So
- * the triangles of the first kind, joined by links over such edges, form cycles and chains without forks. A walk
- * follows one: a cycle until it is back at its first triangle, a chain to one end and then to the other. That holds
- * for other orientations of neighbours, as l and r are told apart by their sides, not by their order; with vertices that are not
- * finite, which count as not above; and in a welded surface, where the vertices that were made one, but may have been
- * moved apart since, have the place of the lowest of them. The bound on steps is the number of triangles. */
+ * Ends, on any surface, without visiting a triangle twice. Whether a vertex is above the plane does not change during
+ * a walk, so every triangle has two edges with ends on different sides, or none. Links join edges in pairs, with the
+ * same ends. So the triangles of the first kind, joined by links over such edges, form cycles and chains without forks;
+ * the way back is as determined as the way forth. A walk follows one of them: a cycle until it is back at its first
+ * triangle, a chain to one end and then to the other. That holds for neighbours of other orientation too, as l and r
+ * are told apart by their sides, not by their order; with vertices that are not finite, which count as not above; and
+ * in a welded surface, where the vertices that were made one, but may have been moved apart since, all have the place
+ * of the lowest of them. The bound on steps is the number of triangles. */
 #include "surface/walk.h"
 
 /* How a kernel works. Always a literal where a kernel is stamped. */
@@ -113,7 +114,8 @@ static MW_INLINE mw_course leave(mw_slice *w, uint32_t e, uint32_t r, uint32_t l
 
 /* --- steps --- */
 
-/* The edge of the current triangle that goes up through the plane; MW_NONE: none. Sets `back`, the edge that goes down. */
+/* The edge of the current triangle that goes up through the plane; MW_NONE: none. Sets `back`, the edge that goes
+ * down. */
 static MW_INLINE uint32_t edge_up(mw_slice *w, mw_slice_policy P)
 {
     bool above[4];
@@ -139,7 +141,8 @@ static void set_corner(mw_slice *w, uint32_t k)
     for (int i = 0; i < 3; i++) w->o[i] = a[i];
 }
 
-/* The first triangle: the plane, and the way to the line. No plane cuts it only where welded vertices have been moved apart. */
+/* The first triangle: the plane, and the way to the line. No plane cuts it only where welded vertices have been
+ * moved apart. */
 static MW_INLINE mw_course aim(mw_slice *w, mw_slice_policy P)
 {
     set_middle(w);

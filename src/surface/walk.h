@@ -1,7 +1,7 @@
-/* walk.h - one probe: its walks over the surface, how they begin, and how they are repeated [thesis App. G]. Private.
+/* walk.h - one probe: its walks over the surface, how they begin, and how they are repeated. Private [thesis App. G].
  *
- * walk.c is the walk, first.c the choice of first triangles, race.c the repetition. A walk is a small state; a step looks
- * at one triangle, and ends there or crosses one of its edges. */
+ * walk.c is the walk, first.c the choice of first triangles, race.c the repetition. A walk is a small state; a step
+ * looks at one triangle, and ends there or crosses one of its edges. */
 #ifndef MW_SRC_SURFACE_WALK_H
 #define MW_SRC_SURFACE_WALK_H
 
