@@ -66,23 +66,31 @@ static void try_edge(candidate *best, const mw_corners corner, const frame *f, c
     try_weights(best, corner, q, weight[0], weight[1], weight[2]);
 }
 
-/* The foot of the perpendicular, where it lies inside. With the longest edge as the first axis, and what is perpendicular to it
- * of another edge as the second: then a thin triangle costs no more digits than it must. */
+/* Take off v its part along u; how many times u that is. */
+static double take_off(double v[3], const double u[3], double square_of_u)
+{
+    double times = dot(v, u) / square_of_u;
+    for (int k = 0; k < 3; k++) v[k] -= times * u[k];
+    return times;
+}
+
+/* The foot of the perpendicular, where it lies inside. The axes are the longest edge, and what is perpendicular to it of another
+ * one; that is found in two rounds, for in a thin triangle next to nothing is left of the other edge, and that would be
+ * perpendicular in its first digits only. So the foot is off by a few roundings of coordinates, however thin. */
 static void try_face(candidate *best, const mw_corners corner, const frame *f, const double q[3])
 {
-    double edge[3][3], square[3], to[3];
+    double edge[3][3], square[3], up[3], to[3], weight[3];
     for (int k = 0; k < 3; k++) {
         subtract(edge[k], f->a[(k + 1) % 3], f->a[k]);
         square[k] = dot(edge[k], edge[k]);
     }
     int i = square[0] >= square[1] ? square[0] >= square[2] ? 0 : 2 : square[1] >= square[2] ? 1 : 2;
-    const double *u = edge[i];
-    double v[3], weight[3];
-    subtract(v, f->a[(i + 2) % 3], f->a[i]);
+    subtract(up, f->a[(i + 2) % 3], f->a[i]);
     subtract(to, f->q, f->a[i]);
-    double slope = dot(v, u) / square[i];
-    for (int k = 0; k < 3; k++) v[k] -= slope * u[k];
-    double height = dot(to, v) / dot(v, v), along = dot(to, u) / square[i] - slope * height;
+    double slope = take_off(up, edge[i], square[i]);
+    slope += take_off(up, edge[i], square[i]);
+    double along = take_off(to, edge[i], square[i]), height = dot(to, up) / dot(up, up);
+    along -= slope * height;
     if (!(height > 0 && along > 0 && height + along < 1)) return;
     weight[i] = 1 - along - height;
     weight[(i + 1) % 3] = along;

@@ -1,0 +1,401 @@
+/* The nearest point of a surface: what the boxes find is what each triangle says when it is alone, and no point of the surface is
+ * nearer by more than rounding, by another method in longer numbers. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "shapes.h"
+#include "surface/prober.h"
+
+static uint64_t new_seed(const char *name)
+{
+    uint64_t seed = UINT64_C(19990712);
+    const char *given = getenv("MW_TEST_SEED");
+    if (given) seed = strtoull(given, NULL, 0);
+    printf("%s: seed %llu\n", name, (unsigned long long)seed);
+    return seed;
+}
+
+static mw_prober *new_prober(const mw_surface *surface)
+{
+    mw_prober *prober;
+    mw_error error;
+    expect_ok(mw_prober_create(surface, &(mw_prober_options){.boxes = 1}, &prober, &error), "prober", &error);
+    return prober;
+}
+
+static mw_surface_hit nearest(const mw_prober *prober, const double q[3], double max_distance)
+{
+    mw_surface_hit hit;
+    mw_error error;
+    expect_ok(mw_nearest_on_surface(prober, q, max_distance, &hit, &error), "nearest", &error);
+    return hit;
+}
+
+/* --- another method ----------------------------------------------------------------------------------------------- */
+
+/* At least as long as long double, mostly twice as long as double. */
+#ifdef __SIZEOF_FLOAT128__
+typedef __float128 wide;
+#else
+typedef long double wide;
+#endif
+
+static wide wide_dot(const wide a[3], const wide b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void wide_cross(wide r[3], const wide a[3], const wide b[3])
+{
+    for (int k = 0; k < 3; k++) r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* From the origin, squared. */
+static wide square_to_segment(const wide a[3], const wide b[3])
+{
+    wide ab[3], p[3];
+    for (int k = 0; k < 3; k++) ab[k] = b[k] - a[k];
+    wide square = wide_dot(ab, ab), t = square > 0 ? -wide_dot(a, ab) / square : 0;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    for (int k = 0; k < 3; k++) p[k] = a[k] + t * ab[k];
+    return wide_dot(p, p);
+}
+
+/* From q to a triangle: to its plane where q lies over it, else to its edges. */
+static long double distance_to_triangle(const double *const corner[3], const double q[3])
+{
+    wide p[3][3], u[3], v[3], n[3], c[3], least = INFINITY;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) p[i][k] = (wide)corner[i][k] - q[k];
+    for (int k = 0; k < 3; k++) {
+        u[k] = p[1][k] - p[0][k];
+        v[k] = p[2][k] - p[0][k];
+    }
+    wide_cross(n, u, v);
+    int over = 1;
+    for (int i = 0; i < 3; i++) {
+        wide_cross(c, p[i], p[(i + 1) % 3]); /* its part along n is twice the area of the foot of q and the edge */
+        if (wide_dot(c, n) < 0) over = 0;
+        wide square = square_to_segment(p[i], p[(i + 1) % 3]);
+        least = square < least ? square : least;
+    }
+    wide away = wide_dot(n, p[0]), plane = away * away / wide_dot(n, n);
+    return sqrtl((long double)(over && plane < least ? plane : least));
+}
+
+/* The least distance to a triangle that is not flat; INFINITY: there is none. */
+static long double least_distance(const mw_surface *surface, const double q[3])
+{
+    long double least = INFINITY;
+    for (uint32_t t = 0; t < surface->tri_count; t++) {
+        const double *const corner[3] = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
+                                         mw__surface_corner(surface, t, 2)};
+        if (!mw__is_finite3(corner[0]) || !mw__is_finite3(corner[1]) || !mw__is_finite3(corner[2])) continue;
+        if (!mw__collinear3(corner[0], corner[1], corner[2])) least = fminl(least, distance_to_triangle(corner, q));
+    }
+    return least;
+}
+
+/* --- checks ------------------------------------------------------------------------------------------------------- */
+
+/* A prober for each triangle. */
+typedef struct alone {
+    mw_surface **surface;
+    mw_prober **prober;
+    uint32_t count;
+} alone;
+
+static alone take_apart(const shape *s)
+{
+    alone a = {malloc(s->triangle_count * sizeof *a.surface), malloc(s->triangle_count * sizeof *a.prober),
+               s->triangle_count};
+    for (uint32_t t = 0; t < a.count; t++) {
+        shape one = shape_make(3, 1);
+        for (uint32_t i = 0; i < 3; i++) {
+            const double *p = s->points + 3 * (size_t)s->triangles[3 * (size_t)t + i];
+            shape_point(&one, p[0], p[1], p[2]);
+        }
+        shape_triangle(&one, 0, 1, 2);
+        a.surface[t] = shape_surface(&one, (mw_surface_options){.tolerant = 1});
+        a.prober[t] = new_prober(a.surface[t]);
+        shape_free(&one);
+    }
+    return a;
+}
+
+static void alone_free(alone *a)
+{
+    for (uint32_t t = 0; t < a->count; t++) {
+        mw_prober_destroy(a->prober[t]);
+        mw_surface_destroy(a->surface[t]);
+    }
+    free(a->prober);
+    free(a->surface);
+}
+
+static uint32_t ask_each(const alone *a, const double q[3], double *distance)
+{
+    uint32_t best = MW_NONE;
+    for (uint32_t t = 0; t < a->count; t++) {
+        mw_surface_hit hit = nearest(a->prober[t], q, INFINITY);
+        if (hit.triangle == MW_NONE || (best != MW_NONE && hit.distance >= *distance)) continue;
+        best = t;
+        *distance = hit.distance;
+    }
+    return best;
+}
+
+static void check_none(const mw_surface_hit *hit)
+{
+    assert_int_equal(hit->triangle, MW_NONE);
+    assert_true(isnan(hit->distance) && isnan(hit->point[0]) && isnan(hit->weight[0]));
+}
+
+/* Do the members of the answer fit together, to within `slack`? */
+static void check_hit(const mw_surface *surface, const double q[3], const mw_surface_hit *hit, double slack)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        assert_true(hit->weight[k] >= 0);
+        sum += hit->weight[k];
+        double at = 0;
+        for (uint32_t i = 0; i < 3; i++) at += hit->weight[i] * mw__surface_corner(surface, hit->triangle, i)[k];
+        assert_true(fabs(at - hit->point[k]) <= slack);
+    }
+    assert_true(fabs(sum - 1) < 1e-15);
+    long double square = 0;
+    for (int k = 0; k < 3; k++) {
+        long double away = (long double)hit->point[k] - q[k];
+        square += away * away;
+    }
+    assert_true(fabsl(sqrtl(square) - hit->distance) <= slack);
+}
+
+static double extent_of(const shape *s, const double q[3])
+{
+    double largest = 0;
+    for (uint32_t i = 0; i < 3 * s->point_count; i++)
+        if (isfinite(s->points[i])) largest = fmax(largest, fabs(s->points[i]));
+    for (int k = 0; k < 3; k++) largest = fmax(largest, fabs(q[k]));
+    return largest;
+}
+
+/* Points of all kinds against one surface: of its queries, which lie on it, beside it and off it, and with a little noise. */
+static void check_shape(const shape *s, size_t n, uint64_t *random)
+{
+    mw_surface *surface = shape_surface(s, (mw_surface_options){.tolerant = 1});
+    mw_prober *prober = new_prober(surface);
+    alone each = take_apart(s);
+    double *queries = shape_queries(s, n, random);
+    for (size_t i = 0; i < n; i++) {
+        double *q = queries + 6 * i, distance = NAN;
+        if (!mw__is_finite3(q)) continue;
+        if (i % 3 == 1)
+            for (int k = 0; k < 3; k++) q[k] += random_unit(random) - 0.5;
+        double slack = 1e-14 * extent_of(s, q);
+        uint32_t best = ask_each(&each, q, &distance);
+        mw_surface_hit hit = nearest(prober, q, INFINITY);
+        assert_int_equal(hit.triangle, best);
+        if (best == MW_NONE) {
+            check_none(&hit);
+            continue;
+        }
+        assert_true(hit.distance == distance);
+        assert_true(fabsl(hit.distance - least_distance(surface, q)) <= slack);
+        check_hit(surface, q, &hit, slack);
+        mw_surface_hit again = nearest(prober, q, distance);
+        assert_int_equal(again.triangle, best);
+        if (distance > 0) {
+            again = nearest(prober, q, nextafter(distance, 0));
+            check_none(&again);
+        }
+    }
+    free(queries);
+    alone_free(&each);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+}
+
+/* --- tests -------------------------------------------------------------------------------------------------------- */
+
+static void test_shapes(void **state)
+{
+    (void)state;
+    uint64_t random = new_seed("shapes");
+    for (int round = 0; round < 3; round++) {
+        shape shapes[4] = {ball_shape(5, 12, 0.3, &random), torus_shape(12, 10, 3), patch_shape(10, 4, &random),
+                           soup_shape(40, 120, &random)};
+        for (int i = 0; i < 4; i++) {
+            if (round == 1) shape_flatten(&shapes[i], 0.1, &random);
+            if (round == 2) shape_shuffle(&shapes[i], &random);
+            check_shape(&shapes[i], 150, &random);
+            shape_free(&shapes[i]);
+        }
+    }
+}
+
+/* Triangles whose height is down to 10^-12 of their length. */
+static void test_slivers(void **state)
+{
+    (void)state;
+    uint64_t random = new_seed("slivers");
+    for (double thin = 1; thin > 1e-13; thin /= 10) {
+        shape s = soup_shape(60, 40, &random);
+        for (uint32_t t = 0; t < s.triangle_count; t++) {
+            const uint32_t *v = s.triangles + 3 * (size_t)t;
+            double at = random_unit(&random);
+            for (uint32_t k = 0; k < 3; k++)
+                s.points[3 * v[2] + k] = s.points[3 * v[0] + k] * at + s.points[3 * v[1] + k] * (1 - at) +
+                                         thin * (random_unit(&random) - 0.5);
+        }
+        check_shape(&s, 100, &random);
+        shape_free(&s);
+    }
+}
+
+/* The same surface in other units: the same triangle, and distances that scale. */
+static void test_units(void **state)
+{
+    (void)state;
+    uint64_t random = new_seed("units");
+    static const int exponent[] = {-1070, -1040, -1000, -700, -300, -60, 60, 300, 700, 1000, 1018};
+    shape s = torus_shape(14, 10, 3);
+    mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
+    mw_prober *prober = new_prober(surface);
+    double *queries = shape_queries(&s, 60, &random);
+    for (size_t e = 0; e < sizeof exponent / sizeof *exponent; e++) {
+        shape scaled = shape_make(s.point_count, s.triangle_count);
+        for (uint32_t i = 0; i < 3 * s.point_count; i++) scaled.points[i] = ldexp(s.points[i], exponent[e]);
+        memcpy(scaled.triangles, s.triangles, 3 * sizeof *s.triangles * s.triangle_count);
+        scaled.point_count = s.point_count;
+        scaled.triangle_count = s.triangle_count;
+        mw_surface *other = shape_surface(&scaled, (mw_surface_options){0});
+        mw_prober *other_prober = new_prober(other);
+        for (size_t i = 0; i < 60; i++) {
+            double q[3];
+            for (int k = 0; k < 3; k++) {
+                queries[6 * i + (size_t)k] = floor(queries[6 * i + (size_t)k]); /* exact also in the smallest unit */
+                q[k] = ldexp(queries[6 * i + (size_t)k], exponent[e]);
+            }
+            if (!mw__is_finite3(q)) continue;
+            mw_surface_hit hit = nearest(prober, queries + 6 * i, INFINITY), there = nearest(other_prober, q, INFINITY);
+            assert_int_not_equal(there.triangle, MW_NONE);
+            /* down there lengths are whole numbers of units of the last place */
+            double unit = exponent[e] < -1000 ? ldexp(1, -1074 - exponent[e]) : 0;
+            assert_true(fabs(ldexp(there.distance, -exponent[e]) - hit.distance) <= 4 * unit + 1e-13);
+            /* beyond, lengths are rounded otherwise, and other triangles are the lowest of those equally far */
+            if (abs(exponent[e]) <= 300) assert_int_equal(there.triangle, hit.triangle);
+        }
+        mw_prober_destroy(other_prober);
+        mw_surface_destroy(other);
+        shape_free(&scaled);
+    }
+    free(queries);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+    shape_free(&s);
+}
+
+/* Strays, points far away, coordinates at the end of the range. */
+static void test_far(void **state)
+{
+    (void)state;
+    uint64_t random = new_seed("far");
+    static const double far[] = {1e10, 1e40, 1e160, 1e308};
+    for (size_t f = 0; f < sizeof far / sizeof *far; f++) {
+        shape s = torus_shape(10, 8, 3);
+        for (int i = 0; i < 3; i++) s.points[mw__random_below(&random, 3 * s.point_count)] = far[f];
+        mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
+        mw_prober *prober = new_prober(surface);
+        alone each = take_apart(&s);
+        for (int i = 0; i < 60; i++) {
+            double q[3], distance = NAN;
+            for (int k = 0; k < 3; k++) q[k] = (i % 2 ? far[f] : 20) * (2 * random_unit(&random) - 1);
+            uint32_t best = ask_each(&each, q, &distance);
+            mw_surface_hit hit = nearest(prober, q, INFINITY);
+            assert_int_equal(hit.triangle, best);
+            assert_true(hit.distance == distance);
+        }
+        alone_free(&each);
+        mw_prober_destroy(prober);
+        mw_surface_destroy(surface);
+        shape_free(&s);
+    }
+}
+
+static void test_motion(void **state)
+{
+    (void)state;
+    uint64_t random = new_seed("motion");
+    shape s = ball_shape(6, 30, 0.2, &random);
+    mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
+    mw_prober *prober = new_prober(surface);
+    double step = prober->slack_limit / 6, *points = mw_surface_points(surface);
+    for (int frame = 0; frame < 30; frame++) {
+        mw_surface_begin_update(surface);
+        for (uint32_t i = 0; i < 3 * s.point_count; i++)
+            s.points[i] = points[i] += step * (2 * random_unit(&random) - 1);
+        if (frame == 20) s.points[0] = points[0] = NAN;
+        mw_prober_update(prober, frame == 20 ? NAN : 1.75 * step, 1);
+        mw_surface_end_update(surface);
+        for (int i = 0; i < 30; i++) {
+            double q[3];
+            for (int k = 0; k < 3; k++) q[k] = 60 * random_unit(&random) - 30;
+            mw_surface_hit hit = nearest(prober, q, INFINITY);
+            assert_true(fabsl(hit.distance - least_distance(surface, q)) < 1e-12L);
+        }
+    }
+    assert_in_range(prober->fits, 3, 20);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+    shape_free(&s);
+}
+
+static void test_arguments(void **state)
+{
+    (void)state;
+    uint64_t random = new_seed("arguments");
+    shape s = patch_shape(4, 1, &random);
+    mw_surface *surface = shape_surface(&s, (mw_surface_options){.shared = 1});
+    mw_prober *prober = new_prober(surface), *bare;
+    mw_error error;
+    mw_surface_hit hit;
+    const double q[3] = {1, 2, 9}, bad[3] = {1, NAN, 2};
+    assert_int_equal(mw_prober_create(surface, NULL, &bare, &error), MW_OK);
+    assert_int_equal(mw_nearest_on_surface(bare, q, 1, &hit, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_nearest_on_surface(NULL, q, 1, &hit, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_nearest_on_surface(prober, NULL, 1, &hit, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_nearest_on_surface(prober, q, 1, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_nearest_on_surface(prober, q, -1, &hit, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_nearest_on_surface(prober, q, NAN, &hit, &error), MW_ERROR_ARGUMENT);
+    hit = nearest(prober, bad, 1);
+    check_none(&hit);
+    hit = nearest(prober, q, 1);
+    check_none(&hit);
+    hit = nearest(prober, q, 9);
+    assert_true(hit.triangle < 2);
+
+    mw_surface_begin_update(surface);
+    mw_surface_end_update(surface);
+    assert_int_equal(mw_nearest_on_surface(prober, q, 1, &hit, &error), MW_ERROR_ARGUMENT);
+    mw_surface_begin_update(surface);
+    mw_prober_update(prober, NAN, 1);
+    mw_surface_end_update(surface);
+    assert_int_equal(mw_nearest_on_surface(prober, q, 9, &hit, &error), MW_OK);
+    mw_prober_destroy(bare);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+    shape_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shapes), cmocka_unit_test(test_slivers), cmocka_unit_test(test_units),
+        cmocka_unit_test(test_far),    cmocka_unit_test(test_motion),  cmocka_unit_test(test_arguments),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
