@@ -232,7 +232,7 @@ for table in G1 G2 G3; do
         G2) least=900000 most=1000000 ;;
         G3) least=0 most=0 ;;
     esac
-    holds "so many are found" between $least "$(ours bumps 600 plane found_per_million)" $most
+    holds "so many are found" between "$least" "$(ours bumps 600 plane found_per_million)" "$most"
 done
 holds "all iterations are made in vain" test "$(ours bumps 600 plane iterations)" == 10
 run bench paper G2 --sizes 154 "${few[@]}" --threads 1; cp "$logs/out" one.tsv
