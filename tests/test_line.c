@@ -91,21 +91,22 @@ static void test_sides(void **unused)
     assert_true(zeros > 5000);
 }
 
-/* The bound of the filter holds for every side, and the worst case comes near enough to tell if it were too small. */
+/* The bound of the filter holds for every side, and the worst case comes near enough to tell if it were too small: differences
+ * just above a power of two, all of them rounded. */
 static void test_bound(void **unused)
 {
     (void)unused;
     double worst = 0;
     for (long i = case_count(200000); i > 0; i--) {
-        static const double corner[12] = {0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-        double p[12], bound, noise = ldexp(1, -(int)below(30));
-        for (int k = 0; k < 12; k++) p[k] = corner[k] + noise * uniform();
+        double p[12], bound, noise = ldexp(1, -(int)below(12));
+        for (int k = 0; k < 3; k++) p[k] = 0x1p-10 * uniform();
+        for (int k = 3; k < 12; k++) p[k] = ((double)below(3) - 1) * (1 + noise * fabs(uniform()));
         mw_line line = line_of(p);
         double side = mw__side_rounded(&line, p + 6, p + 9, &bound);
         worst = fmax(worst, error_share(side, bound, oracle_side(&truth, p)));
     }
     fprintf(stderr, "worst error: %.3f of the bound\n", worst);
-    assert_true(worst <= 1 && worst > 0.2);
+    assert_true(worst <= 1 && worst > 0.6);
 }
 
 /* --- hits --------------------------------------------------------------------------------------------------------- */
