@@ -44,6 +44,8 @@ typedef struct mw_slice {
     const mw_triangle *tri;
     const uint32_t *place;
     double o[3];    /* a point of the first triangle; it and the line span the plane                     */
+    double n[3];    /* the normal of the plane, m x (o - q), rounded                                     */
+    double sum[3];  /* of the magnitudes of its products                                                 */
     uint32_t first; /* triangle                                                                          */
     uint32_t t, e;  /* current triangle, and its edge by which it was entered; MW_SLICE_FIRST at first   */
     uint32_t r, l;  /* the ends of that edge: r not above the plane, l above it                          */
