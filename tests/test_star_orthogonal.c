@@ -117,6 +117,26 @@ static void test_seam(void **state)
     }
 }
 
+/* The middle vertex lies south of the arc between the others, but north of their chord in the plane of the angles. */
+static void test_seam_of_chords(void **state)
+{
+    static const double angles[3][2] = {{0, 0.5}, {1, 0.4}, {2, 0.5}};
+    (void)state;
+    double point[9], angle[6];
+    for (int v = 0; v < 3; v++) {
+        point[3 * v] = sin(angles[v][1]) * cos(angles[v][0]);
+        point[3 * v + 1] = sin(angles[v][1]) * sin(angles[v][0]);
+        point[3 * v + 2] = cos(angles[v][1]);
+    }
+    mw_surface surface = {.point = point, .point_count = 3};
+    for (uint32_t turned = 0; turned < 2; turned++) {
+        mw_triangle facet = {.v = {0, 1 + turned, 2 - turned, 0}};
+        mw_star star = {.surface = &surface, .tri = &facet, .angle = angle, .tri_count = 1, .point_count = 3};
+        mw__star_fill_angles(&star);
+        assert_int_equal(facet.user, turned ? 0 : MW_SEAM);
+    }
+}
+
 /* Facets of either orientation: marked alike. An update moves the seam. */
 static void test_seam_again(void **state)
 {
@@ -224,8 +244,8 @@ static void test_welded(void **state)
     release_sphere(&s);
 }
 
-/* Facets of the first leg lie across the parallel of the first one's centroid, those of the second across the meridian of q:
- * as triangles of the plane. */
+/* As triangles of the plane, facets of the first leg lie across the parallel of the first one's centroid, those of the second
+ * across the meridian of q; and a leg ends in the first facet that reaches past its end. */
 static void test_legs(void **state)
 {
     enum { ROOM = 1000 };
@@ -240,14 +260,17 @@ static void test_legs(void **state)
         mw_star_cursor cursor;
         mw_error error;
         uint32_t facet[ROOM];
-        double q[3], phi, theta, height = 0;
+        double q[3], phi, theta, height = 0, middle = 0;
         for (int k = 0; k < 3; k++) q[k] = random_unit(&random) - 0.5;
         mw__star_angles(q, &phi, &theta);
         expect_ok(mw_star_cursor_init(&cursor, s.star, &options, &error), "cursor", &error);
         size_t count = mw_star_path(s.star, &cursor, q, facet, ROOM, NULL);
         size_t walked = (size_t)cursor.counters.triangles;
         assert_true(walked >= 1 && walked <= count && count <= ROOM);
-        for (int k = 0; k < 3; k++) height += angle[2 * (size_t)s.star->tri[facet[0]].v[k] + 1] / 3;
+        for (int k = 0; k < 3; k++) {
+            middle += angle[2 * (size_t)s.star->tri[facet[0]].v[k]] / 3;
+            height += angle[2 * (size_t)s.star->tri[facet[0]].v[k] + 1] / 3;
+        }
         bool upright = false;
         for (size_t j = 0; j < walked; j++) {
             double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
@@ -258,10 +281,13 @@ static void test_legs(void **state)
                     high[c] = fmax(high[c], a);
                 }
             bool level = low[1] - 1e-9 <= height && height <= high[1] + 1e-9, plumb = low[0] <= phi && phi <= high[0];
-            turns += !upright && !level;
-            upright = upright || !level;
-            bool seam = s.star->tri[facet[j]].user & MW_SEAM;
-            if (!(upright ? plumb : level) && !(seam && j + 1 == walked))
+            bool seam = s.star->tri[facet[j]].user & MW_SEAM, last = j + 1 == walked, right = upright || level;
+            if (!upright && (phi < middle ? low[0] <= phi : high[0] >= phi)) {
+                upright = true;
+                turns++;
+            }
+            bool end = seam || (upright && (theta < height ? low[1] <= theta : high[1] >= theta));
+            if (!right || (upright && !plumb && !seam) || end != last)
                 fail_msg("%a %a %a: facet %zu of the walk is off its way", q[0], q[1], q[2], j);
         }
     }
@@ -272,9 +298,9 @@ static void test_legs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_angles),  cmocka_unit_test(test_seam),  cmocka_unit_test(test_seam_again),
-        cmocka_unit_test(test_spheres), cmocka_unit_test(test_globe), cmocka_unit_test(test_welded),
-        cmocka_unit_test(test_legs),
+        cmocka_unit_test(test_angles),     cmocka_unit_test(test_seam),    cmocka_unit_test(test_seam_of_chords),
+        cmocka_unit_test(test_seam_again), cmocka_unit_test(test_spheres), cmocka_unit_test(test_globe),
+        cmocka_unit_test(test_welded),     cmocka_unit_test(test_legs),
     };
     return cmocka_run_group_tests_name("star_orthogonal", tests, NULL, NULL);
 }

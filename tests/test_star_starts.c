@@ -345,6 +345,7 @@ static void test_where_it_begins(void **state)
     }
     assert_int_equal(few, rule); /* 2 times the fourth root of 4098 vertices, rounded up */
     assert_true(one > 2 * few && few > 2 * many);
+    path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .sample = UINT32_MAX}, (double[3]){1});
     mw_star_query_options front = {.start = MW_STAR_START_FRONT, .walk = MW_STAR_WALK_STOCHASTIC};
     assert_int_equal(path_length(s.star, front, (double[3]){1, 0, 0}), 1);
     release_sphere(&s);

@@ -36,8 +36,6 @@ void mw__star_fill_angles(mw_star *star)
         double d[3] = {p[0] - star->centre[0], p[1] - star->centre[1], p[2] - star->centre[2]};
         mw__star_angles(d, &star->angle[2 * (size_t)v], &star->angle[2 * (size_t)v + 1]);
     }
-    for (uint32_t t = 0; t < star->tri_count; t++) {
-        mw_triangle *facet = &star->tri[t];
-        facet->user = is_seam(star, facet) ? facet->user | MW_SEAM : facet->user & ~MW_SEAM;
-    }
+    for (uint32_t t = 0; t < star->tri_count; t++)
+        if (is_seam(star, &star->tri[t])) star->tri[t].user |= MW_SEAM;
 }
