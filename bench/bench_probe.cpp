@@ -1,7 +1,7 @@
-// bench_probe - which triangle a probe touches: walks over the surface and boxes, beside Embree's ray caster with a ray either
-// way. First a probe that moves along a surface that stays as it is: just above it, where it touches, then out of reach.
-// Then one above a surface that is deformed in every frame, where what is kept beside it has to follow. A control loop cares
-// for its slowest query, so each is timed by itself.
+// bench_probe - which triangle a probe touches: walks over the surface and boxes, beside Embree's ray caster with a
+// ray either way. First a probe that moves along a surface that stays as it is: just above it, where it touches,
+// then out of reach. Then one above a surface that is deformed in every frame, where what is kept beside it has to
+// follow. A control loop cares for its slowest query, so each is timed by itself.
 #include "caster.h"
 
 #include <cmath>
@@ -266,8 +266,8 @@ double mean_of_most(std::vector<double> values)
     return mean(values);
 }
 
-// Passes over a path, round by round. What the machine does beside delays other queries in each round, so a query's time is
-// its median over the rounds.
+// Passes over a path, round by round. What the machine does beside delays other queries in each round, so a query's
+// time is its median over the rounds.
 class Passes
 {
     std::vector<std::vector<double>> rounds;
@@ -386,7 +386,7 @@ struct Wave {
         for (double &n : waves) n /= scene.diagonal;
     }
     double farthest() const { return amplitude * turn * (1 + 1e-6); } // of a vertex in a frame
-    void move(const double rest[3], int frame, double moved[3]) const
+    void move(const double *rest, int frame, double *moved) const
     {
         double height = amplitude * std::sin(dot(waves, rest) - turn * frame);
         for (size_t k = 0; k < 3; k++) moved[k] = rest[k] + height * across[k];
@@ -425,25 +425,6 @@ template <class Who> Follower follower(const std::string &name, std::function<do
     return f;
 }
 
-// The frame's coordinates, in the surface; returns what the surface itself asks for that.
-double move_surface(const Scene &scene, const Wave &wave, int frame, const std::vector<mw_prober *> &probers,
-                    const std::vector<double> &moved, std::vector<double> &seconds, const Options &options)
-{
-    Stopwatch begin;
-    mw_surface_begin_update(scene.surface);
-    double own = begin.seconds();
-    double *points = mw_surface_points(scene.surface);
-    for (size_t i = 0; i < scene.model.points.size(); i += 3) wave.move(&scene.model.points[i], frame, points + i);
-    for (size_t i = 0; i < probers.size(); i++) {
-        Stopwatch watch;
-        mw_prober_update(probers[i], moved[i], options.threads);
-        seconds[i] = watch.seconds();
-    }
-    Stopwatch end;
-    mw_surface_end_update(scene.surface);
-    return own + end.seconds();
-}
-
 void print_followers(const Scene &scene, const std::vector<Follower> &followers, Table &table)
 {
     for (const Follower &f : followers) {
@@ -458,56 +439,94 @@ void print_followers(const Scene &scene, const std::vector<Follower> &followers,
     }
 }
 
+// What the frames play with. Three have boxes: told how far vertices went, not told, and the one that knows the
+// answers.
+struct Film {
+    const Scene &scene;
+    const Wave wave;
+    mw_prober *boxed[3];
+    std::vector<double> fits = std::vector<double>(3);
+    double own = 0; // seconds that the surface asks for
+    Device device;
+    Caster refit, rebuild;
+
+    Film(const Scene &s, const Options &options)
+        : scene(s), wave(s), device(options.threads), refit(device, s.model, filter_fronts, Moving::refit),
+          rebuild(device, s.model, filter_fronts, Moving::rebuild)
+    {
+        for (mw_prober *&one : boxed) one = scene.prober(true);
+    }
+    ~Film()
+    {
+        for (mw_prober *one : boxed) mw_prober_destroy(one);
+    }
+    Film(const Film &) = delete;
+    Film &operator=(const Film &) = delete;
+
+    // The frame's coordinates, everywhere. What has to be done before the next query is timed; for Embree later.
+    void show(int frame, unsigned threads)
+    {
+        Stopwatch begin;
+        mw_surface_begin_update(scene.surface);
+        own = begin.seconds();
+        double *points = mw_surface_points(scene.surface);
+        size_t count = scene.model.points.size();
+        for (size_t i = 0; i < count; i += 3) wave.move(&scene.model.points[i], frame, points + i);
+        for (size_t i = 0; i < 3; i++) {
+            Stopwatch watch;
+            mw_prober_update(boxed[i], i == 0 && frame > 0 ? wave.farthest() : -1, threads);
+            fits[i] = watch.seconds();
+        }
+        Stopwatch end;
+        mw_surface_end_update(scene.surface);
+        own += end.seconds();
+        Coordinates moved(points, points + count);
+        refit.place(moved);
+        rebuild.place(moved);
+    }
+    std::vector<Follower> followers(uint64_t seed)
+    {
+        auto update = [](Caster &caster) {
+            return [&caster] {
+                Stopwatch watch;
+                caster.update();
+                return watch.seconds();
+            };
+        };
+        std::vector<Follower> all;
+        all.push_back(follower(
+            "published", [this] { return own; }, Prober(scene, scene.plain, false, seed)));
+        all.push_back(follower(
+            "certain, known how far", [this] { return own + fits[0]; }, Prober(scene, boxed[0], true, seed)));
+        all.push_back(follower(
+            "certain, not known", [this] { return own + fits[1]; }, Prober(scene, boxed[1], true, seed)));
+        all.push_back(follower("Embree, refit", update(refit), Rays{refit, scene.reach()}));
+        all.push_back(follower("Embree, rebuilt", update(rebuild), Rays{rebuild, scene.reach()}));
+        return all;
+    }
+};
+
 void measure_moving(const Scene &scene, const Options &options, Table &table)
 {
-    Wave wave(scene);
-    Coordinates rest = make_path(scene, hover_share * scene.diagonal, frames * frame_queries, options.seed),
-                path = rest;
-    mw_prober *exact = scene.prober(true), *known = scene.prober(true), *unknown = scene.prober(true);
-    double own = 0;
-    std::vector<double> seconds(3);
-    Device device(options.threads);
-    Caster refit(device, scene.model, filter_fronts, Moving::refit);
-    Caster rebuild(device, scene.model, filter_fronts, Moving::rebuild);
-    auto update = [](Caster &caster) {
-        return [&caster] {
-            Stopwatch watch;
-            caster.update();
-            return watch.seconds();
-        };
-    };
-    Prober oracle(scene, exact, true, options.seed);
-    std::vector<Follower> followers;
-    followers.push_back(follower(
-        "published", [&] { return own; }, Prober(scene, scene.plain, false, options.seed)));
-    followers.push_back(follower(
-        "certain, known how far", [&] { return own + seconds[0]; }, Prober(scene, known, true, options.seed)));
-    followers.push_back(follower(
-        "certain, not known", [&] { return own + seconds[1]; }, Prober(scene, unknown, true, options.seed)));
-    followers.push_back(follower("Embree, refit", update(refit), Rays{refit, scene.reach()}));
-    followers.push_back(follower("Embree, rebuilt", update(rebuild), Rays{rebuild, scene.reach()}));
-    Answers truth(frame_queries);
+    Coordinates path = make_path(scene, hover_share * scene.diagonal, frames * frame_queries, options.seed);
+    Film film(scene, options);
+    std::vector<Follower> followers = film.followers(options.seed);
+    Prober oracle(scene, film.boxed[2], true, options.seed);
+    Answers exact(frame_queries);
     for (int frame = 0; frame < frames; frame++) {
-        own = move_surface(scene, wave, frame, {known, unknown, exact}, {frame ? wave.farthest() : -1, -1, -1}, seconds,
-                           options);
-        const double *moved = mw_surface_points(scene.surface);
-        Coordinates points(moved, moved + scene.model.points.size());
-        refit.place(points);
-        rebuild.place(points);
+        film.show(frame, options.threads);
         double *queries = &path[6 * frame_queries * static_cast<size_t>(frame)];
-        const double *resting = &rest[6 * frame_queries * static_cast<size_t>(frame)];
         for (size_t i = 0; i < frame_queries; i++) {
-            wave.move(resting + 6 * i, frame, queries + 6 * i);
-            truth[i] = oracle(queries + 6 * i);
+            film.wave.move(queries + 6 * i, frame, queries + 6 * i); // the probe goes with the surface
+            exact[i] = oracle(queries + 6 * i);
         }
         for (size_t i = 0; i < followers.size(); i++) {
             Follower &f = followers[(i + static_cast<size_t>(frame)) % followers.size()];
             f.play(queries);
-            f.verdict.add(f.answers, truth, tolerance(scene));
+            f.verdict.add(f.answers, exact, tolerance(scene));
         }
     }
     print_followers(scene, followers, table);
-    for (mw_prober *one : {exact, known, unknown}) mw_prober_destroy(one);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
-// bench_star - which facet of a star-shaped polyhedron a ray from its centre meets: walks from several first facets, beside
-// Embree's ray caster. What both build, in time and memory; the time of a query; and how often Embree is wrong, which
-// computes in single precision: rays that meet no facet, and facets that the exact answer does not touch. One thread.
+// bench_star - which facet of a star-shaped polyhedron a ray from its centre meets: walks from several first facets,
+// beside Embree's ray caster. What both build, in time and memory; the time of a query; and how often Embree is wrong,
+// which computes in single precision: rays that meet no facet, and facets that the exact answer does not touch.
 #include "caster.h"
 
 #include <cmath>

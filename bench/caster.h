@@ -1,5 +1,5 @@
-// caster.h - Embree, a ray caster: a tree of boxes over the triangles, in single precision. Everything goes in as doubles and
-// is rounded here.
+// caster.h - Embree, a ray caster: a tree of boxes over the triangles, in single precision. Everything goes in as doubles
+// and is rounded here.
 #ifndef MW_BENCH_CASTER_H
 #define MW_BENCH_CASTER_H
 
@@ -49,7 +49,8 @@ class Device
     size_t bytes() const { return static_cast<size_t>(in_use.load()); }
 };
 
-// How a caster treats a surface that moves: built once and for all, or after each move fitted to it, or built anew quickly.
+// How a caster treats a surface that moves: built once and for all, or after each move fitted to it, or built anew
+// quickly.
 enum class Moving { never, refit, rebuild };
 
 class Caster

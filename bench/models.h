@@ -19,8 +19,8 @@ struct Model {
     mw_arrays arrays() const;
 };
 
-// "star:100000" is a polyhedron of cli/polyhedra.h (icosahedron, star, bumps, knot) of so many vertices; anything else the
-// name of a file that the library reads. Ends the program if there is no such file.
+// "star:100000" is a polyhedron of cli/polyhedra.h (icosahedron, star, bumps, knot) of so many vertices; anything else
+// the name of a file that the library reads. Ends the program if there is no such file.
 Model make_model(const std::string &name, uint64_t seed);
 
 // n directions, uniform on the unit sphere: x y z each.
