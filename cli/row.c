@@ -43,8 +43,7 @@ void row_triangle(text *out, const char *status, uint32_t triangle)
 
 void row_weights(text *out, uint32_t triangle, const double weight[3])
 {
-    for (int k = 0; k < 3; k++) /* -0 is written as 0 */
-        row_double(out, triangle != MW_NONE && !isnan(weight[k]), weight[k] + 0.0);
+    for (int k = 0; k < 3; k++) row_double(out, triangle != MW_NONE && !isnan(weight[k]), weight[k]);
 }
 
 void row_end(text *out)
