@@ -61,7 +61,8 @@ static mw_verdict walk_in(const mw_tiling *tiling, const mw_part *piece, mw_walk
     uint32_t fuel = mw__walk_fuel(MW_WALK_BORDER, MW_EXACT, tiling);
     mw_work *work = counted ? walk->work : NULL;
     *walk = mw__walk_begin(tiling, walk->q, piece->first, fuel, 0, work);
-    mw_verdict verdict = mw__border_walk.run[true][counted](walk);
+    if (work && work->trace) mw__walk_record(work->trace, walk);
+    mw_verdict verdict = mw__walk_run(walk, &mw__border_walk, true, counted);
     if (MW_LIKELY(verdict != MW_DRY)) return verdict;
     *walk = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, work);
     return mw__walk_surely(walk, counted);

@@ -114,7 +114,7 @@ static void add_final(mw_work *sum, const mw_work *more)
  * handed over: *changed tells. */
 static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
 {
-    mw_work more = {0};
+    mw_work more = {.trace = counted ? walk->work->trace : NULL};
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
     mw_verdict verdict = mw__walk_surely(&end, counted);
     bool round = tiling->open && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */

@@ -73,10 +73,15 @@ static MW_INLINE void drive_ring(mw_feed *feed, uint32_t lane_count, mw_step ste
     MW_STAMP(name, double_count, false, true)                                                                          \
     MW_STAMP(name, exact, true, false)                                                                                 \
     MW_STAMP(name, exact_count, true, true)                                                                            \
+    static mw_verdict name##_step_exact_count(mw_walk *walk)                                                           \
+    {                                                                                                                  \
+        return name##_step(walk, (mw_policy){true, true, false});                                                      \
+    }                                                                                                                  \
     const mw_kernels mw__##name = {                                                                                    \
         {{name##_run_double, name##_run_double_count}, {name##_run_exact, name##_run_exact_count}},                    \
         {{name##_ring_double, name##_ring_double_count}, {name##_ring_exact, name##_ring_exact_count}},                \
         ends_always,                                                                                                   \
+        name##_step_exact_count,                                                                                       \
     };
 
 #endif

@@ -58,7 +58,7 @@ mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, co
     walk->fuel = fuel;
     walk->stage = MW_STAGE_FINAL;
     if (count) walk->work->triangles[MW_STAGE_FINAL]++;
-    return mw__walk_kernels(finish, tiling)->run[exact][count](walk);
+    return mw__walk_run(walk, mw__walk_kernels(finish, tiling), exact, count);
 }
 
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling)
@@ -75,11 +75,11 @@ mw_verdict mw__walk_surely(mw_walk *walk, bool count)
     mw_verdict verdict = MW_DRY;
     if (!tiling->open) {
         walk->fuel = mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling);
-        return mw__celestial.run[true][count](walk);
+        return mw__walk_run(walk, &mw__celestial, true, count);
     }
     while (verdict == MW_DRY) { /* once, unless there are some 10^9 border edges */
         walk->fuel = UINT32_MAX;
-        verdict = mw__border_sure.run[true][count](walk);
+        verdict = mw__walk_run(walk, &mw__border_sure, true, count);
     }
     return verdict;
 }

@@ -24,12 +24,19 @@ typedef enum mw_verdict {
  * cheap walks, and the way along a border. Each but the last counts the tile it begins in. */
 enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGE_BORDER, MW_STAGES };
 
+/* The user's triangles that walks enter, in order. */
+typedef struct mw_walk_trace {
+    uint32_t *triangle; /* room for `capacity` */
+    size_t capacity, count;
+} mw_walk_trace;
+
 /* What a search did; counted only by counting kernels. */
 typedef struct mw_work {
     uint64_t visited; /* tiles entered, the first one included */
     uint64_t triangles[MW_STAGES], orient[MW_STAGES];
     uint64_t implicit, comparisons;
     uint64_t walk_runs, border_runs, border_edges; /* of the border walk */
+    mw_walk_trace *trace; /* NULL, or where mw__walk_run writes down the way of an exact walk */
 } mw_work;
 
 /* Everything one walk remembers. */
@@ -69,6 +76,7 @@ typedef struct mw_kernels {
     mw_verdict (*run[2][2])(mw_walk *walk);                 /* one walk, from its t to its end  */
     void (*ring[2][2])(mw_feed *feed, uint32_t lane_count); /* up to MW_MAX_LANES walks in turn */
     bool ends; /* with exact arithmetic it enters no tile of a tiling twice, by the argument in its file */
+    mw_verdict (*step)(mw_walk *walk); /* one step, exact and counting: for those who want to see each */
 } mw_kernels;
 
 #define MW_WALK_ENTRY(id, symbol, name, source, help) extern const mw_kernels mw__##symbol;
@@ -86,6 +94,13 @@ const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling);
  * square root of the number of tiles, far above the length of any walk on Delaunay meshes of spread points, plus a
  * constant for small meshes; the border walk also four times the number of border edges. */
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling);
+
+/* One walk, from its t to its end: at full speed; or, if its work has a trace, step by step, exactly. The tile where it
+ * begins is not written down. */
+mw_verdict mw__walk_run(mw_walk *walk, const mw_kernels *kernels, bool exact, bool count);
+
+/* The user's triangle of the current tile is the next one of the way; ghosts are passed over. */
+void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk);
 
 /* End with an exact walk (of kind `finish`) what a cheap one left at MW_CLOSE. */
 mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,

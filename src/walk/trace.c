@@ -1,0 +1,51 @@
+/* trace.c - walks whose way is written down, tile by tile. */
+#include "walk/walk.h"
+
+static void record(mw_walk_trace *trace, const mw_triangle *tile)
+{
+    if (tile->user & MW_GHOST) return;
+    if (trace->count++ < trace->capacity) trace->triangle[trace->count - 1] = tile->user & MW_USER_MASK;
+}
+
+void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk)
+{
+    record(trace, &walk->tri[walk->t]);
+}
+
+/* In one step the border walk turns round a vertex of the border: over edge e of tile t, then over each edge that follows
+ * there, up to the border; from there it may turn on into a tile beyond, or go back to one on the way round. */
+static void record_turn(mw_walk_trace *trace, const mw_walk *walk, uint32_t t, uint32_t e, uint64_t entered)
+{
+    for (; entered && walk->tri[t].link[e] != MW_NONE; entered--) {
+        uint32_t link = walk->tri[t].link[e];
+        t = mw__link_triangle(link);
+        e = mw__next(mw__link_edge(link));
+        record(trace, &walk->tri[t]);
+    }
+    if (t != walk->t) mw__walk_record(trace, walk);
+}
+
+static mw_verdict step_and_record(mw_walk *walk, const mw_kernels *kernels)
+{
+    mw_work *work = walk->work;
+    uint32_t t = walk->t, e = walk->e;
+    uint64_t visited = work->visited;
+    bool turns = walk->stage == MW_STAGE_BORDER;
+    mw_verdict verdict = kernels->step(walk);
+    if (turns)
+        record_turn(work->trace, walk, t, e, work->visited - visited);
+    else if (work->visited > visited)
+        mw__walk_record(work->trace, walk);
+    return verdict;
+}
+
+mw_verdict mw__walk_run(mw_walk *walk, const mw_kernels *kernels, bool exact, bool count)
+{
+    if (MW_LIKELY(!count || !walk->work->trace)) return kernels->run[exact][count](walk);
+    while (walk->fuel) {
+        walk->fuel--;
+        mw_verdict verdict = step_and_record(walk, kernels);
+        if (verdict != MW_GO) return verdict;
+    }
+    return MW_DRY;
+}
