@@ -45,8 +45,8 @@ typedef enum mw_defect_kind {
     MW_DEFECT_CLASHING,       /* `triangle` and `other` are oriented differently along `edge`                       */
     MW_DEFECT_OPEN_EDGE,      /* `edge` of `triangle` has no triangle on its other side: the polyhedron is not closed */
     MW_DEFECT_THROUGH_CENTRE, /* the plane of `triangle` passes through the centre                                  */
-    MW_DEFECT_TURNED,         /* `triangle` turns its back to the centre, seen from its neighbour `other` at `edge`  */
-    MW_DEFECT_COVERED,        /* a ray from the centre meets both `triangle` and `other`                            */
+    MW_DEFECT_TURNED,  /* `triangle` turns its back to the centre, seen from its neighbour `other` at `edge` (if any) */
+    MW_DEFECT_COVERED, /* a ray from the centre meets both `triangle` and `other`                            */
     MW_DEFECT_COUNT
 } mw_defect_kind;
 

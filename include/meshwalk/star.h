@@ -152,7 +152,7 @@ MW_API mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star
 /* The facet that the ray from the centre through `point` meets. where: MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD where
  * the point is the centre or not finite, or the star is not up to date. weight[k]: the ray meets the facet's plane at
  * sum of weight[k] * vertex k, so these are the barycentric weights of that point of the flat facet (on the sphere: of
- * the central projection onto it, not of areas on the sphere); each >= 0 and off by less than 2^-40, exactly 0 for the
+ * the central projection onto it, not of areas on the sphere); each >= 0 and off by less than 2^-34, exactly 0 for the
  * vertices off an edge that the ray meets, sum 1 up to rounding. Thread-safe with one cursor per thread; no allocation. */
 MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor, const double point[3]);
 

@@ -134,9 +134,12 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
         snprintf(text, size, "triangle %" PRIu32 ": its plane passes through the centre", t);
         return;
     case MW_DEFECT_TURNED:
-        snprintf(text, size,
-                 "triangle %" PRIu32 ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u", t,
-                 d->other, e);
+        if (d->other == MW_NONE)
+            snprintf(text, size, "triangle %" PRIu32 ": turns its back to the centre, unlike most", t);
+        else
+            snprintf(text, size,
+                     "triangle %" PRIu32 ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u", t,
+                     d->other, e);
         return;
     case MW_DEFECT_COVERED:
         snprintf(text, size, "triangle %" PRIu32 ": a ray from the centre meets it and triangle %" PRIu32, t, d->other);

@@ -6,7 +6,42 @@ static const double *corner(const mw_star *star, const mw_triangle *facet, uint3
     return mw__surface_point(star->surface, facet->v[k]);
 }
 
-/* Rounded determinants are off by less than their bound; where that is not little, exact ones are, by 2^-50 of themselves. */
+/* What areas may be off by, all told, of their sum. */
+#define AREA_ERROR 0x1p-36
+
+static double norm(const double v[3])
+{
+    return fabs(v[0]) + fabs(v[1]) + fabs(v[2]);
+}
+
+/* Determinants of corners that lie far from the centre, but near each other, lose what these have in common. It can be taken
+ * off first: det(a - c, b - c, d) does not change where a multiple t d is taken off a - c, any multiple. What is left, w, is short.
+ * With S, W and D the largest norms of a - c plus t d, of w and of d, and u = 2^-53: w is off by 2 u S, which makes 4 u S W D of the
+ * determinant; d, itself rounded, 6 u S W D; its evaluation 7 u W W D, where W <= S. All that is less than 2^-48 S W D. Returns whether
+ * it is little. */
+static bool refine(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+{
+    const double *c = star->centre, d[3] = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
+    double w[3][3], square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], long_norm = 0, short_norm = 0, sum = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        const double *p = corner(star, facet, k);
+        for (int i = 0; i < 3; i++) w[k][i] = p[i] - c[i];
+        double t = (w[k][0] * d[0] + w[k][1] * d[1] + w[k][2] * d[2]) / square;
+        long_norm = fmax(long_norm, norm(w[k]) + fabs(t) * norm(d));
+        for (int i = 0; i < 3; i++) w[k][i] -= t * d[i];
+        short_norm = fmax(short_norm, norm(w[k]));
+    }
+    for (uint32_t k = 0; k < 3; k++) {
+        const double *a = w[mw__next(k)], *b = w[mw__prev(k)];
+        area[k] = fabs(d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
+                       d[2] * (a[0] * b[1] - a[1] * b[0]));
+        sum += area[k];
+    }
+    double off = 0x1p-48 * long_norm * short_norm * norm(d);
+    return sum > 0x1p-900 && off > 0x1p-900 && 3 * off < AREA_ERROR * sum && area[0] > off && area[1] > off &&
+           area[2] > off;
+}
+
 void mw__star_areas(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
 {
     const double *c = star->centre;
@@ -20,7 +55,7 @@ void mw__star_areas(const mw_star *star, const mw_triangle *facet, const double 
         sum += area[k];
         off += bound;
     }
-    if (MW_LIKELY(sure && off < 0x1p-42 * fabs(sum))) return;
+    if (MW_LIKELY(sure && (off < AREA_ERROR * fabs(sum) || refine(star, facet, q, area)))) return;
     for (uint32_t k = 0; k < 3; k++)
         area[k] = mw__orient3d_exact(corner(star, facet, mw__next(k)), corner(star, facet, mw__prev(k)), q, c);
 }
