@@ -15,6 +15,7 @@ _meshwalk_options() {
         probe)
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
+        walk) echo "--from --to --walk --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --no-times --format --plot $common" ;;
     esac
 }
@@ -35,6 +36,7 @@ _meshwalk_names() {
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return
             echo 'auto lawson remembering stochastic fast-stochastic barycentric direct straight normal-straight'
             echo 'orthogonal improved-orthogonal hybrid celestial border'
+            [[ $1 == walk ]] && echo forgetful
             ;;
         --start)
             case $1 in
@@ -67,7 +69,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample star probe bench --help --version'
+        names='info check triangulate locate sample star probe walk bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
@@ -80,7 +82,7 @@ _meshwalk() {
     fi
     case $before in
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field) return ;;
-        --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit) return ;;
+        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

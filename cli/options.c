@@ -79,15 +79,23 @@ static bool parse_length(const char *value, double *number)
     return parse_number(value, 0, number) && *number >= 0;
 }
 
-/* X,Y,Z. */
-static bool parse_point(const char *value, double point[3])
+/* So many numbers with commas between them. */
+static bool parse_numbers(const char *value, double *numbers, uint32_t count)
 {
-    for (int k = 0; k < 3; k++) {
-        const char *end = parse_number(value, k < 2 ? ',' : 0, &point[k]);
+    for (uint32_t k = 0; k < count; k++) {
+        const char *end = parse_number(value, k + 1 < count ? ',' : 0, &numbers[k]);
         if (!end) return false;
         value = end + 1;
     }
     return true;
+}
+
+/* X,Y or X,Y,Z. */
+static bool parse_place(const char *value, coordinates *where)
+{
+    for (where->count = 2; where->count <= 3; where->count++)
+        if (parse_numbers(value, where->at, where->count)) return true;
+    return false;
 }
 
 /* How many to sample: a number or the name of a rule. */
@@ -131,6 +139,7 @@ static int take(const option *o, const char *value, void *settings)
     char *target = (char *)settings + o->offset;
     uint64_t natural = 0;
     double length = 0, point[3];
+    coordinates where = {0};
     uint32_t sample = 0;
     int choice = 0, end;
     switch (o->kind) {
@@ -144,8 +153,12 @@ static int take(const option *o, const char *value, void *settings)
         memcpy(target, &length, sizeof length);
         return 0;
     case OPTION_POINT:
-        if (!parse_point(value, point)) return bad_value(o, value, "a point X,Y,Z");
+        if (!parse_numbers(value, point, 3)) return bad_value(o, value, "a point X,Y,Z");
         memcpy(target, point, sizeof point);
+        return 0;
+    case OPTION_PLACE:
+        if (!parse_place(value, &where)) return bad_value(o, value, "coordinates X,Y or X,Y,Z");
+        memcpy(target, &where, sizeof where);
         return 0;
     case OPTION_COUNT:
         if (!parse_natural(value, UINT32_MAX, &natural)) return bad_value(o, value, "a whole number below 2^32");

@@ -12,11 +12,17 @@ typedef enum option_kind {
     OPTION_TEXT,   /* const char *                               */
     OPTION_LENGTH, /* double: finite and not negative            */
     OPTION_POINT,  /* double[3]: X,Y,Z, finite                   */
+    OPTION_PLACE,  /* coordinates: X,Y or X,Y,Z, finite          */
     OPTION_COUNT,  /* uint32_t                                   */
     OPTION_SAMPLE, /* uint32_t: a number, not 0, or MW_SAMPLE_.. */
     OPTION_SEED,   /* uint64_t                                   */
     OPTION_CHOICE, /* int: the number of a name, see choices     */
 } option_kind;
+
+typedef struct coordinates {
+    double at[3];
+    uint32_t count; /* 0: not given */
+} coordinates;
 
 /* The names an OPTION_CHOICE accepts. */
 typedef struct choices {

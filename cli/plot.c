@@ -2,19 +2,13 @@
  * also has a mark of its own. Solid: measured; dashed, or an empty bar: published. */
 #include "plot.h"
 #include "message.h"
-
-#include <string.h>
+#include "picture.h"
 
 #ifdef MW_CAIRO
 
-#include "signals.h"
-
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <cairo.h>
 #include <math.h>
 #include <stdio.h>
-#include <strings.h>
 
 /* Measures in points. */
 #define PANEL_WIDTH 300.0
@@ -27,25 +21,6 @@
 #define LEGEND_ROW 17.0
 #define LEGEND_WIDTH 170.0
 #define MOST_COLUMNS 3
-#define PNG_SCALE 2.0
-
-enum { SVG, PNG, PDF, UNKNOWN };
-
-static int form_of(const char *path)
-{
-    static const char *const endings[] = {".svg", ".png", ".pdf"};
-    const char *ending = strrchr(path, '.');
-    for (int form = 0; ending && form < UNKNOWN; form++)
-        if (strcasecmp(ending, endings[form]) == 0) return form;
-    return UNKNOWN;
-}
-
-int plot_check(const char *path)
-{
-    if (form_of(path) != UNKNOWN) return 0;
-    complain("%s: a plot is an .svg, .png or .pdf file", path);
-    return END_USAGE;
-}
 
 /* Text. */
 
@@ -378,8 +353,6 @@ static page lay_out(const plot *p)
 
 static void draw_page(cairo_t *c, const plot *p, const page *g)
 {
-    cairo_set_source_rgb(c, 1, 1, 1);
-    cairo_paint(c);
     face(c, 13, true);
     write_at(c, g->width / 2, 24, p->title, CENTRED);
     for (size_t i = 0; i < p->count; i++) {
@@ -394,63 +367,33 @@ static void draw_page(cairo_t *c, const plot *p, const page *g)
     draw_legend(c, p);
 }
 
-static cairo_status_t take_bytes(void *output, const unsigned char *bytes, unsigned int size)
+static void draw(cairo_t *c, const void *self)
 {
-    mw_output_write(output, bytes, size);
-    return CAIRO_STATUS_SUCCESS; /* closing the output reports what failed */
-}
-
-static cairo_surface_t *make_surface(int form, mw_output *out, const page *g)
-{
-    if (form == SVG) return cairo_svg_surface_create_for_stream(take_bytes, out, g->width, g->height);
-    if (form == PDF) return cairo_pdf_surface_create_for_stream(take_bytes, out, g->width, g->height);
-    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(PNG_SCALE * g->width),
-                                      (int)ceil(PNG_SCALE * g->height));
-}
-
-static cairo_status_t draw(const plot *p, int form, mw_output *out)
-{
+    const plot *p = self;
     page g = lay_out(p);
-    cairo_surface_t *surface = make_surface(form, out, &g);
-    cairo_t *c = cairo_create(surface);
-    if (form == PNG) cairo_scale(c, PNG_SCALE, PNG_SCALE);
     draw_page(c, p, &g);
-    cairo_status_t status = cairo_status(c);
-    cairo_destroy(c);
-    if (status == CAIRO_STATUS_SUCCESS && form == PNG)
-        status = cairo_surface_write_to_png_stream(surface, take_bytes, out);
-    cairo_surface_finish(surface);
-    if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
-    cairo_surface_destroy(surface);
-    return status;
 }
 
 int plot_write(const plot *p, const char *path)
 {
-    mw_error error;
-    mw_output *out;
-    if (mw_output_open(path, &out, &error) != MW_OK) return fail_writing(&error);
-    signals_remove(mw_output_temporary(out));
-    cairo_status_t status = draw(p, form_of(path), out);
-    if (status != CAIRO_STATUS_SUCCESS) complain("%s: %s", path, cairo_status_to_string(status));
-    int end = status == CAIRO_STATUS_SUCCESS ? 0 : END_INTERNAL;
-    if (mw_output_close(out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
-    signals_remove(NULL);
-    return end;
+    page g = lay_out(p);
+    return picture_write(path, g.width, g.height, draw, p);
 }
 
 #else
 
-int plot_check(const char *path)
-{
-    complain("%s: this program was built without Cairo, which draws plots", path);
-    return END_USAGE;
-}
-
 int plot_write(const plot *p, const char *path)
 {
     (void)p;
-    return plot_check(path);
+    return picture_check(path);
 }
 
 #endif
+
+int plot_check(const char *path)
+{
+    int end = picture_check(path);
+    if (end || picture_named(path)) return end;
+    complain("%s: a plot is an .svg, .png or .pdf file", path);
+    return END_USAGE;
+}
