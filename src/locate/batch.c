@@ -4,13 +4,11 @@
  * threads: chunks have a fixed size, and the random numbers of a query come from its own number. */
 #include "base/hilbert.h"
 #include "base/random.h"
+#include "base/threads.h"
 #include "locate/locator.h"
 #include "start/start.h"
 
 #include <stdlib.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 enum {
     CHUNK = 1 << 14,      /* queries that one thread takes at a time                                      */
@@ -140,23 +138,11 @@ void mw_counters_add(mw_counters *sum, const mw_counters *more)
     sum->handovers += more->handovers;
 }
 
-/* Threads for `chunks` chunks: as many as asked for, or as OpenMP gives, but none without work. */
-static int choose_threads(uint32_t asked, int64_t chunks)
-{
-#ifdef _OPENMP
-    int64_t threads = asked ? (int64_t)asked : omp_get_max_threads();
-#else
-    int64_t threads = 1;
-    (void)asked;
-#endif
-    return (int)(threads < chunks ? threads : chunks);
-}
-
 /* Answer one piece of the batch, chunk by chunk on all threads. */
 static void answer_piece(const batch *b, uint32_t n, uint32_t threads, mw_counters *sum)
 {
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
-    int team = choose_threads(threads, chunks);
+    int team = mw__team(threads, chunks);
     (void)team; /* unused without OpenMP */
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)

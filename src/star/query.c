@@ -1,13 +1,11 @@
 /* query.c - cursors, single queries and batches. */
 #include "base/hilbert.h"
 #include "base/random.h"
+#include "base/threads.h"
 #include "star/index.h"
 #include "star/locate.h"
 
 #include <stdlib.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const mw_star_query_options *options,
                               mw_error *error)
@@ -96,21 +94,10 @@ static mw_counters answer(const batch *b, uint32_t first, uint32_t count)
     return counters;
 }
 
-static int choose_threads(uint32_t asked, int64_t chunks)
-{
-#ifdef _OPENMP
-    int64_t threads = asked ? (int64_t)asked : omp_get_max_threads();
-#else
-    int64_t threads = 1;
-    (void)asked;
-#endif
-    return (int)(threads < chunks ? threads : chunks);
-}
-
 static void answer_piece(const batch *b, uint32_t n, uint32_t threads, mw_counters *sum)
 {
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
-    int team = choose_threads(threads, chunks);
+    int team = mw__team(threads, chunks);
     (void)team; /* unused without OpenMP */
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)

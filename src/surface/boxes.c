@@ -5,12 +5,10 @@
 #include "surface/boxes.h"
 
 #include "base/hilbert.h"
+#include "base/threads.h"
 
 #include <float.h>
 #include <stdlib.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 enum {
     SAMPLE = 255,    /* triangles, or leaves, that stand for all          */
@@ -142,21 +140,10 @@ static mw_surface_box fit_box(const mw_surface_boxes *b, uint32_t level, uint32_
     return box;
 }
 
-static int choose_threads(uint32_t asked, int64_t chunks)
-{
-#ifdef _OPENMP
-    int64_t threads = asked ? (int64_t)asked : omp_get_max_threads();
-#else
-    int64_t threads = 1;
-    (void)asked;
-#endif
-    return (int)(threads < chunks ? threads : chunks);
-}
-
 static void fit_level(mw_surface_boxes *b, const mw_surface *surface, uint32_t level, uint32_t threads)
 {
     int64_t count = b->level_boxes[level], chunks = (count + CHUNK - 1) / CHUNK;
-    int team = choose_threads(threads, chunks);
+    int team = mw__team(threads, chunks);
     (void)team; /* unused without OpenMP */
     mw_surface_box *box = b->box + b->first[level];
 #ifdef _OPENMP

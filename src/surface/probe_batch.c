@@ -3,11 +3,8 @@
  * Chunks have a fixed size, a chunk knows nothing of the one before it, and the random numbers of a probe come from
  * its own number: so answers and counters do not depend on the threads. Where walks race, the threads are theirs. */
 #include "base/random.h"
+#include "base/threads.h"
 #include "surface/walk.h"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 enum { CHUNK = 1 << 12 }; /* probes that one thread takes at a time */
 
@@ -34,17 +31,6 @@ static mw_probe_counters answer(const batch *b, size_t first)
 
 /* Threads for `chunks` chunks: as many as asked for, or as OpenMP gives, but none without work; one where walks
  * race. */
-static int choose_threads(const mw_probe_options *options, int64_t chunks)
-{
-#ifdef _OPENMP
-    int64_t threads = options->threads ? (int64_t)options->threads : omp_get_max_threads();
-#else
-    int64_t threads = 1;
-#endif
-    if (options->race > 1 && !options->certain) threads = 1;
-    return (int)(threads < chunks ? threads : chunks);
-}
-
 mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
                          const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
                          mw_error *error)
@@ -56,7 +42,8 @@ mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t 
     if (b.stride < 6) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride below 6 holds no point and motion");
     b.seed = b.cursor.options.seed;
     int64_t chunks = (int64_t)(n / CHUNK + (n % CHUNK != 0));
-    int team = choose_threads(&b.cursor.options, chunks);
+    bool races = b.cursor.options.race > 1 && !b.cursor.options.certain;
+    int team = mw__team(races ? 1 : b.cursor.options.threads, chunks);
     (void)team; /* unused without OpenMP */
     mw_probe_counters sum = {0};
 #ifdef _OPENMP
