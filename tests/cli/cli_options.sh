@@ -3,7 +3,7 @@
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 
-commands=(info check triangulate locate sample star probe bench)
+commands=(info check triangulate locate sample star probe walk bench)
 
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
@@ -170,7 +170,10 @@ done
 run probe --help
 holds "help and completion of probe --start differ" \
     test "$(complete_words meshwalk probe --start '')" == "$(listed start)"
-for c in info check; do
+run walk --help
+holds "help and completion of walk --walk differ" \
+    test "$(complete_words meshwalk walk --walk '')" == "$(listed walk)"
+for c in info check walk; do
     run $c --help
     holds "help and completion of $c --as differ" test "$(complete_words meshwalk $c --as '')" == "$(listed as)"
     holds "the help lists names of --as" test -n "$(listed as)"
