@@ -87,7 +87,7 @@ static void check_rays(const polyhedron *p, mw_surface_options how, const double
 static void test_lattice_stars(void **state)
 {
     (void)state;
-    for (uint64_t round = 0; round < 40; round++) {
+    for (uint64_t round = 0; round < 24; round++) {
         uint64_t seed = 1000 + round;
         polyhedron p = lattice_octahedron((unsigned)(round % 3));
         if (round % 4) stretch(&p, 4, &seed);
@@ -120,7 +120,7 @@ static void test_places_and_sizes(void **state)
 static void test_facets_without_area(void **state)
 {
     (void)state;
-    for (uint64_t round = 0; round < 60; round++) {
+    for (uint64_t round = 0; round < 30; round++) {
         uint64_t seed = 500 + round;
         polyhedron p = lattice_octahedron(1 + (unsigned)(round % 2));
         for (uint32_t i = 0; i < 3 * p.points; i++) p.point[i] *= 16;
@@ -227,6 +227,71 @@ static void test_paths(void **state)
         }
     release_world(&w);
     release_polyhedron(&p);
+}
+
+static polyhedron from_lists(const double *point, uint32_t points, const uint32_t *corner, uint32_t triangles)
+{
+    polyhedron p = {0};
+    for (uint32_t v = 0; v < points; v++) add_point3(&p, point[3 * v], point[3 * v + 1], point[3 * v + 2]);
+    for (uint32_t t = 0; t < triangles; t++) add_triangle3(&p, corner[3 * t], corner[3 * t + 1], corner[3 * t + 2]);
+    return p;
+}
+
+/* Facets without area that share more than one edge: a spike folded onto an edge, with two vertices at one place; and a
+ * pillow of two that has nothing to do with the rest. */
+static void test_folded_facets(void **state)
+{
+    static const uint32_t spike[] = {1, 0, 7, 0, 1, 2, 0, 2, 3, 6, 3, 4, 6, 4, 1, 5, 2, 1,
+                                     5, 3, 2, 5, 4, 3, 5, 1, 4, 6, 1, 7, 0, 6, 7, 6, 0, 3};
+    static const double place[] = {0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 1, 2, 0, -1};
+    (void)state;
+    uint64_t seed = 9;
+    polyhedron p = from_lists(place, 8, spike, 12);
+    check_rays(&p, (mw_surface_options){0}, (double[3]){0, 0, 0}, 1, 200, &seed);
+    release_polyhedron(&p);
+    p = lattice_octahedron(1);
+    uint32_t a = add_point3(&p, 5, 0, 0), b = add_point3(&p, 6, 1, 0), c = add_point3(&p, 7, 2, 0);
+    add_triangle3(&p, a, b, c);
+    add_triangle3(&p, c, b, a);
+    check_rays(&p, (mw_surface_options){0}, (double[3]){0, 0, 0}, 1, 200, &seed);
+    release_polyhedron(&p);
+}
+
+/* A fan of facets without area, in either order. */
+static void test_flat_fan(void **state)
+{
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        enum { N = 300 };
+        uint64_t seed = 13;
+        polyhedron p = lattice_octahedron(0);
+        for (uint32_t i = 0; i < 3 * p.points; i++) p.point[i] *= 2 * N;
+        uint32_t *first = p.corner, o = first[0], end = first[1], apex = MW_NONE;
+        for (uint32_t t = 1; t < p.triangles; t++) /* the facet across the edge between the two */
+            for (uint32_t k = 0; k < 3; k++)
+                if (p.corner[3 * t + k] == end && p.corner[3 * t + (k + 1) % 3] == o) {
+                    apex = p.corner[3 * t + (k + 2) % 3];
+                    p.corner[3 * t + k] = end; /* end, the last of the row, apex: filled in below */
+                    p.corner[3 * t + (k + 1) % 3] = p.points + N - 1;
+                }
+        assert_true(apex != MW_NONE);
+        uint32_t row = p.points;
+        for (uint32_t i = 0; i < N; i++) {
+            double x[3];
+            for (int k = 0; k < 3; k++)
+                x[k] = p.point[3 * o + (uint32_t)k] +
+                       (i + 1) * ((p.point[3 * end + (uint32_t)k] - p.point[3 * o + (uint32_t)k]) / (2 * N));
+            add_point3(&p, x[0], x[1], x[2]);
+        }
+        add_triangle3(&p, row, o, apex);
+        for (uint32_t i = 0; i + 1 < N; i++) add_triangle3(&p, row + i + 1, row + i, apex);
+        for (uint32_t j = 0; j < N; j++) { /* o, point i, point i + 1: all on one line; the last with `end` */
+            uint32_t i = turned ? N - 1 - j : j;
+            add_triangle3(&p, o, row + i, i + 1 < N ? row + i + 1 : end);
+        }
+        check_rays(&p, (mw_surface_options){0}, (double[3]){0, 0, 0}, 1, 30, &seed);
+        release_polyhedron(&p);
+    }
 }
 
 /* --- what is no star-shaped polyhedron ---------------------------------------------------------------------------- */
@@ -397,6 +462,78 @@ static void test_update(void **state)
     release_polyhedron(&p);
 }
 
+/* Vertices that were made one stay one: moved apart they leave a gap; moved onto others, facets vanish. */
+static void test_welded_update(void **state)
+{
+    (void)state;
+    polyhedron p = lattice_octahedron(1);
+    uint64_t seed = 31;
+    part_triangles(&p);
+    world w = make_world(&p, (mw_surface_options){.weld = 1}, (mw_star_options){0});
+    double *points = mw_surface_points(w.surface);
+    mw_error error;
+    mw_surface_begin_update(w.surface);
+    points[0] *= 1.5;
+    points[1] *= 1.5;
+    points[2] *= 1.5;
+    assert_int_equal(mw_star_update(w.star, &error), MW_ERROR_INPUT);
+    mw_surface_end_update(w.surface);
+    release_world(&w);
+    release_polyhedron(&p);
+
+    p = lattice_octahedron(0); /* facet 0 in three, by a vertex that then moves onto a corner */
+    uint32_t a = p.corner[0], b = p.corner[1], c = p.corner[2], v = add_point3(&p, 0, 0, 0);
+    for (uint32_t k = 0; k < 3; k++)
+        p.point[3 * v + k] = (p.point[3 * a + k] + p.point[3 * b + k] + p.point[3 * c + k]) / 2;
+    p.corner[2] = v;
+    add_triangle3(&p, b, c, v);
+    add_triangle3(&p, c, a, v);
+    for (int weld = 0; weld < 2; weld++) {
+        w = make_world(&p, (mw_surface_options){.weld = weld}, (mw_star_options){0});
+        points = mw_surface_points(w.surface);
+        mw_surface_begin_update(w.surface);
+        for (uint32_t k = 0; k < 3; k++) points[3 * v + k] = p.point[3 * a + k];
+        expect_ok(mw_star_update(w.star, &error), "update", &error);
+        mw_surface_end_update(w.surface);
+        for (int i = 0; i < 200; i++) {
+            double q[3], origin[3] = {0, 0, 0};
+            mw_star_cursor cursor;
+            draw(&p, origin, 1, &seed, q);
+            if (q[0] == 0 && q[1] == 0 && q[2] == 0) continue;
+            expect_ok(mw_star_cursor_init(&cursor, w.star, NULL, NULL), "cursor", NULL);
+            mw_location found = mw_star_locate(w.star, &cursor, q);
+            mw_location expected = star_oracle_locate(points, p.corner, p.triangles, origin, q);
+            expect_location(&found, &expected, q);
+        }
+        release_world(&w);
+    }
+    release_polyhedron(&p);
+}
+
+/* What has no facet with an area is no polyhedron, for mw_star_check_arrays either. */
+static void test_nothing(void **state)
+{
+    (void)state;
+    static const double line[] = {1, 0, 0, 2, 0, 0, 3, 0, 0};
+    static const uint32_t pillow[] = {0, 1, 2, 2, 1, 0};
+    for (uint32_t triangles = 0; triangles <= 2; triangles += 2) {
+        polyhedron p = from_lists(line, 3, pillow, triangles);
+        mw_arrays view = polyhedron_arrays(&p);
+        mw_check check;
+        expect_ok(mw_star_check_arrays(&view, 0, NULL, &check, NULL), "check", NULL);
+        assert_false(check.embedding);
+        mw_check_release(&check);
+        release_polyhedron(&p);
+    }
+    mw_check check;
+    mw_star_options nowhere = {.centre = {NAN, 0, 0}};
+    mw_arrays none = {0};
+    memset(&check, 0x5a, sizeof check);
+    assert_int_equal(mw_star_check_arrays(&none, 0, &nowhere, &check, NULL), MW_ERROR_ARGUMENT);
+    mw_check_release(&check);
+    assert_int_equal(mw_star_update(NULL, NULL), MW_ERROR_ARGUMENT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -411,6 +548,10 @@ int main(void)
         cmocka_unit_test(test_covered_twice),
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_update),
+        cmocka_unit_test(test_folded_facets),
+        cmocka_unit_test(test_flat_fan),
+        cmocka_unit_test(test_welded_update),
+        cmocka_unit_test(test_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,13 +128,14 @@ typedef struct mw_probe_cursor {
 MW_API mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *prober, const mw_probe_options *options,
                                       mw_error *error);
 
-/* One probe. Thread-safe with one cursor per thread; no allocation, no failure. */
+/* One probe. Thread-safe with one cursor per thread; without a race no allocation, no failure. With one,
+ * OpenMP starts the threads, and ends the program where it cannot. */
 MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                          const double motion[3]);
 
 /* n probes: x, y, z, mx, my, mz of query i at queries[i * stride]; stride in doubles, 0 = 6. Results in input order; the
  * same for every number of threads, without a race. Each begins as the start says; MW_PROBE_LAST: with the triangle of
- * the query before it in its chunk of 4,096. MW_ERROR_ARGUMENT as mw_probe_cursor_init; MW_ERROR_MEMORY. */
+ * the query before it in its chunk of 4,096. MW_ERROR_ARGUMENT as mw_probe_cursor_init. */
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
                                 const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
                                 mw_error *error);

@@ -131,11 +131,11 @@ typedef struct mw_star_query_options {
     uint32_t reserved[6];
 } mw_star_query_options;
 
-/* What a query changes: one per thread, a plain value. Its members are private. */
+/* What a query changes: one per thread, a plain value. It serves only the star it was initialised with, also after updates.
+ * Its members are private. */
 typedef struct mw_star_cursor {
     mw_counters counters; /* of all queries so far, if they count. Of the stages, `init` is the choice of the first
                              facet by an octahedron */
-    const mw_star *star;
     const mw_star_index *index;
     uint64_t random;
     uint32_t last;

@@ -56,7 +56,9 @@ MW_API size_t mw_surface_bytes(const mw_surface *surface);
 /* An update: begin, overwrite vertices in mw_surface_points and flip edges as wanted, bring up to date what is kept beside
  * the surface (mw_star_update, mw_prober_update), end. Neither call costs anything per vertex. Between the two no query
  * may run; with options.shared these calls see to that themselves, whatever other threads do, and an update waits for
- * the queries that have begun, not for those that come. Without it they only mark the surface as changed. One thread
+ * the queries that have begun, not for those that come: mw_star_locate, _batch and _path, mw_probe, _batch and _path,
+ * mw_nearest_on_surface, mw_surface_describe. All else about the surface and what is kept beside it (making stars, probers
+ * and indices, describing them, reading vertices) is the updating thread's. Without it they only mark the surface as changed. One thread
  * updates at a time. A star or a prober that needed to be brought up to date and was not does not answer (see there). */
 MW_API void mw_surface_begin_update(mw_surface *surface);
 MW_API void mw_surface_end_update(mw_surface *surface);

@@ -1,9 +1,12 @@
 /* flat.c - facets without area are flipped away.
  *
- * Where two vertices are at one place, the two facets at the edge between them go as if it was shrunk to a point, and their
- * neighbours are linked; they are void then. Why it ends: each of that takes two facets away. A facet without area is flipped at its longest edge. If the facet across has an area, both have one
- * afterwards. If it has none, and a longer edge, that one is flipped first; edges grow along the way, so it comes to an end. If
- * both have the same longest edge, both have shorter ones afterwards, between vertices of the same line. */
+ * A flat facet is flipped at its longest edge. If the facet across has an area, both have one afterwards: one flat facet
+ * less. If it is flat, too, and has a longer edge, that one is flipped first; edges grow along the way, so it comes to an
+ * end. If both have the same longest edge, both have shorter ones afterwards, between vertices of the same line: that, too,
+ * comes to an end. Where the apexes on both sides are at one place, the two facets lie on each other, and go together; and
+ * where two corners are at one place, the two facets at the edge between them go as if it was shrunk to a point. What lay
+ * beside them is linked, and they are void: two facets less. After a flip the search goes on beside it, so that a fan of
+ * flat facets takes time in proportion to their number. */
 #include "star/flat.h"
 
 static const double *corner(const mw_star *star, uint32_t t, uint32_t k)
@@ -87,27 +90,53 @@ static void shrink(mw_star *star, uint32_t t, uint32_t edge)
     take_out(star, mw__link_triangle(link), mw__link_edge(link));
 }
 
-/* Take facet f away, and what has to go before it. */
-static void remove_flat(mw_star *star, uint32_t f)
+static void join_links(mw_star *star, uint32_t link, uint32_t other)
 {
-    for (uint32_t t = f; !mw__star_is_void(&star->tri[f]) && is_flat(star, f);) {
-        if (mw__star_is_void(&star->tri[t]) || !is_flat(star, t)) t = f;
-        uint32_t small = short_edge(star, t);
-        if (small != MW_STAR_NO_EDGE) {
-            shrink(star, t, small);
-            continue;
-        }
-        uint32_t edge = longest_edge(star, t), link = star->tri[t].link[edge], other = mw__link_triangle(link);
-        if (is_flat(star, other) &&
-            (short_edge(star, other) != MW_STAR_NO_EDGE || longest_edge(star, other) != mw__link_edge(link)))
-            t = other;
-        else
-            flip(star, t, edge);
+    join(star, mw__link_triangle(link), mw__link_edge(link), other);
+}
+
+/* Facets t and u, with the same three places, go: what lies beside them is linked across. */
+static void fold(mw_star *star, uint32_t t, uint32_t edge)
+{
+    uint32_t link = star->tri[t].link[edge], u = mw__link_triangle(link), across = mw__link_edge(link);
+    join_links(star, star->tri[t].link[mw__next(edge)], star->tri[u].link[mw__prev(across)]);
+    join_links(star, star->tri[t].link[mw__prev(edge)], star->tri[u].link[mw__next(across)]);
+    for (int k = 0; k < 3; k++) star->tri[t].link[k] = star->tri[u].link[k] = MW_NONE;
+}
+
+static uint32_t apex_place(const mw_star *star, uint32_t half)
+{
+    return star->place[star->tri[mw__link_triangle(half)].v[mw__prev(mw__link_edge(half))]];
+}
+
+/* Take one flat facet away, or flip it: t, or one that has to go before it. Returns a facet to go on with. */
+static uint32_t reduce(mw_star *star, uint32_t t)
+{
+    uint32_t small = short_edge(star, t);
+    if (small != MW_STAR_NO_EDGE) {
+        shrink(star, t, small);
+        return t;
     }
+    uint32_t edge = longest_edge(star, t), link = star->tri[t].link[edge], other = mw__link_triangle(link);
+    if (apex_place(star, link) == apex_place(star, mw__link(t, edge))) {
+        fold(star, t, edge);
+        return t;
+    }
+    if (is_flat(star, other) &&
+        (short_edge(star, other) != MW_STAR_NO_EDGE || longest_edge(star, other) != mw__link_edge(link)))
+        return other;
+    flip(star, t, edge);
+    uint32_t beside = mw__link_triangle(star->tri[t].link[0]);
+    return is_flat(star, beside) ? beside : mw__link_triangle(star->tri[other].link[0]);
+}
+
+static bool is_left(const mw_star *star, uint32_t t)
+{
+    return !mw__star_is_void(&star->tri[t]) && is_flat(star, t);
 }
 
 void mw__star_remove_flats(mw_star *star)
 {
-    for (uint32_t t = 0; t < star->tri_count; t++)
-        if (!mw__star_is_void(&star->tri[t])) remove_flat(star, t);
+    for (uint32_t f = 0; f < star->tri_count; f++)
+        for (uint32_t t = f; is_left(star, f);) t = reduce(star, is_left(star, t) ? t : f);
 }

@@ -48,18 +48,30 @@ static uint8_t face(const mw_star *star, const mw_triangle *t)
                       : LEVEL; /* orient3d > 0: the centre is where they turn counter-clockwise */
 }
 
+/* Of a welded surface, too: vertices that were made one, but have been moved apart since, leave a gap. */
+static bool look_at_corners(mw_survey *s, uint32_t i)
+{
+    const mw_star *star = s->star;
+    for (uint32_t k = 0; k < 3; k++) {
+        const double *p = corner(star, &star->tri[i], k),
+                     *place = mw__surface_point(star->surface, mw__place_of(star->surface->place, star->tri[i].v[k]));
+        if (!mw__is_finite3(p)) {
+            if (!add(s, MW_DEFECT_NOT_FINITE, i, MW_NONE, 3)) return false;
+            s->defects->list[s->defects->count - 1].vertex = star->tri[i].v[k];
+            return true;
+        }
+        if (p[0] != place[0] || p[1] != place[1] || p[2] != place[2]) return add(s, MW_DEFECT_OPEN_EDGE, i, MW_NONE, k);
+    }
+    return true;
+}
+
 static bool look_at_facets(mw_survey *s)
 {
     mw_star *star = s->star;
     star->area_count = 0;
     for (uint32_t i = 0; i < star->tri_count; i++) {
         const mw_triangle *t = &star->tri[i];
-        for (uint32_t k = 0; k < 3; k++)
-            if (!mw__is_finite3(corner(star, t, k))) {
-                if (!add(s, MW_DEFECT_NOT_FINITE, i, MW_NONE, 3)) return false;
-                s->defects->list[s->defects->count - 1].vertex = t->v[k];
-                break;
-            }
+        if (!look_at_corners(s, i)) return false;
         s->faces[i] = face(star, t);
         star->area_count += s->faces[i] == FRONT || s->faces[i] == BACK;
         if (s->faces[i] == LEVEL && !mw__collinear3(corner(star, t, 0), corner(star, t, 1), corner(star, t, 2)) &&

@@ -24,7 +24,6 @@ mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const
     if (options->index && mw__star_index_start(options->index) != start)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the index is one of another start");
     *cursor = (mw_star_cursor){
-        .star = star,
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),
         .last = MW_NONE,

@@ -15,11 +15,9 @@ static mw_status refuse(const mw_defects *defects, mw_error *error)
     return mw__fail_at(error, d->triangle, d->vertex == MW_NONE ? -1 : (int64_t)d->vertex, "%s", text);
 }
 
-/* Where facets have no area, vertices may be at one place. */
+/* Where facets have no area, vertices may be at one place, also such as were not when the surface was made. */
 static bool find_places(mw_star *star)
 {
-    star->place = star->surface->place;
-    if (star->place) return true;
     free(star->own_place);
     star->place = star->own_place = mw__places_create(star->surface->point, star->point_count);
     return star->place != NULL;
@@ -127,6 +125,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
 
 mw_status mw_star_update(mw_star *star, mw_error *error)
 {
+    if (!star) return mw__fail(error, MW_ERROR_ARGUMENT, "no star");
     return prepare(star, error);
 }
 
@@ -157,17 +156,19 @@ void mw_star_describe(const mw_star *star, mw_star_info *info)
 
 /* The arrays make a surface: what keeps it from being star-shaped joins the defects. */
 static mw_status check_kernel(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_defects *defects,
-                              mw_error *error)
+                              bool *sound, mw_error *error)
 {
     mw_surface_options how = {.weld = weld};
     mw_surface *surface;
     mw_status status = mw_surface_create(arrays, &how, &surface, error);
     if (status) return status;
+    size_t before = defects->count;
     mw_star star = {.surface = surface, .tri_count = surface->tri_count, .point_count = surface->point_count};
     if (options) memcpy(star.centre, options->centre, sizeof star.centre);
     star.tri = mw__alloc_lines(star.tri_count, sizeof *star.tri);
     if (star.tri) memcpy(star.tri, surface->tri, star.tri_count * sizeof *star.tri);
     if (!star.tri || !mw__star_kernel(&star, defects)) status = mw__fail_memory(error);
+    *sound = defects->count == before && star.area_count > 0;
     free(star.tri);
     mw_surface_destroy(surface);
     return status;
@@ -176,6 +177,8 @@ static mw_status check_kernel(const mw_arrays *arrays, int weld, const mw_star_o
 mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_check *check,
                                mw_error *error)
 {
+    if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the check");
+    *check = (mw_check){0};
     if (options && !mw__is_finite3(options->centre))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
     mw_status status = mw_surface_check_arrays(arrays, weld, check, error);
@@ -188,11 +191,7 @@ mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_
         if (kind != MW_DEFECT_CLASHING && !mw__defects_add(&defects, check->defects[i]))
             status = mw__fail_memory(error);
     }
-    size_t before = defects.count;
-    if (status == MW_OK && usable) {
-        status = check_kernel(arrays, weld, options, &defects, error);
-        sound = defects.count == before;
-    }
+    if (status == MW_OK && usable) status = check_kernel(arrays, weld, options, &defects, &sound, error);
     mw_check_release(check);
     if (status) {
         mw__defects_release(&defects);

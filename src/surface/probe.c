@@ -100,7 +100,8 @@ mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *prober,
 static mw_search plan(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3])
 {
     const mw_probe_options *options = &cursor->options;
-    bool coherent = options->start == MW_PROBE_LAST && cursor->prober == prober;
+    bool coherent =
+        options->start == MW_PROBE_LAST && cursor->prober == prober && cursor->last < prober->surface->tri_count;
     return (mw_search){
         .surface = prober->surface,
         .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}},
