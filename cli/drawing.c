@@ -1,8 +1,9 @@
 /* drawing.c - an orthographic projection, painted from back to front with Cairo.
  *
- * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin veil: triangles that turn
- * their back are left out, but for those of the walk, which are painted first, and so shimmer through. Of a large mesh
- * only what lies near the walk is painted. Colours are those of Okabe and Ito (2008) and shades of blue. */
+ * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin veil: triangles that
+ * turn their back are left out, but for those of the walk, which are painted first, and so shimmer through. Of a large
+ * mesh only what lies near the walk is painted. Green and vermilion are those of Okabe and Ito (2008), which
+ * colour-blind people can tell apart. */
 #include "drawing.h"
 #include "message.h"
 #include "picture.h"
@@ -142,7 +143,7 @@ static void look_of(const scene *s, size_t visit, double n[3])
         normal_of(s, s->d->path[visit], n);
 }
 
-/* Where a walk goes all round a surface, the directions of its triangles cancel out: then that of its last triangle counts. */
+/* Where a walk goes all round a surface, the directions of its triangles cancel out: then that of the last one counts. */
 static void mean_look(const scene *s, double eye[3])
 {
     double n[3], sum[3] = {0, 0, 0};

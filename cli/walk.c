@@ -133,7 +133,7 @@ static void remark(const way *w, const char *name, const char *what)
     if (!w->settings->taken.common.quiet) complain("%s: %s %s", w->path, name, what);
 }
 
-/* A walk has visited so many triangles. True: there was no room for them; now there is, and it is to be walked again. */
+/* A walk has visited so many triangles. True: there was no room for them; now there is, and it is to be walked anew. */
 static bool lacks_room(way *w, size_t count, int *end)
 {
     w->count = count;

@@ -237,12 +237,13 @@ MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, co
 MW_API mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y);
 
 /* The triangles that a query visits, in order: one query by the cursor, whose answer goes to *location (may be NULL). First
- * comes the one where it begins, and each further one is entered over an edge of the one before. Left out are ghost triangles,
- * with which pockets and holes are filled, so that two that follow each other may have such between them; and the layers of
- * an index. Where flat triangles part a triangle into several parts, each part counts. Where pockets and holes are open, a walk
- * that finds nothing in one piece begins again in another, and one along a border may go back to a triangle on it. The walk
- * decides its turns exactly, whatever the cursor's arithmetic. Writes at most `capacity` of them and returns how many there
- * were; none if the point is not finite. */
+ * comes the one where it begins, and each further one is entered over an edge of the one before. Left out are the ghost
+ * triangles that fill pockets and holes: two that follow each other may have such between them, and a walk to a point on the
+ * border may end in one beside the answer; and the layers of an index. A triangle that flat ones part into several counts for
+ * each part. Where pockets and holes are open, a walk that finds nothing in one piece begins again in another, and one along
+ * a border may go back to a triangle on it. The walk decides its turns exactly, whatever the cursor's arithmetic. Writes at
+ * most `capacity` of them and returns how many there were; none if the point is not finite. Thread-safe with one cursor per
+ * thread; no allocation. */
 MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, double y, uint32_t *triangles,
                            size_t capacity, mw_location *location);
 

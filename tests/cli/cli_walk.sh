@@ -83,7 +83,7 @@ run walk --as star --from 1,2,3 --to 1,2 absent.off; refused 2 "'--to' wants X,Y
 run walk --as star --lonlat --from 1,2,3 --to 1,2 absent.off; refused 2 "'--from' wants LON,LAT"
 run walk --as star --lonlat --from 1,91 --to 1,2 octahedron.off; refused 2 "'--from' wants a latitude"
 run walk --as star --from 0,0,0 --to 1,2,3 octahedron.off; refused 2 "'--from' wants another point than the centre"
-for value in '' x 1 1, 1,x 1,2,3,4 1,inf ' 1,2' '1;2'; do
+for value in '' x 1 '1,' 1,x 1,2,3,4 1,inf ' 1,2' '1;2'; do
     run walk --from "$value" --to 1,2 row.off; refused 2 "'--from' wants coordinates X,Y or X,Y,Z, not"
 done
 run walk --from 1,2 --to 3,4 --walk lawsn row.off; refused 2 "did you mean 'lawson'\?"
