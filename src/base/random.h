@@ -1,4 +1,4 @@
-/* random.h - small random numbers: splitmix64 [Steele, Lea, Flood 2014]. */
+/* random.h - small random numbers: splitmix64 [Steele, Lea, Flood 2014]; a coin for walks. Private. */
 #ifndef MW_SRC_RANDOM_H
 #define MW_SRC_RANDOM_H
 
@@ -26,6 +26,17 @@ static MW_INLINE uint64_t mw__random_seed(uint64_t seed, uint64_t index)
 static MW_INLINE uint32_t mw__random_below(uint64_t *state, uint32_t n)
 {
     return (uint32_t)(((mw__random(state) >> 32) * n) >> 32);
+}
+
+/* A coin of 32 bits, by xorshift64 [Marsaglia 2003]: the state is never 0, the upper bits are the good ones. */
+static MW_INLINE uint64_t mw__toss(uint64_t *state)
+{
+    uint64_t x = *state | 1u << 7;
+    x ^= x << 13;
+    x ^= x >> 7;
+    x ^= x << 17;
+    *state = x;
+    return x >> 32;
 }
 
 #endif

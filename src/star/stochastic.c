@@ -4,11 +4,12 @@
  * there. The other two edges than the one just crossed are tried in random order. The three half-spaces of a facet meet
  * in its cone, without the opposite one, so where the ray lies beyond no edge it meets the facet. The chance of walking on
  * for ever is zero, but there is no bound that holds for certain; where the fuel runs out, the straight walk goes on. */
+#include "base/random.h"
 #include "star/walk.h"
 
 static MW_INLINE mw_star_verdict stochastic_step(mw_star_walk *w, mw_star_policy P)
 {
-    uint64_t coin = toss(w);
+    uint64_t coin = mw__toss(&w->random);
     if (w->e == MW_STAR_NO_EDGE) {
         uint32_t k = (uint32_t)(coin * 3 >> 32);
         if (beyond(w, k, P)) return cross(w, k, P);

@@ -85,17 +85,6 @@ static MW_INLINE mw_star_verdict leave_either(mw_star_walk *w, uint32_t first, u
     return leave(w, second, P);
 }
 
-/* xorshift64 [Marsaglia 2003]: the state is never 0, the upper bits are the good ones. */
-static MW_INLINE uint64_t toss(mw_star_walk *w)
-{
-    uint64_t x = w->random | 1u << 7;
-    x ^= x << 13;
-    x ^= x >> 7;
-    x ^= x << 17;
-    w->random = x;
-    return x >> 32;
-}
-
 static MW_INLINE mw_star_verdict mw__star_drive(mw_star_walk *walk,
                                                 mw_star_verdict (*step)(mw_star_walk *walk, mw_star_policy P),
                                                 mw_star_policy P)

@@ -18,7 +18,7 @@ enum { FAST, SURE }; /* phases */
 
 static MW_INLINE mw_verdict fast_step(mw_walk *w, mw_policy P)
 {
-    uint64_t coin = toss(w);
+    uint64_t coin = mw__toss(&w->random);
     bool first = w->e == MW_NO_EDGE;
     uint32_t tested = first ? any_edge(coin) : either_edge(coin, w->e);
     uint32_t other = first ? either_edge(coin, tested) : third_edge(w->e, tested);

@@ -2,18 +2,8 @@
 #ifndef MW_SRC_STOCHASTIC_H
 #define MW_SRC_STOCHASTIC_H
 
+#include "base/random.h"
 #include "walk/step.h"
-
-/* xorshift64 [Marsaglia 2003]: the state is never 0, the upper bits are the good ones. */
-static MW_INLINE uint64_t toss(mw_walk *w)
-{
-    uint64_t x = w->random | 1u << 7;
-    x ^= x << 13;
-    x ^= x >> 7;
-    x ^= x << 17;
-    w->random = x;
-    return x >> 32;
-}
 
 /* Any of the three edges, from the upper bits of the coin. */
 static MW_INLINE uint32_t any_edge(uint64_t coin)
@@ -35,7 +25,7 @@ static MW_INLINE uint32_t third_edge(uint32_t e, uint32_t f)
 
 static MW_INLINE mw_verdict stochastic_step(mw_walk *w, mw_policy P)
 {
-    uint64_t coin = toss(w);
+    uint64_t coin = mw__toss(&w->random);
     if (w->e == MW_NO_EDGE) {
         uint32_t k = any_edge(coin);
         if (beyond(w, k, P)) return cross(w, k, P);
