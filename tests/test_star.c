@@ -87,7 +87,7 @@ static void check_rays(const polyhedron *p, mw_surface_options how, const double
 static void test_lattice_stars(void **state)
 {
     (void)state;
-    for (uint64_t round = 0; round < 24; round++) {
+    for (uint64_t round = 0; round < 15; round++) {
         uint64_t seed = 1000 + round;
         polyhedron p = lattice_octahedron((unsigned)(round % 3));
         if (round % 4) stretch(&p, 4, &seed);
@@ -108,7 +108,10 @@ static void test_places_and_sizes(void **state)
             uint64_t seed = (uint64_t)(7 + i + 10 * j);
             polyhedron p = lattice_octahedron(2);
             double c[3] = {place[j] * size[i], -place[j] * size[i], 2 * place[j] * size[i]};
-            if (!isfinite(c[2] * 2)) continue;
+            if (!isfinite(c[2] * 2)) {
+                release_polyhedron(&p);
+                continue;
+            }
             stretch(&p, 3, &seed);
             for (uint32_t v = 0; v < p.points; v++)
                 for (uint32_t k = 0; k < 3; k++) p.point[3 * v + k] = p.point[3 * v + k] * size[i] + c[k];
@@ -120,7 +123,7 @@ static void test_places_and_sizes(void **state)
 static void test_facets_without_area(void **state)
 {
     (void)state;
-    for (uint64_t round = 0; round < 30; round++) {
+    for (uint64_t round = 0; round < 18; round++) {
         uint64_t seed = 500 + round;
         polyhedron p = lattice_octahedron(1 + (unsigned)(round % 2));
         for (uint32_t i = 0; i < 3 * p.points; i++) p.point[i] *= 16;
@@ -510,6 +513,30 @@ static void test_welded_update(void **state)
     release_polyhedron(&p);
 }
 
+/* All defects are found beside others: a facet without area, an open edge. */
+static void test_defects_beside_others(void **state)
+{
+    (void)state;
+    for (int open = 0; open < 2; open++) {
+        polyhedron p = lattice_octahedron(0);
+        for (uint32_t i = 0; i < 3 * p.points; i++) p.point[i] *= 4;
+        assert_true(open || add_flat(&p, 0, 0));
+        p.triangles -= (uint32_t)open;
+        mw_star_options outside = {.centre = {9, 9, 8}};
+        mw_arrays view = polyhedron_arrays(&p);
+        mw_check check;
+        expect_ok(mw_star_check_arrays(&view, 0, &outside, &check, NULL), "check", NULL);
+        assert_false(check.embedding);
+        uint32_t count[MW_DEFECT_COUNT] = {0};
+        for (size_t i = 0; i < check.defect_count; i++) count[check.defects[i].kind]++;
+        assert_int_equal(count[MW_DEFECT_OPEN_EDGE], open ? 3 : 0);
+        assert_int_equal(count[MW_DEFECT_FLAT], !open);
+        assert_true(count[MW_DEFECT_TURNED] > 0);
+        mw_check_release(&check);
+        release_polyhedron(&p);
+    }
+}
+
 /* What has no facet with an area is no polyhedron, for mw_star_check_arrays either. */
 static void test_nothing(void **state)
 {
@@ -552,6 +579,7 @@ int main(void)
         cmocka_unit_test(test_flat_fan),
         cmocka_unit_test(test_welded_update),
         cmocka_unit_test(test_nothing),
+        cmocka_unit_test(test_defects_beside_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

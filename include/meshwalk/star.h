@@ -74,9 +74,10 @@ typedef struct mw_star_info {
 MW_API void mw_star_describe(const mw_star *star, mw_star_info *info);
 
 /* Every defect of the arrays as a polyhedron star-shaped about the centre of the options: those of
- * mw_surface_check_arrays but MW_DEFECT_CLASHING (facets may be oriented either way), then MW_DEFECT_OPEN_EDGE,
- * MW_DEFECT_THROUGH_CENTRE and MW_DEFECT_TURNED, and if there is none of all these MW_DEFECT_COVERED. check->embedding: 1
- * if mw_star_create takes it. O(n). MW_OK also when defects were found. Release with mw_check_release. Thread-safe. */
+ * mw_surface_check_arrays, but facets may be oriented either way, so MW_DEFECT_CLASHING stands for edges at which no
+ * orientation agrees (of one-sided surfaces) only; MW_DEFECT_OPEN_EDGE, MW_DEFECT_THROUGH_CENTRE, MW_DEFECT_TURNED; and if there is
+ * none of all these MW_DEFECT_COVERED. Of arrays that are unusable only what makes them so. check->embedding: 1 if
+ * mw_star_create takes it. O(n). MW_OK also when defects were found. Release with mw_check_release. Thread-safe. */
 MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options,
                                       mw_check *check, mw_error *error);
 
@@ -113,9 +114,9 @@ MW_API void mw_star_index_destroy(mw_star_index *index); /* NULL is allowed */
 typedef struct mw_star_index_info {
     mw_star_start_kind start;
     size_t bytes;
-    double seconds; /* it took to build */
-    uint32_t cells; /* of a grid, or triangles of the finest octahedron */
-    uint32_t levels;
+    double seconds;  /* it took to build */
+    uint32_t cells;  /* of a grid, or triangles of the finest octahedron */
+    uint32_t levels; /* subdivisions of the octahedron; 0 of a grid      */
 } mw_star_index_info;
 MW_API void mw_star_index_describe(const mw_star_index *index, mw_star_index_info *info);
 
@@ -153,7 +154,8 @@ MW_API mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star
  * the point is the centre or not finite, or the star is not up to date. weight[k]: the ray meets the facet's plane at
  * sum of weight[k] * vertex k, so these are the barycentric weights of that point of the flat facet (on the sphere: of
  * the central projection onto it, not of areas on the sphere); each >= 0 and off by less than 2^-34, exactly 0 for the
- * vertices off an edge that the ray meets, sum 1 up to rounding. Thread-safe with one cursor per thread; no allocation. */
+ * vertices off an edge that the ray meets, sum 1 up to rounding; where determinants leave the range of doubles, from rounded
+ * differences, and less exact. Thread-safe with one cursor per thread; no allocation. */
 MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor, const double point[3]);
 
 /* The same for n points, x, y, z of point i at points[i * stride]; stride in doubles, 0 = 3. Results in input order, the

@@ -104,6 +104,7 @@ static bool collect(mw_survey *s, uint32_t first, uint32_t *count)
     for (uint32_t i = 0; i < end; i++) {
         uint32_t t = s->queue[i];
         for (uint32_t k = 0; k < 3; k++) {
+            if (star->tri[t].link[k] == MW_NONE) continue;
             uint32_t other = mw__link_triangle(star->tri[t].link[k]);
             int8_t turned = (int8_t)(s->turned[t] ^ !mw__surface_agrees(star->surface, t, k));
             if (s->turned[other] < 0) {
@@ -128,6 +129,7 @@ static bool is_front(const mw_survey *s, uint32_t t)
 static bool add_turned(mw_survey *s, uint32_t t, bool fronts)
 {
     for (uint32_t k = 0; k < 3; k++) {
+        if (s->star->tri[t].link[k] == MW_NONE) continue;
         uint32_t other = mw__link_triangle(s->star->tri[t].link[k]);
         if (s->faces[other] != LEVEL && is_front(s, other) == fronts) return add(s, MW_DEFECT_TURNED, t, other, k);
     }
@@ -229,10 +231,9 @@ static bool look_along_ray(mw_survey *s)
 
 static bool survey(mw_survey *s)
 {
-    if (!look_at_facets(s) || !look_at_edges(s)) return false;
-    if (s->defects->count) return true;
-    if (!look_at_pieces(s)) return false;
-    if (s->defects->count) return true;
+    size_t before = s->defects->count;
+    if (!look_at_facets(s) || !look_at_edges(s) || !look_at_pieces(s)) return false;
+    if (s->defects->count > before) return true;
     orient(s);
     return look_along_ray(s);
 }

@@ -11,8 +11,8 @@
 #include "mesh/defect.h"
 #include "star/star.h"
 
-/* Decide, and orient star->tri, which holds the surface's triangles, as star.h says; also star->area_count. Every defect goes
- * into *defects, those of the first kind found only. If there is none, the surface is star-shaped. Returns false when out
+/* Decide, and orient star->tri, which holds the surface's triangles, as star.h says; also star->area_count. Every defect
+ * joins *defects, that of a ray (MW_DEFECT_COVERED) only if there is no other. If there is none, the surface is star-shaped. Returns false when out
  * of memory. */
 bool mw__star_kernel(mw_star *star, mw_defects *defects);
 
