@@ -513,11 +513,11 @@ static void paint(cairo_t *c, const scene *s, const piece *p, double width)
     cairo_stroke(c);
 }
 
-/* A triangle that is too small to show its colour gets a ring of it. */
+/* A triangle that is too small or thin to show its colour gets a ring of it. */
 static void ring(cairo_t *c, const scene *s, uint32_t triangle, const double rgb[3])
 {
     box b = box_of(s, triangle);
-    if (!is_finite(s, triangle) || side_of(&b) * s->scale > 2 * RING) return;
+    if (!is_finite(s, triangle) || fmin(b.high[0] - b.low[0], b.high[1] - b.low[1]) * s->scale > 1.5 * RING) return;
     cairo_new_sub_path(c);
     cairo_arc(c, page_x(s, b.low[0] / 2 + b.high[0] / 2), page_y(s, b.low[1] / 2 + b.high[1] / 2), RING, 0,
               2 * acos(-1));

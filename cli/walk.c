@@ -260,27 +260,41 @@ static void hit(const mw_star *star, const mw_surface *surface, mw_star_cursor *
     }
 }
 
-/* The shorter way from FROM to TO in the plane through both and the centre; a straight walk follows it. */
+static double angle_between(const double u[3], const double v[3])
+{
+    return acos(fmax(-1, fmin(1, u[0] * v[0] + u[1] * v[1] + u[2] * v[2])));
+}
+
+/* A direction between two that are `angle` apart. */
+static void between(const double u[3], const double v[3], double angle, double part, double d[3])
+{
+    double a = 1 - part, b = part;
+    if (angle > 0x1p-20 && part > 0 && part < 1) { /* else the sines are as good as the angles */
+        a = sin(a * angle);
+        b = sin(b * angle);
+    }
+    for (int k = 0; k < 3; k++) d[k] = a * u[k] + b * v[k];
+}
+
+/* The shorter way from FROM to TO in the plane through both and the centre; a straight walk follows it. Between opposite
+ * directions, or such as rounding hardly tells from them, there is no such plane: the line has its ends only. */
 static int draw_arc(way *w, const mw_star *star, const mw_surface *surface, const double from[3], const double to[3])
 {
-    enum { POINTS = 257 };
+    enum { PARTS = 256 };
     const double *centre = w->settings->taken.centre;
     mw_star_cursor cursor;
     mw_error error;
-    double u[3], v[3], d[3], along = 0, reach = 1;
-    if (!make_line(w, POINTS)) return fail_memory();
+    double u[3], v[3], d[3];
+    if (!make_line(w, PARTS + 1)) return fail_memory();
     if (mw_star_cursor_init(&cursor, star, NULL, &error) != MW_OK) return fail_query(&error);
     unit(centre, from, u);
     unit(centre, to, v);
-    for (int k = 0; k < 3; k++) {
-        along += u[k] * v[k];
-        reach = fmax(reach, fabs(centre[k]));
-    }
-    double angle = acos(fmax(-1, fmin(1, along)));
-    for (int i = 0; i < POINTS; i++) {
-        double part = (double)i / (POINTS - 1), a = sin((1 - part) * angle), b = sin(part * angle);
-        if (!(a + b > 1e-9)) a = 1 - part, b = part; /* as good as one direction; or opposite ones */
-        for (int k = 0; k < 3; k++) d[k] = a * u[k] + b * v[k];
+    double angle = angle_between(u, v), reach = 1;
+    bool opposite = angle > acos(-1) - 0x1p-15;
+    for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(centre[k]));
+    for (int i = 0; i <= PARTS; i++) {
+        between(u, v, angle, (double)i / PARTS, d);
+        if (opposite && i > 0 && i < PARTS) memcpy(d, (const double[]){NAN, NAN, NAN}, sizeof d);
         hit(star, surface, &cursor, centre, reach, d, w->line + 3 * i);
     }
     return 0;
