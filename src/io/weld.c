@@ -1,40 +1,23 @@
 #include "io/weld.h"
-#include "base/random.h"
+#include "base/coordinates.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-/* The bits of x, with those of 0.0 for -0.0. */
-static uint64_t bits_of(double x)
-{
-    uint64_t bits;
-    x += 0.0;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static uint64_t hash(const mw_weld *weld, const double xyz[3])
-{
-    uint64_t h = weld->seed;
-    for (int k = 0; k < 3; k++) h = mw__mix(h ^ bits_of(xyz[k]));
-    return h;
-}
 
 static bool equal(const double a[3], const double b[3])
 {
-    return bits_of(a[0]) == bits_of(b[0]) && bits_of(a[1]) == bits_of(b[1]) && bits_of(a[2]) == bits_of(b[2]);
+    for (int k = 0; k < 3; k++)
+        if (mw__coordinate_bits(a[k]) != mw__coordinate_bits(b[k])) return false;
+    return true;
 }
 
 mw_status mw__weld_start(mw_weld *weld, mw_error *error)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_REALTIME, &time);
     *weld = (mw_weld){.slot_count = 64};
     weld->slots = mw__alloc(weld->slot_count, sizeof *weld->slots);
     if (!weld->slots) return mw__fail_memory(error);
     memset(weld->slots, 0xff, weld->slot_count * sizeof *weld->slots);
-    weld->seed = mw__mix((uint64_t)time.tv_nsec ^ (uintptr_t)weld->slots);
+    weld->seed = mw__coordinates_seed(weld->slots);
     return MW_OK;
 }
 
@@ -47,7 +30,7 @@ void mw__weld_release(mw_weld *weld)
 /* The slot that holds the vertex at xyz, or the free one where it belongs. */
 static size_t find(const mw_weld *weld, const double *points, const double xyz[3])
 {
-    size_t mask = weld->slot_count - 1, slot = hash(weld, xyz) & mask;
+    size_t mask = weld->slot_count - 1, slot = mw__coordinates_hash(weld->seed, xyz) & mask;
     while (weld->slots[slot] != MW_NONE && !equal(points + 3 * (size_t)weld->slots[slot], xyz))
         slot = (slot + 1) & mask;
     return slot;

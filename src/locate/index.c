@@ -1,17 +1,10 @@
 /* index.c - building, describing and asking the index of a start. */
 #include "locate/index.h"
 
+#include "base/clock.h"
 #include "locate/locator.h"
 
 #include <stdlib.h>
-#include <time.h>
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static mw_status build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
                               mw_error *error)
@@ -49,9 +42,9 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const 
     mw_index *index = mw__calloc(1, sizeof *index);
     if (!index) return mw__fail_memory(error);
     index->start = start;
-    double begin = seconds();
+    double begin = mw__seconds();
     mw_status status = build(index, locator, options ? options : &defaults, error);
-    index->seconds = seconds() - begin;
+    index->seconds = mw__seconds() - begin;
     if (status)
         mw_index_destroy(index);
     else

@@ -1,34 +1,22 @@
 /* place.c - places by an open hash table, at most half full. */
 #include "mesh/place.h"
-#include "base/random.h"
+#include "base/coordinates.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 typedef struct place_table {
     uint32_t *slot; /* a vertex, or MW_NONE */
     uint64_t mask;
-    uint64_t seed; /* differs from run to run, so that no points can be made to collide; results do not depend on it */
+    uint64_t seed; /* results do not depend on it */
 } place_table;
-
-static uint64_t hash(const place_table *table, const double p[3])
-{
-    uint64_t h = table->seed, bits;
-    for (int k = 0; k < 3; k++) {
-        double x = p[k] + 0.0; /* -0.0 becomes 0.0 */
-        memcpy(&bits, &x, sizeof bits);
-        h = mw__mix(h ^ bits);
-    }
-    return h;
-}
 
 /* The lowest vertex at the place of vertex v; v itself, which is entered, where none came before it. */
 static uint32_t find(place_table *table, const double *point, uint32_t v)
 {
     const double *p = point + 3 * (size_t)v;
-    for (uint64_t i = hash(table, p);; i++) {
+    for (uint64_t i = mw__coordinates_hash(table->seed, p);; i++) {
         uint32_t *slot = &table->slot[i & table->mask];
         if (*slot == MW_NONE) return *slot = v;
         const double *q = point + 3 * (size_t)*slot;
@@ -38,8 +26,6 @@ static uint32_t find(place_table *table, const double *point, uint32_t v)
 
 uint32_t *mw__places_create(const double *point, uint32_t count)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_REALTIME, &time);
     size_t size = 2;
     while (size < 2 * (size_t)count) size *= 2;
     uint32_t *place = mw__alloc(count, sizeof *place);
@@ -50,7 +36,7 @@ uint32_t *mw__places_create(const double *point, uint32_t count)
         return NULL;
     }
     memset(table.slot, 0xff, size * sizeof *table.slot);
-    table.seed = mw__mix((uint64_t)time.tv_nsec ^ (uintptr_t)table.slot);
+    table.seed = mw__coordinates_seed(table.slot);
     for (uint32_t v = 0; v < count; v++) {
         const double *p = point + 3 * (size_t)v;
         bool finite = isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);

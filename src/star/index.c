@@ -1,17 +1,11 @@
 /* index.c - building and describing the index of a start. */
 #include "star/index.h"
 
+#include "base/clock.h"
+
 #include <stdlib.h>
-#include <time.h>
 
 #define FACETS_A_CELL 16 /* where nothing is said */
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static uint32_t choose_cells(const mw_star *star)
 {
@@ -60,12 +54,12 @@ mw_status mw_star_index_create(const mw_star *star, mw_star_start_kind start, co
     mw_star_index *index = mw__calloc(1, sizeof *index);
     if (!index) return mw__fail_memory(error);
     index->start = start;
-    double begin = seconds();
+    double begin = mw__seconds();
     if (!build(index, star, options)) {
         mw_star_index_destroy(index);
         return mw__fail_memory(error);
     }
-    index->seconds = seconds() - begin;
+    index->seconds = mw__seconds() - begin;
     *out = index;
     return MW_OK;
 }
