@@ -35,6 +35,14 @@ static MW_INLINE bool mw__is_finite3(const double p[3])
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
+/* Are all three corners of a triangle finite? */
+static MW_INLINE bool mw__corners_finite(const mw_surface *surface, uint32_t triangle)
+{
+    return mw__is_finite3(mw__surface_corner(surface, triangle, 0)) &&
+           mw__is_finite3(mw__surface_corner(surface, triangle, 1)) &&
+           mw__is_finite3(mw__surface_corner(surface, triangle, 2));
+}
+
 /* Do a, b, c (finite) lie on one line? Exact. */
 bool mw__collinear3(const double a[3], const double b[3], const double c[3]);
 

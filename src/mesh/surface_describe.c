@@ -6,9 +6,7 @@
 
 static bool is_usable(const mw_surface *surface, uint32_t t)
 {
-    for (uint32_t k = 0; k < 3; k++)
-        if (!mw__is_finite3(mw__surface_corner(surface, t, k))) return false;
-    return mw__has_three_vertices(&surface->tri[t]);
+    return mw__corners_finite(surface, t) && mw__has_three_vertices(&surface->tri[t]);
 }
 
 /* --- counts --- */

@@ -35,12 +35,6 @@ static void sort_values(double *value, uint32_t count)
     qsort(value, count, sizeof *value, compare_values);
 }
 
-static bool has_finite_corners(const mw_surface *surface, uint32_t t)
-{
-    return mw__is_finite3(mw__surface_corner(surface, t, 0)) && mw__is_finite3(mw__surface_corner(surface, t, 1)) &&
-           mw__is_finite3(mw__surface_corner(surface, t, 2));
-}
-
 /* First corners of a sample of triangles, each coordinate sorted for itself. Returns how many are finite. */
 static uint32_t sample_corners(const mw_surface *surface, double value[3][SAMPLE])
 {
@@ -98,8 +92,8 @@ static mw_surface_box rounded_outwards(const mw_surface_boxes *b, const double l
 {
     mw_surface_box box;
     double from[3], to[3];
-    mw__surface_frame(b, low, from);
-    mw__surface_frame(b, high, to);
+    mw__surface_boxes_frame(b, low, from);
+    mw__surface_boxes_frame(b, high, to);
     for (int k = 0; k < 3; k++) {
         if (!(from[k] > -0x1p126 && to[k] < 0x1p126)) return box_of_everything();
         box.low[k] = float_below(from[k]);
@@ -111,10 +105,10 @@ static mw_surface_box rounded_outwards(const mw_surface_boxes *b, const double l
 static mw_surface_box fit_leaf(const mw_surface_boxes *b, const mw_surface *surface, uint32_t leaf)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    uint32_t first, end = mw__boxes_below(b, 0, leaf, &first);
+    uint32_t first, end = mw__surface_boxes_below(b, 0, leaf, &first);
     for (uint32_t i = first; i < end; i++) {
-        uint32_t t = mw__boxes_triangle(b, i);
-        if (!has_finite_corners(surface, t)) continue;
+        uint32_t t = mw__surface_boxes_triangle(b, i);
+        if (!mw__corners_finite(surface, t)) continue;
         for (uint32_t corner = 0; corner < 3; corner++) {
             const double *p = mw__surface_corner(surface, t, corner);
             for (int k = 0; k < 3; k++) {
@@ -129,7 +123,7 @@ static mw_surface_box fit_leaf(const mw_surface_boxes *b, const mw_surface *surf
 static mw_surface_box fit_box(const mw_surface_boxes *b, uint32_t level, uint32_t i)
 {
     mw_surface_box box = box_of_nothing();
-    uint32_t first, end = mw__boxes_below(b, level, i, &first);
+    uint32_t first, end = mw__surface_boxes_below(b, level, i, &first);
     for (uint32_t j = first; j < end; j++) {
         const mw_surface_box *below = mw__surface_box(b, level - 1, j);
         for (int k = 0; k < 3; k++) {
@@ -189,7 +183,7 @@ static double median_leaf(const mw_surface_boxes *b, double (*measure)(const mw_
     return count ? value[count / 2] : 0;
 }
 
-double mw__surface_leaf_size(const mw_surface_boxes *boxes)
+double mw__surface_boxes_leaf_size(const mw_surface_boxes *boxes)
 {
     return median_leaf(boxes, leaf_size) / boxes->scale;
 }

@@ -38,30 +38,54 @@ size_t mw__surface_boxes_bytes(const mw_surface_boxes *boxes);
 void mw__surface_boxes_fit(mw_surface_boxes *boxes, const mw_surface *surface, uint32_t threads);
 
 /* The size of a common leaf, in units of length: the median, of a sample, of the mean edge of their boxes. */
-double mw__surface_leaf_size(const mw_surface_boxes *boxes);
+double mw__surface_boxes_leaf_size(const mw_surface_boxes *boxes);
 
 /* A point in the frame: off by at most 2^-53 of itself (and 2^-1074). May overflow. */
-static MW_INLINE void mw__surface_frame(const mw_surface_boxes *boxes, const double point[3], double in_frame[3])
+static MW_INLINE void mw__surface_boxes_frame(const mw_surface_boxes *boxes, const double point[3], double in_frame[3])
 {
     for (int k = 0; k < 3; k++) in_frame[k] = point[k] * boxes->scale - boxes->centre[k];
 }
 
 /* --- a search, nearer boxes first --------------------------------------------------------------------------------- */
 
+/* A search in doubles must not miss a box that holds its answer. A point in the frame is off by 2^-53 of itself: boxes are
+ * widened for that by Q_ERROR of its largest coordinate, for what the surface moved, and by LEAST_WIDTH for what
+ * underflows. WIDTH_ERROR is for the roundings of this sum, and of bounds of boxes less the point. For a point farther off
+ * than FAR, or that overflows, all boxes are infinite. certain.c gives the arguments. */
+#define MW_SURFACE_FAR 0x1p100
+#define MW_SURFACE_Q_ERROR 0x1p-50
+#define MW_SURFACE_WIDTH_ERROR (1 + 0x1p-40)
+#define MW_SURFACE_LEAST_WIDTH 0x1p-600
+/* Where distances underflow, they are off by less, in units of length. */
+#define MW_SURFACE_TINY_LENGTH 0x1p-1070
+
+/* Brings a point to the frame: q. Returns the width by which boxes are then to be larger on all sides; no vertex has moved
+ * farther than `slack` since they were fitted. */
+static MW_INLINE double mw__surface_boxes_aim(const mw_surface_boxes *boxes, const double point[3], double slack,
+                                              double q[3])
+{
+    mw__surface_boxes_frame(boxes, point, q);
+    double largest = fmax(fabs(q[0]), fmax(fabs(q[1]), fabs(q[2])));
+    if (largest <= MW_SURFACE_FAR)
+        return (largest * MW_SURFACE_Q_ERROR + slack * boxes->scale + MW_SURFACE_LEAST_WIDTH) * MW_SURFACE_WIDTH_ERROR;
+    q[0] = q[1] = q[2] = 0;
+    return INFINITY;
+}
+
 /* A box to look into, nothing in it being nearer than `near`. */
-typedef struct mw_box_visit {
+typedef struct mw_surface_box_visit {
     double near;
     uint32_t level, box;
-} mw_box_visit;
+} mw_surface_box_visit;
 
 /* Depth first, so that the stack is bounded: of each level at most the brothers of one box wait. */
-typedef struct mw_box_stack {
+typedef struct mw_surface_box_stack {
     uint32_t count;
-    mw_box_visit visit[MW_SURFACE_LEVELS * MW_SURFACE_FAN];
-} mw_box_stack;
+    mw_surface_box_visit visit[MW_SURFACE_LEVELS * MW_SURFACE_FAN];
+} mw_surface_box_stack;
 
 /* Push one of several brothers, which wait from number `floor` on: the nearest on top. */
-static MW_INLINE void mw__box_push(mw_box_stack *stack, uint32_t floor, mw_box_visit visit)
+static MW_INLINE void mw__surface_box_push(mw_surface_box_stack *stack, uint32_t floor, mw_surface_box_visit visit)
 {
     uint32_t i = stack->count++;
     for (; i > floor && stack->visit[i - 1].near < visit.near; i--) stack->visit[i] = stack->visit[i - 1];
@@ -70,7 +94,8 @@ static MW_INLINE void mw__box_push(mw_box_stack *stack, uint32_t floor, mw_box_v
 
 /* The boxes below box `i` of a level, in level - 1, or the triangles of a leaf, in the order of the tree: from *first to
  * before the value returned. */
-static MW_INLINE uint32_t mw__boxes_below(const mw_surface_boxes *boxes, uint32_t level, uint32_t i, uint32_t *first)
+static MW_INLINE uint32_t mw__surface_boxes_below(const mw_surface_boxes *boxes, uint32_t level, uint32_t i,
+                                                  uint32_t *first)
 {
     uint32_t size = level ? MW_SURFACE_FAN : MW_SURFACE_LEAF;
     uint32_t all = level ? boxes->level_boxes[level - 1] : boxes->count;
@@ -83,7 +108,7 @@ static MW_INLINE const mw_surface_box *mw__surface_box(const mw_surface_boxes *b
     return &boxes->box[boxes->first[level] + i];
 }
 
-static MW_INLINE uint32_t mw__boxes_triangle(const mw_surface_boxes *boxes, uint32_t place)
+static MW_INLINE uint32_t mw__surface_boxes_triangle(const mw_surface_boxes *boxes, uint32_t place)
 {
     return boxes->order ? boxes->order[place] : place;
 }

@@ -17,16 +17,10 @@
  *  - a q farther than 2^100 off, or that overflows: all boxes are looked into. */
 #include "surface/prober.h"
 
-#define FAR 0x1p100
-#define Q_ERROR 0x1p-50
-#define WIDTH_ERROR (1 + 0x1p-40)
 #define END_ERROR 0x1p-48
 #define SMALL_COMPONENT 0x1p-800
-#define LEAST_WIDTH 0x1p-600
-/* Distances are off by 2^-40 of themselves, or where they underflow by less than TINY_LENGTH; |m| and the quotient by a few
- * 2^-53 more. */
+/* Distances are off by 2^-40 of themselves, |m| and the quotient by a few 2^-53 more. */
 #define REACH_ERROR (1 + 0x1p-38)
-#define TINY_LENGTH 0x1p-1070
 #define GREATEST_REACH 0x1p1000
 
 /* The line in the frame of the boxes. */
@@ -48,29 +42,23 @@ typedef struct search {
 
 static void set_reach(beam *b, double distance)
 {
-    double reach = (distance + TINY_LENGTH) * b->per_length * REACH_ERROR + LEAST_WIDTH;
+    double reach = (distance + MW_SURFACE_TINY_LENGTH) * b->per_length * REACH_ERROR + MW_SURFACE_LEAST_WIDTH;
     b->reach = reach < GREATEST_REACH ? reach : GREATEST_REACH;
 }
 
 static beam make_beam(const mw_prober *prober, const mw_line *line)
 {
     beam b;
-    double largest_q = 0, largest_m = fmax(fabs(line->m[0]), fmax(fabs(line->m[1]), fabs(line->m[2]))), square = 0;
-    mw__surface_frame(&prober->boxes, line->q, b.q);
-    int exponent = ilogb(largest_m) + 1;
+    double largest = fmax(fabs(line->m[0]), fmax(fabs(line->m[1]), fabs(line->m[2]))), square = 0;
+    b.width = mw__surface_boxes_aim(&prober->boxes, line->q, prober->slack, b.q);
+    int exponent = ilogb(largest) + 1;
     for (int k = 0; k < 3; k++) {
         double m = ldexp(line->m[k], -exponent);
         if (fabs(m) < SMALL_COMPONENT) m = 0;
         b.inverse[k] = m == 0 ? INFINITY : 1 / m;
-        largest_q = fmax(largest_q, fabs(b.q[k]));
         square += m * m;
     }
     b.per_length = prober->boxes.scale / sqrt(square);
-    b.width = (largest_q * Q_ERROR + prober->slack * prober->boxes.scale + LEAST_WIDTH) * WIDTH_ERROR;
-    if (!(largest_q <= FAR)) {
-        b.q[0] = b.q[1] = b.q[2] = 0;
-        b.width = INFINITY;
-    }
     return b;
 }
 
@@ -107,20 +95,20 @@ static void look_at_triangle(search *s, uint32_t t)
 }
 
 /* Push the boxes below one that the beam meets, or look at the triangles of a leaf. */
-static void look_into(search *s, mw_box_stack *stack, mw_box_visit visit)
+static void look_into(search *s, mw_surface_box_stack *stack, mw_surface_box_visit visit)
 {
     const mw_surface_boxes *boxes = &s->prober->boxes;
-    uint32_t first, end = mw__boxes_below(boxes, visit.level, visit.box, &first), floor = stack->count;
+    uint32_t first, end = mw__surface_boxes_below(boxes, visit.level, visit.box, &first), floor = stack->count;
     if (visit.level == 0) {
         s->triangles += end - first;
-        for (uint32_t i = first; i < end; i++) look_at_triangle(s, mw__boxes_triangle(boxes, i));
+        for (uint32_t i = first; i < end; i++) look_at_triangle(s, mw__surface_boxes_triangle(boxes, i));
         return;
     }
     s->boxes += end - first;
-    mw_box_visit below = {0, visit.level - 1, 0};
+    mw_surface_box_visit below = {0, visit.level - 1, 0};
     for (below.box = first; below.box < end; below.box++)
         if (meets_box(&s->beam, mw__surface_box(boxes, below.level, below.box), &below.near))
-            mw__box_push(stack, floor, below);
+            mw__surface_box_push(stack, floor, below);
 }
 
 uint32_t mw__certain(const mw_prober *prober, const mw_line *line, double max_distance, uint32_t seed,
@@ -133,9 +121,9 @@ uint32_t mw__certain(const mw_prober *prober, const mw_line *line, double max_di
                 .beam = make_beam(prober, line)};
     set_reach(&s.beam, s.max_distance);
     if (seed != MW_NONE) look_at_triangle(&s, seed);
-    mw_box_stack stack = {.count = 1, .visit[0] = {0, prober->boxes.level_count - 1, 0}};
+    mw_surface_box_stack stack = {.count = 1, .visit[0] = {0, prober->boxes.level_count - 1, 0}};
     while (stack.count) {
-        mw_box_visit visit = stack.visit[--stack.count];
+        mw_surface_box_visit visit = stack.visit[--stack.count];
         if (visit.near <= s.beam.reach) look_into(&s, &stack, visit);
     }
     if (counters) {

@@ -13,7 +13,7 @@ bool mw__faces(const mw_search *search, uint32_t triangle, mw_probe_counters *wo
     const double *b = mw__surface_corner(search->surface, triangle, 1);
     const double *c = mw__surface_corner(search->surface, triangle, 2);
     if (work) work->tests++;
-    return mw__is_finite3(a) && mw__is_finite3(b) && mw__is_finite3(c) && mw__facing(search->line.m, a, b, c) < 0;
+    return mw__corners_finite(search->surface, triangle) && mw__facing(search->line.m, a, b, c) < 0;
 }
 
 static double distance2(const double a[3], const double b[3])

@@ -18,12 +18,7 @@ static void corners_of(const mw_surface *surface, uint32_t triangle, mw_corners 
     for (uint32_t k = 0; k < 3; k++) corners[k] = mw__surface_corner(surface, triangle, k);
 }
 
-/* Sides tell of a vertex that is not finite at most that they are 0, so this is asked last. */
-static bool all_finite(const mw_corners c)
-{
-    return mw__is_finite3(c[0]) && mw__is_finite3(c[1]) && mw__is_finite3(c[2]);
-}
-
+/* Sides tell of a vertex that is not finite at most that they are 0: whether all are is asked last, here and below. */
 bool mw__touches(const mw_surface *surface, const mw_line *line, uint32_t triangle)
 {
     mw_corners c;
@@ -33,7 +28,7 @@ bool mw__touches(const mw_surface *surface, const mw_line *line, uint32_t triang
     double bc = mw__side(line, c[1], c[2]);
     if (bc > 0) return false;
     double ca = mw__side(line, c[2], c[0]);
-    return ca <= 0 && (ab < 0 || bc < 0 || ca < 0) && all_finite(c);
+    return ca <= 0 && (ab < 0 || bc < 0 || ca < 0) && mw__corners_finite(surface, triangle);
 }
 
 bool mw__meets(const mw_surface *surface, const mw_line *line, uint32_t triangle)
@@ -44,7 +39,7 @@ bool mw__meets(const mw_surface *surface, const mw_line *line, uint32_t triangle
     if ((ab < 0 && bc > 0) || (ab > 0 && bc < 0)) return false;
     double ca = mw__side(line, c[2], c[0]);
     bool front = ab < 0 || bc < 0 || ca<0, back = ab> 0 || bc > 0 || ca > 0;
-    return front != back && all_finite(c);
+    return front != back && mw__corners_finite(surface, triangle);
 }
 
 bool mw__in_reach(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d)

@@ -128,13 +128,8 @@ static candidate nearest_of_triangle(const mw_corners corner, const double q[3])
 
 /* --- the search --------------------------------------------------------------------------------------------------- */
 
-/* Bounds in the frame of the boxes: as for lines (certain.c), q is off by 2^-53 of itself, and boxes are widened for that and
- * for what the surface moved. Distances are off by 2^-50 of themselves, and by less than TINY_LENGTH where they underflow. */
-#define FAR 0x1p100
-#define Q_ERROR 0x1p-50
-#define LEAST_WIDTH 0x1p-600
+/* Bounds are in the frame of the boxes, and rounded as for lines (certain.c). Distances are off by 2^-50 of themselves. */
 #define REACH_ERROR (1 + 0x1p-40)
-#define TINY_LENGTH 0x1p-1070
 
 typedef struct search {
     const mw_prober *prober;
@@ -147,7 +142,8 @@ typedef struct search {
 
 static void set_reach(search *s, double distance)
 {
-    s->reach = (distance + TINY_LENGTH) * s->prober->boxes.scale * REACH_ERROR + LEAST_WIDTH;
+    double scale = s->prober->boxes.scale;
+    s->reach = (distance + MW_SURFACE_TINY_LENGTH) * scale * REACH_ERROR + MW_SURFACE_LEAST_WIDTH;
 }
 
 /* How far q is from the box of a triangle: less than from the triangle, but for REACH_ERROR. */
@@ -179,9 +175,9 @@ static double distance_to_box(const search *s, const mw_surface_box *box)
 static void look_at_triangle(search *s, uint32_t t)
 {
     const mw_surface *surface = s->prober->surface;
+    if (!mw__corners_finite(surface, t)) return;
     const mw_corners corner = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
                                mw__surface_corner(surface, t, 2)};
-    if (!mw__is_finite3(corner[0]) || !mw__is_finite3(corner[1]) || !mw__is_finite3(corner[2])) return;
     if (distance_to_corners_box(corner, s->point) > s->nearest.distance * REACH_ERROR) return;
     candidate c = nearest_of_triangle(corner, s->point);
     if (c.distance > s->max_distance || c.distance > s->nearest.distance) return;
@@ -192,35 +188,29 @@ static void look_at_triangle(search *s, uint32_t t)
     set_reach(s, c.distance);
 }
 
-static void look_into(search *s, mw_box_stack *stack, mw_box_visit visit)
+static void look_into(search *s, mw_surface_box_stack *stack, mw_surface_box_visit visit)
 {
     const mw_surface_boxes *boxes = &s->prober->boxes;
-    uint32_t first, end = mw__boxes_below(boxes, visit.level, visit.box, &first), floor = stack->count;
+    uint32_t first, end = mw__surface_boxes_below(boxes, visit.level, visit.box, &first), floor = stack->count;
     if (visit.level == 0) {
-        for (uint32_t i = first; i < end; i++) look_at_triangle(s, mw__boxes_triangle(boxes, i));
+        for (uint32_t i = first; i < end; i++) look_at_triangle(s, mw__surface_boxes_triangle(boxes, i));
         return;
     }
-    mw_box_visit below = {0, visit.level - 1, 0};
+    mw_surface_box_visit below = {0, visit.level - 1, 0};
     for (below.box = first; below.box < end; below.box++) {
         below.near = distance_to_box(s, mw__surface_box(boxes, below.level, below.box));
-        if (below.near <= s->reach) mw__box_push(stack, floor, below);
+        if (below.near <= s->reach) mw__surface_box_push(stack, floor, below);
     }
 }
 
 static void search_boxes(search *s)
 {
     const mw_prober *prober = s->prober;
-    mw__surface_frame(&prober->boxes, s->point, s->q);
-    double largest = fmax(fabs(s->q[0]), fmax(fabs(s->q[1]), fabs(s->q[2])));
-    s->width = (largest * Q_ERROR + prober->slack * prober->boxes.scale + LEAST_WIDTH) * REACH_ERROR;
-    if (!(largest <= FAR)) {
-        s->q[0] = s->q[1] = s->q[2] = 0;
-        s->width = INFINITY;
-    }
+    s->width = mw__surface_boxes_aim(&prober->boxes, s->point, prober->slack, s->q);
     set_reach(s, s->max_distance);
-    mw_box_stack stack = {.count = 1, .visit[0] = {0, prober->boxes.level_count - 1, 0}};
+    mw_surface_box_stack stack = {.count = 1, .visit[0] = {0, prober->boxes.level_count - 1, 0}};
     while (stack.count) {
-        mw_box_visit visit = stack.visit[--stack.count];
+        mw_surface_box_visit visit = stack.visit[--stack.count];
         if (visit.near <= s->reach) look_into(s, &stack, visit);
     }
 }

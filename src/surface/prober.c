@@ -4,28 +4,22 @@
  * they were fitted, boxes larger by that on all sides still hold their triangles. */
 #include "surface/prober.h"
 
+#include "base/clock.h"
+
 #include <stdlib.h>
-#include <time.h>
 
 /* Boxes that are larger by a quarter of their edges on either side have 1.5 times the edges, and are met by 2.25 times as
  * many lines: from there on it does not take many queries for a fit to pay. */
 #define SLACK_LIMIT 0.25
 
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void fit(mw_prober *prober, uint32_t threads)
 {
-    double start = seconds();
+    double start = mw__seconds();
     mw__surface_boxes_fit(&prober->boxes, prober->surface, threads);
-    prober->fit_seconds = seconds() - start;
+    prober->fit_seconds = mw__seconds() - start;
     prober->fits++;
     prober->slack = 0;
-    prober->slack_limit = SLACK_LIMIT * mw__surface_leaf_size(&prober->boxes);
+    prober->slack_limit = SLACK_LIMIT * mw__surface_boxes_leaf_size(&prober->boxes);
 }
 
 mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options, mw_prober **out,
