@@ -61,8 +61,9 @@ MW_API const char *mw_touch_state_name(mw_touch_state state);
 
 typedef struct mw_touch {
     double
-        distance; /* from q along m to the point touched, in units of length: negative where it lies behind q; rounded;
-                          NaN but for MW_TOUCH_HIT */
+        distance; /* from q along m to the point touched, in units of length: negative where it lies behind q. Off by
+                          less than 2^-40 of itself where it is a normal double; infinite beyond the largest double (the
+                          state is MW_TOUCH_HIT still); NaN but for MW_TOUCH_HIT */
     double
         weight[3]; /* barycentric weights of the point touched: >= 0, sum 1 up to rounding, exactly 0 for the vertices
                           off an edge that the line meets; NaN but for MW_TOUCH_HIT */
@@ -91,11 +92,12 @@ typedef struct mw_probe_options {
     double max_distance; /* > 0, in units of length; 0 = no limit                                                  */
     int certain;         /* 1: complete; the prober has boxes                                                      */
     mw_probe_start start;
-    uint32_t samples;    /* k of Alg. 1; 0 = 2 times the cube root of the number of vertices                       */
+    uint32_t samples;    /* k of Alg. 1; 0 = 2 times the cube root, rounded down, of the number of vertices. At most
+                            the number of triangles                                                                */
     uint32_t iterations; /* walks at most, from different first triangles; 0 = 10                                  */
-    uint32_t race;       /* walks that run at a time in threads, the first to find stops the others; 0 or 1: one. The
-                            triangle found may then differ from run to run where the line touches several; not so in certain
-                            mode                                                                                   */
+    uint32_t race;       /* walks that run at a time in threads, 256 at most; the first to find stops the others. 0 or
+                            1: one. In a race the triangle found may differ from run to run where the line touches
+                            several. In certain mode nothing races                                                 */
     uint32_t threads;    /* batches without a race: 0 = what OpenMP gives                                          */
     uint64_t seed;
     int count; /* 1: fill the counters */
@@ -135,15 +137,18 @@ MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const
 
 /* n probes: x, y, z, mx, my, mz of query i at queries[i * stride]; stride in doubles, 0 = 6. Results in input order; the
  * same for every number of threads, without a race. Each begins as the start says; MW_PROBE_LAST: with the triangle of
- * the query before it in its chunk of 4,096. MW_ERROR_ARGUMENT as mw_probe_cursor_init. */
+ * the query before it in its chunk of 4,096. Of a shared surface, each query is answered as a whole, but an update may come
+ * between two of a batch. MW_ERROR_ARGUMENT as mw_probe_cursor_init. */
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
                                 const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
                                 mw_error *error);
 
 /* The triangles that the walks of a probe visit, in order; iteration[i] (may be NULL, else of `capacity`) is the number of the
  * walk, from 0, that triangles[i] is of. Within a walk each triangle is linked to the one before it; where a border made the
- * walk go back, to the walk's first. One query by the cursor, without a race, whose answer goes to *touch (may be NULL). Writes
- * at most `capacity` and returns how many there were. */
+ * walk go back, to the walk's first. One query by the cursor, without a race, whose answer goes to *touch (may be NULL). In
+ * certain mode the boxes answer, and the only walk is a short one, of 64 triangles at most, from the triangle touched last:
+ * none of them need be the answer, and there are none where nothing was touched yet, where m does not point at that
+ * triangle's front, or where the start is SAMPLE or RANDOM. Writes at most `capacity` and returns how many there were. */
 MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                             const double motion[3], uint32_t *triangles, uint32_t *iteration, size_t capacity,
                             mw_touch *touch);

@@ -57,9 +57,10 @@ MW_API size_t mw_surface_bytes(const mw_surface *surface);
  * the surface (mw_star_update, mw_prober_update), end. Neither call costs anything per vertex. Between the two no query
  * may run; with options.shared these calls see to that themselves, whatever other threads do, and an update waits for
  * the queries that have begun, not for those that come: mw_star_locate, _batch and _path, mw_probe, _batch and _path,
- * mw_nearest_on_surface, mw_surface_describe. All else about the surface and what is kept beside it (making stars, probers
- * and indices, describing them, reading vertices) is the updating thread's. Without it they only mark the surface as changed. One thread
- * updates at a time. A star or a prober that needed to be brought up to date and was not does not answer (see there). */
+ * mw_nearest_on_surface, mw_surface_describe. Of a batch each query is answered as a whole: an update may come between two
+ * of them. All else about the surface and what is kept beside it (making stars, probers and indices, describing them,
+ * reading vertices) is the updating thread's. Without it they only mark the surface as changed. One thread updates at a
+ * time. A star or a prober that needed to be brought up to date and was not does not answer (see there). */
 MW_API void mw_surface_begin_update(mw_surface *surface);
 MW_API void mw_surface_end_update(mw_surface *surface);
 
@@ -69,6 +70,8 @@ MW_API double *mw_surface_points(mw_surface *surface);
 
 /* Flip the edge between two triangles, during an update: of triangle a b c with local edge ab, and its neighbour b a d
  * they become, under the same numbers, c d b and d c a (`triangle` keeps the corner c as it was, and the neighbour d).
+ * With options.weld one place may have different numbers in the two triangles: b is then the number that it has in
+ * `triangle`, a that in its neighbour.
  * MW_ERROR_INPUT, and nothing is changed: the edge has one triangle only, its triangles are oriented differently, or c
  * and d are the same, or joined by an edge already; that is looked for in the fan of `triangle` round c (another fan of a
  * pinched vertex is not looked at). Time: the number of triangles in that fan. */
