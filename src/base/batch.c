@@ -1,0 +1,85 @@
+/* batch.c - many queries: pieces that are sorted at a time, chunks for the threads within a piece.
+ *
+ * Counters do not depend on the threads: chunks have a fixed size, and a chunk knows nothing of the one before it. */
+#include "base/batch.h"
+#include "base/random.h"
+#include "base/threads.h"
+
+#include <stdlib.h>
+
+enum {
+    CHUNK = 1 << 14, /* queries that one thread takes at a time  */
+    PIECE = 1 << 22  /* queries sorted at a time: 64 MiB of keys */
+};
+
+static void answer_piece(const mw_batch *batch, uint32_t n, uint32_t threads, mw_counters *sum)
+{
+    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
+    int team = mw__team(threads, chunks);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
+#endif
+    for (int64_t i = 0; i < chunks; i++) {
+        uint32_t first = (uint32_t)(i * CHUNK);
+        mw_counters counters = batch->answer(batch, first, n - first < CHUNK ? n - first : CHUNK);
+#ifdef _OPENMP
+#pragma omp critical(mw_counters)
+#endif
+        mw_counters_add(sum, &counters);
+    }
+}
+
+mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters *counters, mw_error *error)
+{
+    size_t piece = n < PIECE ? n : PIECE;
+    mw_key *keys = batch->sort ? mw__alloc(2 * piece, sizeof *keys) : NULL;
+    if (batch->sort && !keys) return mw__fail_memory(error);
+    batch->order = keys;
+    uint64_t seed = batch->seed;
+    mw_counters sum = {0};
+    for (size_t done = 0; done < n; done += piece) {
+        if (n - done < piece) piece = n - done;
+        batch->seed = mw__random_seed(seed, done);
+        if (batch->sort) batch->sort(batch, piece, keys, keys + piece);
+        answer_piece(batch, (uint32_t)piece, threads, &sum);
+        batch->points += piece * batch->stride;
+        batch->locations += piece;
+    }
+    free(keys);
+    if (counters) *counters = sum;
+    return MW_OK;
+}
+
+/* --- counters ----------------------------------------------------------------------------------------------------- */
+
+static void raise(uint64_t *most, uint64_t value)
+{
+    if (value > *most) *most = value;
+}
+
+void mw_counters_add(mw_counters *sum, const mw_counters *more)
+{
+    sum->queries += more->queries;
+    sum->triangles_visited += more->triangles_visited;
+    raise(&sum->triangles_max, more->triangles_max);
+    sum->triangles_init += more->triangles_init;
+    sum->triangles += more->triangles;
+    raise(&sum->triangles_walk_max, more->triangles_walk_max);
+    sum->triangles_final += more->triangles_final;
+    raise(&sum->triangles_final_max, more->triangles_final_max);
+    sum->orient_init += more->orient_init;
+    sum->orient += more->orient;
+    sum->orient_final += more->orient_final;
+    sum->implicit += more->implicit;
+    sum->comparisons += more->comparisons;
+    sum->walk_runs += more->walk_runs;
+    sum->border_runs += more->border_runs;
+    sum->triangles_border += more->triangles_border;
+    raise(&sum->triangles_border_max, more->triangles_border_max);
+    sum->orient_border += more->orient_border;
+    sum->border_edges += more->border_edges;
+    raise(&sum->border_edges_max, more->border_edges_max);
+    sum->cycles += more->cycles;
+    sum->handovers += more->handovers;
+}

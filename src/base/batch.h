@@ -1,0 +1,30 @@
+/* batch.h - what batches of queries have in common: pieces, sorted along a curve or not, and chunks for the threads. Private. */
+#ifndef MW_SRC_BATCH_H
+#define MW_SRC_BATCH_H
+
+#include "base/hilbert.h"
+
+#include <meshwalk/locate.h>
+
+#define MW_SORT_WORTHWHILE 64 /* fewer queries are not sorted by `auto` */
+
+/* First member of what a room knows of its batch. Points, locations and seed are those of one piece while it is answered;
+ * its queries are numbered from 0, and the random numbers of a query come from the seed and its number. */
+typedef struct mw_batch mw_batch;
+struct mw_batch {
+    const double *points;
+    mw_location *locations;
+    size_t stride; /* doubles from point to point */
+    uint64_t seed;
+    const mw_key *order; /* NULL, or order[i].item is the i-th query to answer */
+
+    /* Makes the keys of n queries, in order; NULL: they stay as they are. */
+    void (*sort)(const mw_batch *batch, size_t n, mw_key *keys, mw_key *scratch);
+    /* Answers the queries first .. first + count - 1 (of the order), on one thread. */
+    mw_counters (*answer)(const mw_batch *batch, uint32_t first, uint32_t count);
+};
+
+/* Answer n queries. threads: 0 = what OpenMP gives. What was done goes to *counters unless that is NULL. */
+mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters *counters, mw_error *error);
+
+#endif
