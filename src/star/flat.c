@@ -66,13 +66,18 @@ static void flip(mw_star *star, uint32_t f, uint32_t edge)
     join(star, f, 2, mw__link(g, 1));
 }
 
-/* Facet t is no more: what it lies between, beside edge `edge`, is linked. */
-static void take_out(mw_star *star, uint32_t t, uint32_t edge)
+/* Two half-edges of facets that go: what lies across one is linked with what lies across the other. That may be a half-edge that
+ * goes, too, and then finds its new partner when its own turn comes; partners of each other have nothing across. */
+static void glue(mw_star *star, uint32_t a, uint32_t b)
 {
-    mw_triangle *facet = &star->tri[t];
-    uint32_t next = facet->link[mw__next(edge)], prev = facet->link[mw__prev(edge)];
-    join(star, mw__link_triangle(next), mw__link_edge(next), prev);
-    for (int k = 0; k < 3; k++) facet->link[k] = MW_NONE;
+    uint32_t across_a = star->tri[mw__link_triangle(a)].link[mw__link_edge(a)];
+    uint32_t across_b = star->tri[mw__link_triangle(b)].link[mw__link_edge(b)];
+    if (across_a != b) join(star, mw__link_triangle(across_a), mw__link_edge(across_a), across_b);
+}
+
+static void make_void(mw_star *star, uint32_t t)
+{
+    for (int k = 0; k < 3; k++) star->tri[t].link[k] = MW_NONE;
 }
 
 /* An edge whose ends are at one place, or MW_STAR_NO_EDGE. */
@@ -83,25 +88,27 @@ static uint32_t short_edge(const mw_star *star, uint32_t t)
     return k;
 }
 
+/* Of facet t, edge `edge` has its ends at one place. If it is linked to another edge of t, the third edge has, too, as those two
+ * end in the same places. */
 static void shrink(mw_star *star, uint32_t t, uint32_t edge)
 {
     uint32_t link = star->tri[t].link[edge];
-    take_out(star, t, edge);
-    take_out(star, mw__link_triangle(link), mw__link_edge(link));
+    if (mw__link_triangle(link) == t) link = star->tri[t].link[edge = 3 - edge - mw__link_edge(link)];
+    uint32_t half = mw__link(t, edge);
+    glue(star, mw__half_next(half), mw__half_prev(half));
+    glue(star, mw__half_next(link), mw__half_prev(link));
+    make_void(star, t);
+    make_void(star, mw__link_triangle(link));
 }
 
-static void join_links(mw_star *star, uint32_t link, uint32_t other)
-{
-    join(star, mw__link_triangle(link), mw__link_edge(link), other);
-}
-
-/* Facets t and u, with the same three places, go: what lies beside them is linked across. */
+/* Facets on both sides of an edge, with the same three places, go. */
 static void fold(mw_star *star, uint32_t t, uint32_t edge)
 {
-    uint32_t link = star->tri[t].link[edge], u = mw__link_triangle(link), across = mw__link_edge(link);
-    join_links(star, star->tri[t].link[mw__next(edge)], star->tri[u].link[mw__prev(across)]);
-    join_links(star, star->tri[t].link[mw__prev(edge)], star->tri[u].link[mw__next(across)]);
-    for (int k = 0; k < 3; k++) star->tri[t].link[k] = star->tri[u].link[k] = MW_NONE;
+    uint32_t half = mw__link(t, edge), link = star->tri[t].link[edge];
+    glue(star, mw__half_next(half), mw__half_prev(link));
+    glue(star, mw__half_prev(half), mw__half_next(link));
+    make_void(star, t);
+    make_void(star, mw__link_triangle(link));
 }
 
 static uint32_t apex_place(const mw_star *star, uint32_t half)

@@ -14,18 +14,15 @@ static double norm(const double v[3])
     return fabs(v[0]) + fabs(v[1]) + fabs(v[2]);
 }
 
-/* Determinants of corners that lie far from the centre, but near each other, lose what these have in common. It can be taken
- * off first: det(a - c, b - c, d) does not change where a multiple t d is taken off a - c, any multiple. What is left, w, is short.
- * With S, W and D the largest norms of a - c plus t d, of w and of d, and u = 2^-53: w is off by 2 u S, which makes 4 u S W D of the
- * determinant; d, itself rounded, 6 u S W D; its evaluation 7 u W W D, where W <= S. All that is less than 2^-48 S W D. Returns whether
- * it is little. */
-static bool refine(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+/* Determinants of corners that lie far from the centre, but near each other, lose what these have in common. It can be
+ * taken off first: det(a - c, b - c, d) does not change where a multiple t d is taken off a - c, any multiple. What is left, w,
+ * is short. Corners from the centre are in w, which is overwritten. With S, W and D the largest norms of a - c plus t d, of
+ * w and of d, and u = 2^-53: w is off by 2 u S, which makes 4 u S W D of the determinant; d, itself rounded, 6 u S W D; its
+ * evaluation 7 u W W D, where W <= S. All that is less than 2^-48 S W D, which is returned. */
+static double shear(double w[3][3], const double d[3], double area[3])
 {
-    const double *c = star->centre, d[3] = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
-    double w[3][3], square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], long_norm = 0, short_norm = 0, sum = 0;
+    double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], long_norm = 0, short_norm = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        const double *p = corner(star, facet, k);
-        for (int i = 0; i < 3; i++) w[k][i] = p[i] - c[i];
         double t = (w[k][0] * d[0] + w[k][1] * d[1] + w[k][2] * d[2]) / square;
         long_norm = fmax(long_norm, norm(w[k]) + fabs(t) * norm(d));
         for (int i = 0; i < 3; i++) w[k][i] -= t * d[i];
@@ -35,11 +32,20 @@ static bool refine(const mw_star *star, const mw_triangle *facet, const double q
         const double *a = w[mw__next(k)], *b = w[mw__prev(k)];
         area[k] = fabs(d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
                        d[2] * (a[0] * b[1] - a[1] * b[0]));
-        sum += area[k];
     }
-    double off = 0x1p-48 * long_norm * short_norm * norm(d);
-    return sum > 0x1p-900 && off > 0x1p-900 && 3 * off < AREA_ERROR * sum && area[0] > off && area[1] > off &&
-           area[2] > off;
+    return 0x1p-48 * long_norm * short_norm * norm(d);
+}
+
+/* Areas whose signs are known not to be 0. Returns whether they are off by little. */
+static bool refine(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+{
+    const double *c = star->centre, d[3] = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
+    double w[3][3];
+    for (uint32_t k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) w[k][i] = corner(star, facet, k)[i] - c[i];
+    double off = shear(w, d, area), sum = area[0] + area[1] + area[2];
+    bool positive = area[0] > off && area[1] > off && area[2] > off;
+    return positive && off > 0x1p-900 && 3 * off < AREA_ERROR * sum;
 }
 
 void mw__star_areas(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
@@ -64,11 +70,14 @@ void mw__star_areas(const mw_star *star, const mw_triangle *facet, const double 
 static void rescale(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
 {
     const double *c = star->centre;
-    double v[4][3], large = 0, most[2] = {0, 0}; /* of the facet, of the ray */
-    for (int k = 0; k < 3; k++) large = fmax(large, fmax(fmax(fabs(c[k]), fabs(q[k])), star->reach));
-    double half = large > 0x1p1000 ? 0.5 : 1; /* differences do not overflow */
+    double v[4][3], large[2] = {star->reach, 0}, most[2] = {0, 0}; /* of the facet, of the ray */
+    for (int k = 0; k < 3; k++) {
+        large[0] = fmax(large[0], fabs(c[k]));
+        large[1] = fmax(large[1], fmax(fabs(c[k]), fabs(q[k])));
+    }
     for (uint32_t i = 0; i < 4; i++) {
         const double *p = i < 3 ? corner(star, facet, i) : q;
+        double half = large[i == 3] > 0x1p1000 ? 0.5 : 1; /* differences do not overflow */
         for (int k = 0; k < 3; k++) {
             v[i][k] = half * p[k] - half * c[k];
             most[i == 3] = fmax(most[i == 3], fabs(v[i][k]));
@@ -79,12 +88,9 @@ static void rescale(const mw_star *star, const mw_triangle *facet, const double 
         frexp(most[i == 3], &exponent);
         for (int k = 0; k < 3; k++) v[i][k] = ldexp(v[i][k], -exponent);
     }
-    for (uint32_t k = 0; k < 3; k++) {
-        const double *a = v[mw__next(k)], *b = v[mw__prev(k)], *d = v[3];
-        double det = d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
-                     d[2] * (a[0] * b[1] - a[1] * b[0]);
-        if (area[k] != 0) area[k] = fmax(fabs(det), DBL_MIN);
-    }
+    double exact[3] = {area[0], area[1], area[2]};
+    shear(v, v[3], area);
+    for (uint32_t k = 0; k < 3; k++) area[k] = exact[k] == 0 ? 0 : fmax(area[k], DBL_MIN);
 }
 
 mw_location mw__star_place(const mw_star *star, uint32_t number, const double q[3], double area[3])
