@@ -1,4 +1,5 @@
-/* batch.h - what batches of queries have in common: pieces, sorted along a curve or not, and chunks for the threads. Private. */
+/* batch.h - what batches of queries have in common: pieces, sorted along a curve or not, and chunks for the
+ * threads. Private. */
 #ifndef MW_SRC_BATCH_H
 #define MW_SRC_BATCH_H
 
@@ -8,8 +9,8 @@
 
 #define MW_SORT_WORTHWHILE 64 /* fewer queries are not sorted by `auto` */
 
-/* First member of what a room knows of its batch. Points, locations and seed are those of one piece while it is answered;
- * its queries are numbered from 0, and the random numbers of a query come from the seed and its number. */
+/* First member of what a room knows of its batch. Points, locations and seed are those of one piece while it is
+ * answered; its queries are numbered from 0, and the random numbers of a query come from the seed and its number. */
 typedef struct mw_batch mw_batch;
 struct mw_batch {
     const double *points;

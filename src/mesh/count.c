@@ -1,3 +1,5 @@
+/* count.c - pieces by union-find; border loops and fans in O(n), by turning round vertices, where each edge or corner
+ * is marked once. */
 #include "mesh/count.h"
 
 #include <stdlib.h>

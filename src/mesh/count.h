@@ -21,8 +21,8 @@ bool mw__count_pieces(const mw_triangle *tri, uint32_t n, uint32_t vertex_count,
  * memory. */
 bool mw__count_loops(const mw_triangle *tri, uint32_t n, const uint32_t *place, uint32_t *loops);
 
-/* fans[v], 0 at first, becomes the number of fans that the triangles of three vertices form round the vertex (place) v, at
- * most 2. False when out of memory. */
+/* fans[v], 0 at first, becomes the number of fans that the triangles of three vertices form round the vertex (place) v,
+ * at most 2. False when out of memory. */
 bool mw__count_fans(const mw_triangle *tri, uint32_t n, const uint32_t *place, uint8_t *fans);
 
 /* A sum with the rounding errors added up beside it [Neumaier 1974]. */

@@ -32,7 +32,8 @@ static MW_INLINE uint32_t mw__link_of(const mw_triangle *tri, mw_edge_end e)
     return tri[mw__link_triangle(e.half)].link[mw__link_edge(e.half)];
 }
 
-/* The same edge of the triangle beyond it, which there is, with the same vertex, or a vertex at the same place (place.h). */
+/* The same edge of the triangle beyond it, which there is, with the same vertex, or a vertex at the same place
+ * (place.h). */
 static MW_INLINE mw_edge_end mw__across(const mw_triangle *tri, const uint32_t *place, mw_edge_end e)
 {
     uint32_t link = mw__link_of(tri, e), vertex = tri[mw__link_triangle(e.half)].v[mw__near_corner(e)];

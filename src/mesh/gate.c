@@ -2,8 +2,8 @@
  *
  * A query counts itself in and then looks whether the gate is closed; an update closes the gate and then looks whether
  * anybody is inside. All this is sequentially consistent, so at least one of two that meet sees the other: the query,
- * which turns back, or the update, which waits. In the same way the last one to leave sees the gate closed, or the update sees
- * nobody inside. */
+ * which turns back, or the update, which waits. In the same way the last one to leave sees the gate closed, or the
+ * update sees nobody inside. */
 #include "mesh/gate.h"
 
 #include <pthread.h>

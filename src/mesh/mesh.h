@@ -89,7 +89,8 @@ uint32_t mw__index_at(const mw_arrays *arrays, size_t i);
 /* Are the arrays there, no larger than a mesh may be, and do their strides hold the coordinates of a vertex: 2 or 3? */
 mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_error *error);
 
-/* Copy the vertices of triangle t, without links; MW_ERROR_INPUT names what makes them unusable, unless it is tolerated. */
+/* Copy the vertices of triangle t, without links; MW_ERROR_INPUT names what makes them unusable, unless it is
+ * tolerated. */
 mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tolerant, uint32_t t, mw_triangle *tri,
                             mw_error *error);
 

@@ -4,9 +4,9 @@
 
 #include "base/base.h"
 
-/* For each vertex (x, y, z packed) the lowest-numbered one with equal coordinates; -0.0 equals 0.0. A vertex that is not
- * finite has its place for itself. O(n) is to be expected, whatever the points. Released with free(); NULL when out of
- * memory. */
+/* For each vertex (x, y, z packed) the lowest-numbered one with equal coordinates; -0.0 equals 0.0. A vertex that is
+ * not finite has its place for itself. O(n) is to be expected, whatever the points. Released with free(); NULL when out
+ * of memory. */
 uint32_t *mw__places_create(const double *point, uint32_t count);
 
 /* The place of a vertex; `place` NULL: each vertex is its own. */

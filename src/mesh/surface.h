@@ -1,5 +1,5 @@
-/* surface.h - the records of a surface in space. Private. Triangles, edges and links as in mesh.h; but triangles are stored
- * as the user gave them, whatever their orientation. */
+/* surface.h - the records of a surface in space. Private. Triangles, edges and links as in mesh.h; but triangles are
+ * stored as the user gave them, whatever their orientation. */
 #ifndef MW_SRC_SURFACE_H
 #define MW_SRC_SURFACE_H
 

@@ -11,7 +11,8 @@ static bool is_usable(const mw_surface *surface, uint32_t t)
 
 /* --- counts --- */
 
-/* Triangles with two vertices at one place have no edges. Returns the number of the others; their edges go to *edges. */
+/* Triangles with two vertices at one place have no edges. Returns the number of the others; the number
+ * of their edges goes to *edges. */
 static uint32_t count_edges(const mw_surface *surface, mw_surface_info *info, uint64_t *edges)
 {
     uint32_t count = 0;
@@ -81,8 +82,8 @@ static void cross(const double a[3], const double b[3], const double c[3], doubl
         normal[i] = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
 }
 
-/* Extent, area, triangles without area, volume: that of the tetrahedra between the triangles and the first vertex used, as
- * they are smaller, and rounded less, than those up to a far origin. */
+/* Extent, area, triangles without area, volume: that of the tetrahedra between the triangles and the first vertex used,
+ * as they are smaller, and rounded less, than those up to a far origin. */
 static void measure(const mw_surface *surface, mw_surface_info *info)
 {
     mw_sum area = {0}, volume = {0};

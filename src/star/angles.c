@@ -18,10 +18,10 @@ static mw_point angles_of(const mw_star *star, uint32_t vertex)
 }
 
 /* Longitude grows eastward and the polar angle southward, so a facet that is counter-clockwise as seen from outside is
- * clockwise in their plane. One that is not lies across the seam or holds a pole; or it is so thin there that arcs and their
- * chords differ, and the orthogonal walk could not pass it either. Departure from the thesis: a facet across the seam may be
- * clockwise, too, where its vertex on the far side lies farther north, or south, than both others. So the longitudes tell,
- * too: they are less than a half turn apart in each facet else. */
+ * clockwise in their plane. One that is not lies across the seam or holds a pole; or it is so thin there that arcs and
+ * their chords differ, and the orthogonal walk could not pass it either. Departure from the thesis: a facet across the
+ * seam may be clockwise, too, where its vertex on the far side lies farther north, or south, than both others. So the
+ * longitudes tell, too: they are less than a half turn apart in each facet else. */
 static bool is_seam(const mw_star *star, const mw_triangle *t)
 {
     mw_point a = angles_of(star, t->v[0]), b = angles_of(star, t->v[1]), c = angles_of(star, t->v[2]);

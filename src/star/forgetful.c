@@ -1,5 +1,5 @@
-/* forgetful.c - the stochastic walk as counted in thesis App. F, Table 1: it tests the edge just crossed like the others.
- * Here to be compared with those counts; it goes where the remembering walk might go, and ends as that does. */
+/* forgetful.c - the stochastic walk as counted in thesis App. F, Table 1: it tests the edge just crossed like the
+ * others. Here to be compared with those counts; it goes where the remembering walk might go, and ends as that does. */
 #include "base/random.h"
 #include "star/walk.h"
 

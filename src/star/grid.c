@@ -2,8 +2,9 @@
  *
  * k rows of the same height; row i has l_i cells. A query begins in the facet in the middle of its cell. In the uniform
  * grid each row has 2 k cells, which are squares in the plane of the two angles, as in Fig. 4 a: 2 k^2 cells. In the
- * non-uniform grid l_i goes with the area that the row has on the sphere (eq. 4), so that cells are about alike there: k by
- * eq. 5, l_i by eq. 6. These are rounded one by one, so the cells hardly ever number m exactly; no row is empty. */
+ * non-uniform grid l_i goes with the area that the row has on the sphere (eq. 4), so that cells are about alike there:
+ * k by eq. 5, l_i by eq. 6. These are rounded one by one, so the cells hardly ever number m exactly; no row is
+ * empty. */
 #include "star/index.h"
 
 #include <stdlib.h>

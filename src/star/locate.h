@@ -10,8 +10,8 @@ typedef struct mw_star_trace {
     size_t count, capacity; /* more may come than there is room for */
 } mw_star_trace;
 
-/* Answer the query at `point` by the cursor's options; `last` is where the one before it ended, or MW_NONE; it becomes the
- * facet (as stored) where this one ended. Counts into *counters if the cursor counts. trace may be NULL. */
+/* Answer the query at `point` by the cursor's options; `last` is where the one before it ended, or MW_NONE; it becomes
+ * the facet (as stored) where this one ended. Counts into *counters if the cursor counts. trace may be NULL. */
 mw_location mw__star_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3], uint32_t *last,
                             uint64_t *random, mw_counters *counters, mw_star_trace *trace);
 

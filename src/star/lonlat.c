@@ -11,8 +11,8 @@ typedef struct precise {
 } precise;
 
 /* Cosine x and sine y of degrees. Whole turns and quarters of a turn are taken away without rounding, so that multiples
- * of 90 give 0 and 1, and degrees that differ by 360 the same. The rest, at most 45 degrees, becomes an angle a + b, where
- * b is what rounding took from it; sin(a + b) is sin a + b cos a up to b^2 < 2^-107. */
+ * of 90 give 0 and 1, and degrees that differ by 360 the same. The rest, at most 45 degrees, becomes an angle a + b,
+ * where b is what rounding took from it; sin(a + b) is sin a + b cos a up to b^2 < 2^-107. */
 static void cosine_sine(double degrees, precise *x, precise *y)
 {
     int quarters;
@@ -37,8 +37,8 @@ static double product(precise a, precise b)
 
 /* Let u = 2^-53, half a unit in the last place of numbers from 1/2 to 1 being u / 2. Where sin and cos of the C library
  * are off by less than 0.7 such units, as glibc's are, a factor is off by less than 0.7 u and what its rests leave out,
- * which is below u / 1000; so a product of two that are at most 1 is off by less than 1.41 u, and rounding adds u / 2 at
- * most: less than 2 u = 2^-52. */
+ * which is below u / 1000; so a product of two that are at most 1 is off by less than 1.41 u, and rounding adds u / 2
+ * at most: less than 2 u = 2^-52. */
 void mw_lonlat_direction(double longitude, double latitude, double direction[3])
 {
     if (!isfinite(longitude) || !(fabs(latitude) <= 90)) {
@@ -53,8 +53,8 @@ void mw_lonlat_direction(double longitude, double latitude, double direction[3])
     direction[2] = up.value + up.rest + 0.0;
 }
 
-/* Scaled by a power of two to coordinates of about 1 at most, so that the length over- and underflows nowhere; zeros are
- * +0, so that there is one longitude on the seam, 180. */
+/* Scaled by a power of two to coordinates of about 1 at most, so that the length over- and underflows nowhere; zeros
+ * are +0, so that there is one longitude on the seam, 180. */
 void mw_direction_lonlat(const double direction[3], double *longitude, double *latitude)
 {
     double largest = fmax(fmax(fabs(direction[0]), fabs(direction[1])), fabs(direction[2]));

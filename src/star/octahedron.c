@@ -1,13 +1,13 @@
 /* octahedron.c - down through the subdivisions of a regular octahedron [Wu et al. 2007; thesis App. F, sec. 7].
  *
- *            2              A triangle has four children, whose new corners are the middles of its edges, moved out to the
- *           / \             sphere: on the great circles of the edges, so the children cover just their parent. A query
- *          /---\            walks to a face of the octahedron, always from the same one, then goes down: in each
+ *            2              A triangle has four children, whose new corners are the middles of its edges, moved out to
+ *           / \             the sphere: on the great circles of the edges, so the children cover just their parent. A
+ *          /---\            query walks to a face of the octahedron, always from the same one, then goes down: in each
  *         / \ / \           triangle to the middle child first, and, if it lies beyond one of its edges, to the corner
  *        0-------1          child there. It begins in the facet in the middle of the finest triangle.
- * All this is a barycentric walk, over the edge of the least of three determinants, with three tests a triangle, and counted
- * so. But the outcome of those in a corner child is known, so they are not made. 2.5 triangles for the face; 1.65, 1.73 and
- * then 1.75 a level for uniform directions.
+ * All this is a barycentric walk, over the edge of the least of three determinants, with three tests a triangle, and
+ * counted so. But the outcome of those in a corner child is known, so they are not made. 2.5 triangles for the face;
+ * 1.65, 1.73 and then 1.75 a level for uniform directions.
  * The face needs no orientation: mirrored to where its coordinates are positive, each is the same triangle. */
 #include "star/index.h"
 

@@ -1,27 +1,27 @@
 /* orthogonal.c - the orthogonal walk in spherical coordinates [thesis App. F, Alg. 1].
  *
- *      north   l               Longitude and polar angle are taken for coordinates of a plane, facets for triangles there.
- *        |    /|\              From a point a inside the first facet along its parallel to the meridian of q, then along
- *    a --+---/-|-\---> east    that meridian to the parallel of q. In each facet two comparisons: is s, the vertex off the
- *        |   \ | / s           entry edge, past the end of the leg? If not, on which side of the line is it? To its left:
- *              \|/             leave over rs; else over sl. The facet where that ends is not tested: the ray is there or
- *               r              near, and the stochastic walk ends the search.
+ *      north   l               Longitude and polar angle are taken for coordinates of a plane, facets for triangles
+ *        |    /|\              there. From a point a inside the first facet along its parallel to the meridian of q,
+ *    a --+---/-|-\---> east    then along that meridian to the parallel of q. In each facet two comparisons: is s, the
+ *        |   \ | / s           vertex off the entry edge, past the end of the leg? If not, on which side of the line is
+ *              \|/             it? To its left: leave over rs; else over sl. The facet where that ends is not tested:
+ *               r              the ray is there or near, and the stochastic walk ends the search.
  * The walk does not know that longitudes -pi and pi are one. It ends, too, in a facet of the seam: one that lies across
  * longitude pi or holds a pole, and any other that is no triangle with the right orientation in the plane.
- * a is the centroid. The printed case, q to the north-east of a (or the south-east, as one draws it), and the three others
- * are the same code in turned coordinates: along the heading, and to its left. Left stays left, so l and r are the ends of
- * the entry edge in the order in which the facet has them.
+ * a is the centroid. The printed case, q to the north-east of a (or the south-east, as one draws it), and the three
+ * others are the same code in turned coordinates: along the heading, and to its left. Left stays left, so l and r are
+ * the ends of the entry edge in the order in which the facet has them.
  * Departure from the printed pseudocode. In the first facet of a leg, s, the vertex farthest along the heading, tells
  * whether the facet is past the end, as printed; but not the edge to leave over, which need not be one at s: that runs
  * from a vertex on the right to one on the left.
  * Edge cases. q on the meridian or the parallel of a: that leg ends where it begins. A vertex on the parallel counts as
- * right of it; one on the meridian as beyond it, seen from a, as the first leg counts it. So a leg follows a line moved by
- * next to nothing, which meets no vertex.
- * Counts the comparisons in which the printed loops consist, 2 a facet; not those that choose a heading or a vertex in the
- * first facet of a leg, as the published counts leave them out.
+ * right of it; one on the meridian as beyond it, seen from a, as the first leg counts it. So a leg follows a line moved
+ * by next to nothing, which meets no vertex.
+ * Counts the comparisons in which the printed loops consist, 2 a facet; not those that choose a heading or a vertex in
+ * the first facet of a leg, as the published counts leave them out.
  * Ends on every star-shaped polyhedron: there are two legs; each goes on from triangles of the plane with the right
- * orientation only; so the point where its line leaves the triangle comes on with each step, and no facet comes twice in
- * a leg. This needs no more of the plane than that: its triangles may overlap, as some do near the poles. */
+ * orientation only; so the point where its line leaves the triangle comes on with each step, and no facet comes twice
+ * in a leg. This needs no more of the plane than that: its triangles may overlap, as some do near the poles. */
 #include "star/walk.h"
 
 enum { FOLLOW = 1, UPRIGHT = 2, WEST = 4, NORTH = 8 }; /* marks in the phase */

@@ -1,9 +1,9 @@
 /* star.h - what a star-shaped polyhedron holds, and its walks. Private.
  *
- * Facets are stored counter-clockwise as seen from outside, whatever the user's orientation, so the cone of
- * a facet over the centre c has the ray through q inside where det(v[k] - c, v[k+1] - c, q - c) > 0 for its three edges.
- * `beyond` an edge: that determinant is negative. Everything planar walks ask of an edge is asked of it in the same way;
- * the great circle through an edge takes the place of its line. */
+ * Facets are stored counter-clockwise as seen from outside, whatever the user's orientation, so the cone of a facet
+ * over the centre c has the ray through q inside where det(v[k] - c, v[k+1] - c, q - c) > 0 for its three edges.
+ * `beyond` an edge: that determinant is negative. Everything planar walks ask of an edge is asked of it in the same
+ * way; the great circle through an edge takes the place of its line. */
 #ifndef MW_SRC_STAR_H
 #define MW_SRC_STAR_H
 
@@ -11,8 +11,9 @@
 
 #include <meshwalk/star.h>
 
-/* In `user` of a facet: the orthogonal walk ends here. Its vertices lie on both sides of the seam at longitude 180, or it
- * holds a pole: in the plane of longitude and polar angle it does not turn counter-clockwise as seen from outside. */
+/* In `user` of a facet: the orthogonal walk ends here. Its vertices lie on both sides of the seam at longitude 180, or
+ * it holds a pole: in the plane of longitude and polar angle it does not turn counter-clockwise as seen from
+ * outside. */
 #define MW_SEAM MW_GHOST
 
 struct mw_star {
@@ -97,8 +98,8 @@ void mw__star_fill_angles(mw_star *star);
 
 /* --- locate.c ----------------------------------------------------------------------------------------------------- */
 
-/* The facet (as stored) that the ray from the centre along d, rounded, meets, exactly for some ray about there: walks from
- * facet t. For those who build guides. */
+/* The facet (as stored) that the ray from the centre along d, rounded, meets, exactly for some ray about there: walks
+ * from facet t. For those who build guides. */
 uint32_t mw__star_facet(const mw_star *star, const double d[3], uint32_t t);
 
 #endif

@@ -2,8 +2,8 @@
 #include "base/random.h"
 #include "star/index.h"
 
-/* Grows with the cosine of the angle between d and vertex 0 of facet t, by which facets are compared: rounded, as a guide
- * may be. */
+/* Grows with the cosine of the angle between d and vertex 0 of facet t, by which facets are compared: rounded, as a
+ * guide may be. */
 static double nearness(const mw_star *star, const double d[3], uint32_t t)
 {
     const double *p = mw__surface_point(star->surface, star->tri[t].v[0]);

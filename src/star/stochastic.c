@@ -1,9 +1,10 @@
 /* stochastic.c - the remembering stochastic walk on a star-shaped polyhedron [thesis App. F, sec. 3].
  *
- * The ray lies beyond an edge of the facet where the plane through the edge and the centre parts it from the facet: leave
- * there. The other two edges than the one just crossed are tried in random order. The three half-spaces of a facet meet
- * in its cone, without the opposite one, so where the ray lies beyond no edge it meets the facet. The chance of walking on
- * for ever is zero, but there is no bound that holds for certain; where the fuel runs out, the straight walk goes on. */
+ * The ray lies beyond an edge of the facet where the plane through the edge and the centre parts it from the facet:
+ * leave there. The other two edges than the one just crossed are tried in random order. The three half-spaces of a
+ * facet meet in its cone, without the opposite one, so where the ray lies beyond no edge it meets the facet. The chance
+ * of walking on for ever is zero, but there is no bound that holds for certain; where the fuel runs out, the straight
+ * walk goes on. */
 #include "base/random.h"
 #include "star/walk.h"
 

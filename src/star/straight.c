@@ -1,20 +1,21 @@
-/* straight.c - the straight walk on a star-shaped polyhedron: after [Devillers, Pion, Teillaud 2002, sec. 3.1], with the
- * great circle from a vertex p of the first facet to the ray through q in the place of the line. The walk that surely ends.
+/* straight.c - the straight walk on a star-shaped polyhedron: after [Devillers, Pion, Teillaud 2002, sec. 3.1], with
+ * the great circle from a vertex p of the first facet to the ray through q in the place of the line. The walk that
+ * surely ends.
  *
- * First it turns round p to the facet at p into which the arc sets out: the one whose corners a (after p) and b (before p)
- * have q on or to the left of the circle from p to a, and strictly to the right of the one from p to b. The angles at p add
- * up to one full turn, so there is exactly one, and turning one way finds it before any facet comes twice. Then it follows
- * the arc: with l and r the left and right ends of the edge just crossed and s the third vertex, the arc leaves over rs where
- * s lies strictly to its left, over sl otherwise. A vertex on the circle so counts as right of it, always: the way is that
- * of an arc beside it, which meets no vertex. q lies beyond the exit edge, or here.
+ * First it turns round p to the facet at p into which the arc sets out: the one whose corners a (after p) and b (before
+ * p) have q on or to the left of the circle from p to a, and strictly to the right of the one from p to b. The angles
+ * at p add up to one full turn, so there is exactly one, and turning one way finds it before any facet comes twice.
+ * Then it follows the arc: with l and r the left and right ends of the edge just crossed and s the third vertex, the
+ * arc leaves over rs where s lies strictly to its left, over sl otherwise. A vertex on the circle so counts as right of
+ * it, always: the way is that of an arc beside it, which meets no vertex. q lies beyond the exit edge, or here.
  *
- * p must span a plane with q: where p, q and the centre lie on one line, either the ray goes through p, and it is here, or
- * p lies opposite to q; then another corner takes its place, for which that cannot be so, too.
+ * p must span a plane with q: where p, q and the centre lie on one line, either the ray goes through p, and it is here,
+ * or p lies opposite to q; then another corner takes its place, for which that cannot be so, too.
  *
- * Why it ends, and rightly. Let p be at angle 0 on the circle, q at an angle below pi. The arc leaves each facet farther on
- * than it came in, or at the same place where it rests at a vertex, and there the walk turns one way. So no facet comes
- * twice after the turn. Beyond the exit edge are the angles from the exit y to y + pi; q comes after the place where the
- * arc came in and before pi <= y + pi, so where q is not beyond the edge it lies in the facet. */
+ * Why it ends, and rightly. Let p be at angle 0 on the circle, q at an angle below pi. The arc leaves each facet
+ * farther on than it came in, or at the same place where it rests at a vertex, and there the walk turns one way. So no
+ * facet comes twice after the turn. Beyond the exit edge are the angles from the exit y to y + pi; q comes after the
+ * place where the arc came in and before pi <= y + pi, so where q is not beyond the edge it lies in the facet. */
 #include "star/walk.h"
 
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */

@@ -9,8 +9,8 @@ typedef struct mw_star_policy {
     bool count;
 } mw_star_policy;
 
-/* det(a - c, b - c, q - c), with d = q - c as rounded: > 0 where q lies to the left of the great circle from a to b, seen
- * from outside. Sign-exact: orient3d(a, b, q, c) with the sign of its convention turned, and one row known. */
+/* det(a - c, b - c, q - c), with d = q - c as rounded: > 0 where q lies to the left of the great circle from a to b,
+ * seen from outside. Sign-exact: orient3d(a, b, q, c) with the sign of its convention turned, and one row known. */
 static MW_INLINE double mw__star_turn(const double a[3], const double b[3], const double q[3], const double d[3],
                                       const double c[3])
 {

@@ -227,8 +227,8 @@ static uint32_t cell_of(double offset)
     return offset > 0 ? offset < (1 << KEY_BITS) - 1 ? (uint32_t)offset : (1 << KEY_BITS) - 1 : 0;
 }
 
-/* The position of a cell along the Hilbert curve [Skilling 2004: Programming the Hilbert curve]: undo the turns from the
- * coarsest level on, then the Gray code; the bits of the axes interleaved are the key. */
+/* The position of a cell along the Hilbert curve [Skilling 2004: Programming the Hilbert curve]: undo the turns from
+ * the coarsest level on, then the Gray code; the bits of the axes interleaved are the key. */
 static uint32_t curve_key(uint32_t cell[3])
 {
     for (uint32_t bit = 1u << (KEY_BITS - 1); bit > 1; bit >>= 1) {
@@ -282,9 +282,9 @@ static uint32_t *order_along_curve(const mw_surface *surface)
     return order;
 }
 
-/* An order of one's own costs 4 bytes a triangle: it is kept where the leaves of the file's order have WORTHWHILE times the
- * area. Those of scanned models commonly have 10 to 300 times. So that a few large triangles do not hide what the many do,
- * no leaf counts more than LARGE common ones. */
+/* An order of one's own costs 4 bytes a triangle: it is kept where the leaves of the file's order have WORTHWHILE times
+ * the area. Those of scanned models commonly have 10 to 300 times. So that a few large triangles do not hide what the
+ * many do, no leaf counts more than LARGE common ones. */
 #define WORTHWHILE 1.5
 #define LARGE 64
 

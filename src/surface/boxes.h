@@ -1,16 +1,16 @@
 /* boxes.h - a packed tree of boxes [Leutenegger, Lopez, Edgington 1997] over the triangles of a surface. Private.
  *
  * Boxes are floats in a frame of the surface, y = scale * x - centre, rounded outwards: the box of a leaf holds all its
- * triangles that have finite corners. The frame comes from a sample of the triangles, so that neither the unit of length,
- * nor a surface far from the origin, nor a stray vertex costs resolution. */
+ * triangles that have finite corners. The frame comes from a sample of the triangles, so that neither the unit of
+ * length, nor a surface far from the origin, nor a stray vertex costs resolution. */
 #ifndef MW_SRC_SURFACE_BOXES_H
 #define MW_SRC_SURFACE_BOXES_H
 
 #include "mesh/surface.h"
 
-/* Leaf i, box i of level 0, holds the triangles MW_SURFACE_LEAF * i ... in the order of the tree; box i of level k + 1 holds
- * boxes MW_SURFACE_FAN * i ... of level k. The top level has one box. That makes 1.7 bytes a triangle; leaves half as large
- * would make queries 10 to 20 % faster for as much again. */
+/* Leaf i, box i of level 0, holds the triangles MW_SURFACE_LEAF * i ... in the order of the tree; box i of level k + 1
+ * holds boxes MW_SURFACE_FAN * i ... of level k. The top level has one box. That makes 1.7 bytes a triangle; leaves
+ * half as large would make queries 10 to 20 % faster for as much again. */
 #define MW_SURFACE_LEAF 16u
 #define MW_SURFACE_FAN 8u
 #define MW_SURFACE_LEVELS 10 /* for MW_MAX_TRIANGLES */
@@ -48,10 +48,10 @@ static MW_INLINE void mw__surface_boxes_frame(const mw_surface_boxes *boxes, con
 
 /* --- a search, nearer boxes first --------------------------------------------------------------------------------- */
 
-/* A search in doubles must not miss a box that holds its answer. A point in the frame is off by 2^-53 of itself: boxes are
- * widened for that by Q_ERROR of its largest coordinate, for what the surface moved, and by LEAST_WIDTH for what
- * underflows. WIDTH_ERROR is for the roundings of this sum, and of bounds of boxes less the point. For a point farther off
- * than FAR, or that overflows, all boxes are infinite. certain.c gives the arguments. */
+/* A search in doubles must not miss a box that holds its answer. A point in the frame is off by 2^-53 of itself: boxes
+ * are widened for that by Q_ERROR of its largest coordinate, for what the surface moved, and by LEAST_WIDTH for what
+ * underflows. WIDTH_ERROR is for the roundings of this sum, and of bounds of boxes less the point. For a point farther
+ * off than FAR, or that overflows, all boxes are infinite. certain.c gives the arguments. */
 #define MW_SURFACE_FAR 0x1p100
 #define MW_SURFACE_Q_ERROR 0x1p-50
 #define MW_SURFACE_WIDTH_ERROR (1 + 0x1p-40)
@@ -59,8 +59,8 @@ static MW_INLINE void mw__surface_boxes_frame(const mw_surface_boxes *boxes, con
 /* Where distances underflow, they are off by less, in units of length. */
 #define MW_SURFACE_TINY_LENGTH 0x1p-1070
 
-/* Brings a point to the frame: q. Returns the width by which boxes are then to be larger on all sides; no vertex has moved
- * farther than `slack` since they were fitted. */
+/* Brings a point to the frame: q. Returns the width by which boxes are then to be larger on all sides; no vertex has
+ * moved farther than `slack` since they were fitted. */
 static MW_INLINE double mw__surface_boxes_aim(const mw_surface_boxes *boxes, const double point[3], double slack,
                                               double q[3])
 {
@@ -92,8 +92,8 @@ static MW_INLINE void mw__surface_box_push(mw_surface_box_stack *stack, uint32_t
     stack->visit[i] = visit;
 }
 
-/* The boxes below box `i` of a level, in level - 1, or the triangles of a leaf, in the order of the tree: from *first to
- * before the value returned. */
+/* The boxes below box `i` of a level, in level - 1, or the triangles of a leaf, in the order of the tree: from *first
+ * to before the value returned. */
 static MW_INLINE uint32_t mw__surface_boxes_below(const mw_surface_boxes *boxes, uint32_t level, uint32_t i,
                                                   uint32_t *first)
 {

@@ -1,19 +1,22 @@
-/* certain.c - what a probe touches, complete: the triangles in all boxes that the line meets in reach, nearer ones first.
+/* certain.c - what a probe touches, complete: the triangles in all boxes that the line meets in reach, the
+ * nearer ones first.
  *
- * Which boxes are looked into is decided in doubles with margins, what is touched, and which is nearer, exactly. So a box
- * that holds the answer must not be missed. In the frame of the boxes the line is q + t m, where m is scaled by a power of two so
- * that its largest component is 1/2 to 1. A point of it that lies in a box, in reach, fulfils for each axis k
+ * Which boxes are looked into is decided in doubles with margins, what is touched, and which is nearer, exactly. So a
+ * box that holds the answer must not be missed. In the frame of the boxes the line is q + t m, where m is scaled by a
+ * power of two so that its largest component is 1/2 to 1. A point of it that lies in a box, in reach, fulfils for each
+ * axis k
  *
  *     (low[k] - q[k]) / m[k] <= t <= (high[k] - q[k]) / m[k]   (or the other way round),   -reach <= t <= reach,
  *
  * and the box is met if these intervals have a point in common. What is computed differs from that by
  *  - q in the frame: 2^-53 of it, and an underflow. The boxes are widened by 2^-50 of the largest coordinate of q.
- *  - the widths w that boxes are widened by: low - q is off by 2^-53 of itself, (low - q) - w by as much again. Where the
- *    two do not cancel, that is less than 2^-50 of the result; where they do, less than 2^-50 w: w is taken 1 + 2^-40 times as
- *    large, and the ends of intervals are moved by 2^-48 of themselves, which covers also 1 / m and the product.
- *  - components of m below 2^-800, which may have underflown: they are taken as 0. Boxes reach to 2^127 at most (else they are
- *    all of space), so |t| < 2^130 and the line is moved by less than 2^-660: w is 2^-600 at least. Nor does anything
- *    overflow then: 1 / m <= 2^800. Products that underflow are off by 2^-1075, which w covers, too.
+ *  - the widths w that boxes are widened by: low - q is off by 2^-53 of itself, (low - q) - w by as much again. Where
+ *    the two do not cancel, that is less than 2^-50 of the result; where they do, less than 2^-50 w: w is taken
+ *    1 + 2^-40 times as large, and the ends of intervals are moved by 2^-48 of themselves, which covers also 1 / m and
+ *    the product.
+ *  - components of m below 2^-800, which may have underflown: they are taken as 0. Boxes reach to 2^127 at most (else
+ *    they are all of space), so |t| < 2^130 and the line is moved by less than 2^-660: w is 2^-600 at least. Nor does
+ *    anything overflow then: 1 / m <= 2^800. Products that underflow are off by 2^-1075, which w covers, too.
  *  - a q farther than 2^100 off, or that overflows: all boxes are looked into. */
 #include "surface/prober.h"
 
@@ -62,8 +65,8 @@ static beam make_beam(const mw_prober *prober, const mw_line *line)
     return b;
 }
 
-/* Does the beam meet a box? Then nothing in it is met before t = *near. Comparisons are written so that NaN, 0 / 0 of a line that
- * runs along a side, narrows nothing. */
+/* Does the beam meet a box? Then nothing in it is met before t = *near. Comparisons are written so that NaN, 0 / 0 of a
+ * line that runs along a side, narrows nothing. */
 static MW_INLINE bool meets_box(const beam *b, const mw_surface_box *box, double *near)
 {
     double low = -b->reach, high = b->reach;

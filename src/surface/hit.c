@@ -3,9 +3,9 @@
  *      a---------d      Where the line goes through an edge or a vertex, it touches all triangles there that it is in
  *     / \  t'   /       front of, and the lowest-numbered is the answer. Inside an edge ab it is enough to look at the
  *    /   *     /        triangle beyond; at a vertex one turns round it, both ways until the fan closes or ends at a
- *   /  t  \   /         border. Flat triangles stand in the way: the place * lies inside two of their edges, and the search
- *  c-------b-'          goes on through them; or at a corner of them and inside the edge opposite, or at two corners that
- *                       coincide, where it branches. */
+ *   /  t  \   /         border. Flat triangles stand in the way: the place * lies inside two of their edges, and the
+ *  c-------b-'          search goes on through them; or at a corner of them and inside the edge opposite, or at two
+ *                       corners that coincide, where it branches. */
 #include "mesh/fan.h"
 #include "surface/prober.h"
 
@@ -121,8 +121,8 @@ static bool is_joined(const mw_surface *surface, uint32_t half, uint32_t link)
     return (equal3(a, c) && equal3(b, d)) || (equal3(a, d) && equal3(b, c));
 }
 
-/* Over a half-edge that contains the place inside, and on through flat triangles. Each has two such edges, or is a branch: so
- * it comes to an end. */
+/* Over a half-edge that contains the place inside, and on through flat triangles. Each has two such edges, or is a
+ * branch: so it comes to an end. */
 static void cross(search *s, uint32_t half)
 {
     for (;;) {

@@ -1,15 +1,15 @@
 /* prober.c - a surface prepared for probes, and how its boxes follow the surface as it moves.
  *
- * While the vertices are known to move little, the boxes are not touched: where no vertex has moved farther than `slack` since
- * they were fitted, boxes larger by that on all sides still hold their triangles. */
+ * While the vertices are known to move little, the boxes are not touched: where no vertex has moved farther than
+ * `slack` since they were fitted, boxes larger by that on all sides still hold their triangles. */
 #include "surface/prober.h"
 
 #include "base/clock.h"
 
 #include <stdlib.h>
 
-/* Boxes that are larger by a quarter of their edges on either side have 1.5 times the edges, and are met by 2.25 times as
- * many lines: from there on it does not take many queries for a fit to pay. */
+/* Boxes that are larger by a quarter of their edges on either side have 1.5 times the edges, and are met by 2.25 times
+ * as many lines: from there on it does not take many queries for a fit to pay. */
 #define SLACK_LIMIT 0.25
 
 static void fit(mw_prober *prober, uint32_t threads)

@@ -24,8 +24,8 @@ struct mw_prober {
 
 /* --- hit.c -------------------------------------------------------------------------------------------------------- */
 
-/* Does the line touch the triangle, whatever the distance: does it meet it, with m pointing at its front? Exact. False for
- * triangles with a vertex that is not finite. */
+/* Does the line touch the triangle, whatever the distance: does it meet it, with m pointing at its front? Exact. False
+ * for triangles with a vertex that is not finite. */
 bool mw__touches(const mw_surface *surface, const mw_line *line, uint32_t triangle);
 
 /* Does it meet it, from either side? */
@@ -47,7 +47,8 @@ mw_touch mw__no_touch(mw_touch_state state);
 /* --- certain.c ---------------------------------------------------------------------------------------------------- */
 
 /* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and complete. `seed`: a
- * triangle known to be touched in reach, or MW_NONE. Counts into *counters unless it is NULL. The boxes are up to date. */
+ * triangle known to be touched in reach, or MW_NONE. Counts into *counters unless it is NULL. The boxes are up to
+ * date. */
 uint32_t mw__certain(const mw_prober *prober, const mw_line *line, double max_distance, uint32_t seed,
                      mw_probe_counters *counters);
 
