@@ -116,7 +116,7 @@ static void as_text(text *t, const char *path, const mw_check *check, const outc
 
 static mw_status check_arrays(const taken_as *s, const mw_arrays *arrays, mw_check *check, mw_error *error)
 {
-    mw_star_options star = {.centre = {s->centre[0], s->centre[1], s->centre[2]}};
+    mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]}};
     int weld = taken_as_welded(s);
     if (s->as == AS_SURFACE) return mw_surface_check_arrays(arrays, weld, check, error);
     if (s->as == AS_STAR) return mw_star_check_arrays(arrays, weld, &star, check, error);

@@ -73,7 +73,7 @@ int columns_pick(const columns *wanted, const char *path, const mw_point_reader 
                  size_t pick[MOST_COLUMNS])
 {
     size_t width = mw_points_width(reader);
-    if (chosen && width != wanted->count && !wanted->loose) return wrong_choice(wanted, width);
+    if (chosen && width != wanted->count) return wrong_choice(wanted, width);
     if (width < wanted->count) return not_found(wanted, path, width);
     if (!chosen && find_all(wanted, reader, pick)) return 0;
     for (size_t k = 0; k < wanted->count; k++) pick[k] = k;

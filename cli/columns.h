@@ -11,7 +11,7 @@
 typedef struct columns {
     const char *names[MOST_COLUMNS];
     size_t count;
-    bool loose;       /* the first ones will do, whatever a header calls them and however many there are */
+    bool loose;       /* unless chosen, the first ones do, whatever a header calls them and however many there are */
     const char *hint; /* to add where they are not found; NULL: nothing */
 } columns;
 

@@ -109,6 +109,17 @@ static void help_of_option(text *t, const option *o)
     if (o->kind == OPTION_CHOICE) help_of_choices(t, o->choices);
 }
 
+/* Has a table before it, or the same one, an option of this name? Then that one counts, and says what is true here. */
+static bool is_overruled(const command *c, const option *o)
+{
+    for (const option *const *table = c->options; *table; table++)
+        for (const option *other = *table; other->name; other++) {
+            if (other == o) return false;
+            if (strcmp(other->name, o->name) == 0) return true;
+        }
+    return false;
+}
+
 void options_help(text *t, const command *c)
 {
     text_printf(t, "meshwalk %s - %s\n\nusage: meshwalk %s [options] %s\n\n", c->name, c->summary, c->name,
@@ -116,6 +127,7 @@ void options_help(text *t, const command *c)
     options_wrap(t, c->description, 0);
     text_string(t, "\noptions:\n");
     for (const option *const *table = c->options; *table; table++)
-        for (const option *o = *table; o->name; o++) help_of_option(t, o);
+        for (const option *o = *table; o->name; o++)
+            if (!is_overruled(c, o)) help_of_option(t, o);
     text_printf(t, "\nThe manual page meshwalk-%s(1) tells more.\n", c->name);
 }

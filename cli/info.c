@@ -97,10 +97,10 @@ static int report_star(report *r, const taken_as *s, const char *path, const mw_
 {
     mw_error error;
     mw_star *star;
-    mw_star_options options = {.centre = {s->centre[0], s->centre[1], s->centre[2]}};
+    mw_star_options options = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]}};
     mw_status status = mw_star_create(surface, &options, &star, &error);
     if (status != MW_OK && status != MW_ERROR_INPUT) return fail_mesh(path, &error);
-    report_numbers(r, "centre", s->centre, 3);
+    report_numbers(r, "centre", s->centre.at, 3);
     report_flag(r, "star_shaped", status == MW_OK);
     if (status == MW_OK)
         report_missing(r, "why_not", "-");

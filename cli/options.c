@@ -4,6 +4,7 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <meshwalk/locate.h>
@@ -73,10 +74,16 @@ static const char *parse_number(const char *value, char stop, double *number)
     return end == value + length && isfinite(*number) ? end : NULL;
 }
 
-/* A number >= 0; no decimal comma. */
+/* Is a number not 0, as it is written? */
+static bool is_written_nonzero(const char *value)
+{
+    return strcspn(value, "123456789") < strcspn(value, "eE");
+}
+
+/* A number >= 0; no decimal comma. What would be lost in rounding to 0 is refused like what is too large. */
 static bool parse_length(const char *value, double *number)
 {
-    return parse_number(value, 0, number) && *number >= 0;
+    return parse_number(value, 0, number) && *number >= 0 && (*number > 0 || !is_written_nonzero(value));
 }
 
 /* So many numbers with commas between them. */
@@ -138,7 +145,7 @@ static int take(const option *o, const char *value, void *settings)
 {
     char *target = (char *)settings + o->offset;
     uint64_t natural = 0;
-    double length = 0, point[3];
+    double length = 0;
     coordinates where = {0};
     uint32_t sample = 0;
     int choice = 0, end;
@@ -149,12 +156,15 @@ static int take(const option *o, const char *value, void *settings)
         memcpy(target, &value, sizeof value);
         return 0;
     case OPTION_LENGTH:
+    case OPTION_REACH:
         if (!parse_length(value, &length)) return bad_value(o, value, "a length, 0 or more");
+        if (o->kind == OPTION_REACH && length == 0) length = DBL_TRUE_MIN;
         memcpy(target, &length, sizeof length);
         return 0;
     case OPTION_POINT:
-        if (!parse_numbers(value, point, 3)) return bad_value(o, value, "a point X,Y,Z");
-        memcpy(target, point, sizeof point);
+        where.count = 3;
+        if (!parse_numbers(value, where.at, where.count)) return bad_value(o, value, "a point X,Y,Z");
+        memcpy(target, &where, sizeof where);
         return 0;
     case OPTION_PLACE:
         if (!parse_place(value, &where)) return bad_value(o, value, "coordinates X,Y or X,Y,Z");

@@ -11,7 +11,8 @@ typedef enum option_kind {
     OPTION_FLAG,   /* bool: no argument                          */
     OPTION_TEXT,   /* const char *                               */
     OPTION_LENGTH, /* double: finite and not negative            */
-    OPTION_POINT,  /* double[3]: X,Y,Z, finite                   */
+    OPTION_REACH,  /* double: likewise, but 0 given is not the default: the least length above 0 stands for it */
+    OPTION_POINT,  /* coordinates: X,Y,Z, finite                 */
     OPTION_PLACE,  /* coordinates: X,Y or X,Y,Z, finite          */
     OPTION_COUNT,  /* uint32_t                                   */
     OPTION_SAMPLE, /* uint32_t: a number, not 0, or MW_SAMPLE_.. */
@@ -51,7 +52,7 @@ typedef struct command {
     int optional_operands;        /* but so many of the last ones may be missing: NULL then */
     const char *summary;          /* one line */
     const char *description;      /* a paragraph or more */
-    const option *const *options; /* tables; NULL ends them */
+    const option *const *options; /* tables; NULL ends them. Of options of one name the first counts */
     size_t settings_size;
     int (*run)(const void *settings, const char *const *operands); /* returns the exit code */
 } command;

@@ -31,8 +31,10 @@ static const char *start_help(int i)
 static const choices starts = {"start", start_name, start_help};
 
 static const option probe_options[] = {
-    {"max-distance", 0, OPTION_LENGTH, offsetof(probe_settings, max_distance), "D",
-     "touch nothing that is farther than D from the point, either way (default: 0, no limit)", NULL},
+    {"max-distance", 0, OPTION_REACH, offsetof(probe_settings, max_distance), "D",
+     "touch nothing that is farther than D from the point, either way; 0: only what lies at the point (default: no "
+     "limit)",
+     NULL},
     {"certain", 0, OPTION_FLAG, offsetof(probe_settings, certain), NULL,
      "miss nothing: the nearest of all triangles on the line, or 'none'; builds boxes over the triangles", NULL},
     {"start", 0, OPTION_CHOICE, offsetof(probe_settings, start), "NAME",
@@ -43,8 +45,7 @@ static const option probe_options[] = {
      "at most N walks for a query, from different first triangles (default: 0, which means 10)", NULL},
     {"race", 0, OPTION_COUNT, offsetof(probe_settings, race), "N",
      "run N walks for a query at a time, in threads, until one finds a triangle; where the line touches several, it "
-     "may be "
-     "another one each time, but not with --certain (default: 0, one walk)",
+     "may be another one each time, but not with --certain (default: 0, one walk)",
      NULL},
     {"weld", 0, OPTION_FLAG, offsetof(probe_settings, weld), NULL,
      "vertices with equal coordinates are one, so that walks cross the seams between them", NULL},
@@ -55,6 +56,20 @@ static const option probe_options[] = {
     {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.columns), "LIST",
      "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: those that a header "
      "calls x, y, z, mx, my, mz, else the first six)",
+     NULL},
+    {"strict", 0, OPTION_FLAG, offsetof(probe_settings, stream.strict), NULL,
+     "exit with 1 if a row is 'limit' or 'bad'; 'none' is an answer", NULL},
+    {0},
+};
+
+/* Other commands promise more of these than probes by walks can keep. */
+static const option random_options[] = {
+    {"threads", 0, OPTION_COUNT, offsetof(probe_settings, stream.common.threads), "N",
+     "use at most N threads, those of --race apart (default: 0, all); without --race results do not depend on it",
+     NULL},
+    {"seed", 0, OPTION_SEED, offsetof(probe_settings, stream.common.seed), "S",
+     "seed of everything random (default: 0); without --certain another seed may find another triangle, or one where "
+     "this one finds none",
      NULL},
     {0},
 };
@@ -212,7 +227,7 @@ static int run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {probe_options, stream_options, common_options, NULL};
+static const option *const tables[] = {probe_options, stream_options, random_options, common_options, NULL};
 
 const command probe_command = {
     .name = "probe",

@@ -12,7 +12,7 @@
 
 typedef struct star_settings {
     stream_settings stream;
-    double centre[3];
+    coordinates centre; /* not given: the origin */
     uint32_t sample, cells, levels;
     int walk, start; /* mw_star_walk_kind, mw_star_start_kind */
     bool lonlat;
@@ -82,9 +82,9 @@ static const char *check_options(const star_settings *s, char words[128])
 {
     text t = {0};
     text_string(&t, "--as star");
-    if (s->centre[0] != 0 || s->centre[1] != 0 || s->centre[2] != 0) {
+    if (s->centre.at[0] != 0 || s->centre.at[1] != 0 || s->centre.at[2] != 0) {
         text_string(&t, " --centre ");
-        row_numbers(&t, s->centre, 3);
+        row_numbers(&t, s->centre.at, 3);
     }
     if (s->lonlat) text_string(&t, " --lonlat");
     snprintf(words, 128, "%.*s", t.failed ? 0 : (int)t.size, t.failed ? "" : t.bytes);
@@ -109,7 +109,7 @@ static int make_star(rays *r, const char *path, const mw_mesh_file *file)
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
     mw_surface_options surface = {.weld = 1}; /* the seam of a sphere closes, and its rows of vertices at the poles */
-    mw_star_options star = {.centre = {s->centre[0], s->centre[1], s->centre[2]},
+    mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
                             .angles = s->walk == MW_STAR_WALK_ORTHOGONAL};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &r->surface, &error) != MW_OK ||
@@ -173,7 +173,7 @@ static int answer_rays(void *self, const queries *block, void *answers)
     const double *points = block->values;
     size_t stride = block->stride;
     if (s->lonlat) {
-        sphere_directions(block->values, stride, block->count, s->centre, tally_threads(common->threads), r->points);
+        sphere_directions(block->values, stride, block->count, s->centre.at, tally_threads(common->threads), r->points);
         points = r->points;
         stride = 3;
     }

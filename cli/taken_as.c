@@ -36,8 +36,7 @@ static int wants(const char *name, const char *as)
 
 static int check_options(const taken_as *s)
 {
-    bool centre = s->centre[0] != 0 || s->centre[1] != 0 || s->centre[2] != 0;
-    if (centre && s->as != AS_STAR) return wants("centre", "star");
+    if (s->centre.count > 0 && s->as != AS_STAR) return wants("centre", "star");
     if (s->lonlat && s->as != AS_STAR) return wants("lonlat", "star");
     if (s->weld && s->as == AS_PLANE) return wants("weld", "surface");
     return 0;

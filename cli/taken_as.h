@@ -11,7 +11,7 @@ enum { AS_PLANE, AS_SURFACE, AS_STAR };
 
 typedef struct taken_as {
     common_settings common;
-    double centre[3];
+    coordinates centre; /* not given: the origin */
     int as;
     bool lonlat, weld, json;
 } taken_as;

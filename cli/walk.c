@@ -55,8 +55,10 @@ static const option walk_options[] = {
      "how to walk (default: auto). --as plane takes all of these but forgetful, and --as star auto, stochastic, "
      "forgetful, barycentric, orthogonal and straight; a probe has one walk:",
      &walks},
-    {"max-distance", 0, OPTION_LENGTH, offsetof(walk_settings, max_distance), "D",
-     "--as surface: touch nothing that is farther than D from the point, either way (default: 0, no limit)", NULL},
+    {"max-distance", 0, OPTION_REACH, offsetof(walk_settings, max_distance), "D",
+     "--as surface: touch nothing that is farther than D from the point, either way; 0: only what lies at the point "
+     "(default: no limit)",
+     NULL},
     {"samples", 0, OPTION_COUNT, offsetof(walk_settings, samples), "K",
      "--as surface: look at K triangles for a first one (default: 0, twice the cube root of the number of vertices)",
      NULL},
@@ -221,7 +223,7 @@ static int walk_plane(way *w)
 /* The point in space that a FROM or TO stands for. */
 static int ray_to(const walk_settings *s, const char *name, const coordinates *where, double point[3])
 {
-    const double *centre = s->taken.centre;
+    const double *centre = s->taken.centre.at;
     memcpy(point, where->at, 3 * sizeof *point);
     if (s->taken.lonlat) sphere_directions(where->at, 2, 1, centre, 1, point);
     if (isnan(point[0])) return wants(name, "a latitude from -90 to 90");
@@ -281,7 +283,7 @@ static void between(const double u[3], const double v[3], double angle, double p
 static int draw_arc(way *w, const mw_star *star, const mw_surface *surface, const double from[3], const double to[3])
 {
     enum { PARTS = 256 };
-    const double *centre = w->settings->taken.centre;
+    const double *centre = w->settings->taken.centre.at;
     mw_star_cursor cursor;
     mw_error error;
     double u[3], v[3], d[3];
@@ -326,7 +328,7 @@ static int walk_star(way *w)
     mw_star *star = NULL;
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
     mw_surface_options welded = {.weld = 1};
-    mw_star_options options = {.centre = {s->taken.centre[0], s->taken.centre[1], s->taken.centre[2]},
+    mw_star_options options = {.centre = {s->taken.centre.at[0], s->taken.centre.at[1], s->taken.centre.at[2]},
                                .angles = strcmp(name_of(s->walk), "orthogonal") == 0};
     bool made = mw_surface_create(&arrays, &welded, &surface, &error) == MW_OK &&
                 mw_star_create(surface, &options, &star, &error) == MW_OK;
@@ -397,7 +399,7 @@ static int write_picture(const way *w)
     snprintf(caption, sizeof caption, "%.100s: %s, %zu triangle%s", name ? name + 1 : w->path, walk, w->count,
              w->count == 1 ? "" : "s");
     drawing d = {.view = views[s->taken.as],
-                 .centre = {s->taken.centre[0], s->taken.centre[1], s->taken.centre[2]},
+                 .centre = {s->taken.centre.at[0], s->taken.centre.at[1], s->taken.centre.at[2]},
                  .caption = caption,
                  .points = w->file->points,
                  .triangles = w->file->triangles,

@@ -104,6 +104,7 @@ done
 table=$'name,lat,lon\na,0.25,0.75\nb,0.75,0.25\n'
 run_on "$table" locate --columns lon,lat square.off -; exits 0; prints "$inside"
 run_on "$table" locate --columns 3,2 square.off -; exits 0; prints "$inside"
+run_on $'1,2,3\n' locate --columns 1,2,3 square.off -; refused 2 "'--columns' wants 2 columns, x,y, not 3"
 run_on "$table" locate --columns lon,height square.off -; refused 3 "no column 'height'"
 gzip -c square.off >zipped.off.gz
 run_on $'0.75 0.25\n0.25 0.75\n' locate zipped.off.gz -; exits 0; prints "$inside"

@@ -57,15 +57,23 @@ run probe a; refused 2 "wants SURFACE QUERIES, not 1 argument;"
 for c in info check; do
     run $c --as sphere a; refused 2 "unknown way to take a mesh 'sphere'"
     run $c --as str a; refused 2 "did you mean 'star'\?"
-    run $c --centre 1,0,0 a; refused 2 "'--centre' wants --as star"
+    for centre in 1,0,0 0,0,0; do
+        run $c --centre $centre a; refused 2 "'--centre' wants --as star"
+        run $c --as surface --centre=$centre a; refused 2 "'--centre' wants --as star"
+    done
     run $c --as surface --lonlat a; refused 2 "'--lonlat' wants --as star"
     run $c --weld a; refused 2 "'--weld' wants --as surface"
 done
 run check --fix weld a; refused 2 "unknown option '--fix'"
 
 # Numbers are taken as a whole or not at all.
-for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5; do
+for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5 1e-400 0.1E-400 2e-324 ".$(printf '%0400d' 1)"; do
     run locate --tolerance "$value" a b; refused 2 "'--tolerance' wants a length"
+    run probe --max-distance "$value" a b; refused 2 "'--max-distance' wants a length"
+done
+for value in 0 0.000 0e9 .0E-400 -0 4e-324 1e-320 5e-324 1.5 007; do
+    run locate --tolerance "$value" a b; refused 3 "a: No such file"
+    run probe --max-distance "$value" a b; refused 3 "a: No such file"
 done
 for value in '' x 1 1,2 1,2, 1,2,3,4 1,2,x ' 1,2,3' '1, 2,3' '1;2;3' 1,2,inf nan,0,0 1,2,1e999 0x1,2,3 ,,; do
     run star --centre "$value" a b; refused 2 "'--centre' wants a point X,Y,Z, not"
@@ -168,6 +176,14 @@ for option in walk start; do
     done
 done
 run probe --help
+flat=$(tr -s ' \n' ' ' <"$logs/out")
+for words in "--strict exit with 1 if a row is 'limit' or 'bad'" 'without --race results do not depend on it' \
+    'without --certain another seed may find another triangle'; do
+    holds "the help of probe says: $words" test "${flat#*"$words"}" != "$flat"
+done
+for words in 'a point has no answer' 'where a point lies does not depend'; do
+    holds "the help of probe does not say: $words" test "${flat#*"$words"}" == "$flat"
+done
 holds "help and completion of probe --start differ" \
     test "$(complete_words meshwalk probe --start '')" == "$(listed start)"
 run walk --help

@@ -100,6 +100,28 @@ done
 run_on $'.75,.25,2,0,0,-7\n' probe --max-distance 0.999 cube.off -; exits 0; prints_line ',limit,-1,,,,$'
 run_on $'.75,.25,2,0,0,-7\n' probe --certain --max-distance 0.999 cube.off -; exits 0; prints_line ',none,-1,,,,$'
 
+# 0 leaves what is at the point, on the outermost facets and far from the origin too; without the option all is in reach.
+at='.75,.25,1,0,0,-1
+.75,.25,1.0000000000000002,0,0,-1
+.3,.1,0,1e-300,0,1e-300
+.3,.1,0,0,0,1e300
+1,1,1,-1,-1,-1
+1,1,.3,-1,0,0
+.75,.25,1e-320,0,0,1
+'
+for certain in '' --certain; do
+    for zero in 0 0.0 -0; do
+        run_on "$at" probe $certain --max-distance $zero cube.off -; exits 0; says_nothing
+        states=$(sed 1d "$logs/out" | awk -F, '{ printf "%s %s ", $4, $6 }')
+        none=limit; [[ $certain ]] && none=none
+        holds "what is at the point is touched: $states" \
+            test "$states" == "hit 0 $none  hit 0 hit 0 hit 0 hit 0 $none  "
+    done
+    run_on "$at" probe $certain cube.off -; exits 0
+    holds "without a limit all are touched" test "$(grep -c ',hit,' "$logs/out")" == 7
+    run_on "$at" probe $certain --max-distance 1e-319 cube.off -; exits 0; prints_line '^0.75,0.25,[0-9.]+e-[0-9]+,hit,'
+done
+
 # Fronts only: two plates whose fronts face up, at heights 0 and 3, and one that faces down at 1.
 printf 'OFF\n9 3 0\n%s3 0 1 2\n3 3 5 4\n3 6 7 8\n' \
     "$(for z in 0 1 3; do printf '0 0 %s\\n4 0 %s\\n0 4 %s\\n' $z $z $z; done | sed 's/\\n/\n/g')"$'\n' >plates.off

@@ -139,6 +139,11 @@ run_on $'a,b,c,d\n5,-1,1,2\n' star octahedron.off - -o o.csv; exits 2; says 'sta
 run_on $'lon,lat,height\n5,1,2\n' star octahedron.off - -o o.csv; refused 2 '; --lonlat reads longitude and latitude'
 run_on $'5,1\n' star octahedron.off - -o o.csv; exits 3; says 'has 2 columns of numbers, but a row is x,y,z; --lonlat'
 run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b octahedron.off -; refused 2 "'--columns' wants 3 columns, x,y,z, not 2"
+for list in 1,2,3 c,a,b; do
+    run_on $'a,b,c,d\n90,0,10,2\n' star --lonlat --columns $list octahedron.off -
+    refused 2 "'--columns' wants 2 columns, lon,lat, not 3"
+done
+run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 1,2,3,4 octahedron.off -; refused 2 "'--columns' wants 3 columns, x,y,z, not 4"
 run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b,e octahedron.off -; refused 3 "no column 'e'"
 absent o.csv
 

@@ -73,6 +73,8 @@ says '^meshwalk: octahedron.off: the probe touched nothing'
 prints_line ',[0-7],2$'
 run walk --as surface --max-distance 1 --iterations 1 --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off; exits 0
 says 'touched nothing'
+run walk --as surface --max-distance 0 --from 0.5,0.25,5 --to 0.5,0.25,4 octahedron.off; exits 0; says 'touched nothing'
+run walk --as surface --max-distance 0 --from 0.5,0.25,0.25 --to 0.5,0.25,0 octahedron.off; exits 0; says_nothing
 run walk --as surface --from 1,2,3 --to 1,2,3 octahedron.off; refused 2 "'--to' wants another point than --from"
 
 # What is refused, before anything is read.
@@ -93,6 +95,8 @@ run walk --as surface --from 1,2,3 --to 3,4,5 --walk straight row.off; refused 2
 for option in max-distance samples iterations; do
     run walk --from 1,2 --to 3,4 --$option 2 row.off; refused 2 "'--$option' wants --as surface"
 done
+run walk --from 1,2 --to 3,4 --max-distance 0 row.off; refused 2 "'--max-distance' wants --as surface"
+run walk --from 1,2 --to 3,4 --centre 0,0,0 row.off; refused 2 "'--centre' wants --as star"
 run walk --lonlat --from 1,2 --to 3,4 row.off; refused 2 "'--lonlat' wants --as star"
 run walk --from 1,2 --to 3,4 absent.off; refused 3 'absent.off'
 for name in walk.gif walk.txt walk; do
