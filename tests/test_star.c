@@ -157,7 +157,7 @@ static void test_indices_and_batches(void **state)
     polyhedron p = lattice_octahedron(4);
     stretch(&p, 2, &seed);
     world w = make_world(&p, (mw_surface_options){0}, (mw_star_options){.angles = 1});
-    enum { N = 40000 };
+    enum { N = 12000 };
     double *q = malloc(sizeof *q * 3 * N);
     mw_location *first = malloc(sizeof *first * N), *found = malloc(sizeof *found * N);
     assert_true(q && first && found);
