@@ -6,6 +6,8 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
+#include <float.h>
+
 #include "shapes.h"
 #include "surface/prober.h"
 
@@ -39,8 +41,10 @@ static mw_surface_hit nearest(const mw_prober *prober, const double q[3], double
 /* At least as long as long double, mostly twice as long as double. */
 #ifdef __SIZEOF_FLOAT128__
 typedef __float128 wide;
+#define WIDE_DIGITS 113
 #else
 typedef long double wide;
+#define WIDE_DIGITS LDBL_MANT_DIG
 #endif
 
 static wide wide_dot(const wide a[3], const wide b[3])
@@ -299,6 +303,108 @@ static void test_units(void **state)
     shape_free(&s);
 }
 
+/* A triangle alone. */
+static mw_surface_hit nearest_of(const double points[9], const double q[3], double max_distance)
+{
+    static const uint32_t corners[3] = {0, 1, 2};
+    const mw_arrays one = {.points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
+    mw_surface *surface;
+    mw_error error;
+    expect_ok(mw_surface_create(&one, NULL, &surface, &error), "surface", &error);
+    mw_prober *prober = new_prober(surface);
+    mw_surface_hit hit = nearest(prober, q, max_distance);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+    return hit;
+}
+
+/* Far from the origin the point is rounded to what doubles there are, the distance is not. */
+static void test_offset(void **state)
+{
+    (void)state;
+    const double o = 1e15, a[9] = {o, o, o, o + 1, o, o + 0.5, o, o + 1, o + 0.25},
+                 q[3] = {o + 0.25, o + 0.25, o + 0.5};
+    mw_surface_hit hit = nearest_of(a, q, INFINITY);
+    assert_true(fabs(hit.distance - 0.27277236279499051) < 1e-16);
+    assert_int_equal(nearest_of(a, q, 0.2728).triangle, 0);
+    assert_int_equal(nearest_of(a, q, 0.2727).triangle, MW_NONE);
+    const double corner[3] = {o + 1, o - 1, o + 0.5};
+    hit = nearest_of(a, corner, INFINITY);
+    assert_true(hit.distance == 1 && hit.weight[1] == 1 && hit.point[0] == o + 1 && hit.point[2] == o + 0.5);
+}
+
+/* However much larger than the distance a triangle is. */
+static void test_huge(void **state)
+{
+    (void)state;
+    static const double size[] = {1, 1e10, 1e100, 1e300, 1.7e308};
+    for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
+        double x = size[i], q[3] = {0, 0, 1}, a[9] = {-x, -x, 0, x, -x, 0, 0, x, 0};
+        mw_surface_hit hit = nearest_of(a, q, INFINITY);
+        assert_true(fabs(hit.distance - 1) < 1e-14);
+        assert_true(hit.point[0] == 0 && hit.point[1] == 0 && hit.point[2] == 0);
+        const double b[9] = {-x, 0, 0, x, 0, 0, 0, 0, -x};
+        hit = nearest_of(b, q, INFINITY);
+        assert_true(fabs(hit.distance - 1) < 1e-14);
+        const double far[3] = {-x, -x, x};
+        assert_true(fabs(nearest_of(a, far, INFINITY).distance / x - 1) < 1e-14);
+    }
+}
+
+/* How far the farthest corner is. */
+static long double size_from(const double points[9], const double q[3])
+{
+    long double size = 0;
+    for (int i = 0; i < 3; i++) {
+        long double square = 0;
+        for (int k = 0; k < 3; k++)
+            square += ((long double)points[3 * i + k] - q[k]) * ((long double)points[3 * i + k] - q[k]);
+        size = fmaxl(size, sqrtl(square));
+    }
+    return size;
+}
+
+/* A triangle at `offset`, whose height is about `thin`, and q about `away` from a point of it, its edge, or a corner. */
+static void random_case(double points[9], double q[3], double offset, double thin, double away, uint64_t *random)
+{
+    double at = random_unit(random), weight[3] = {random_unit(random), 0, 0};
+    int kind = (int)mw__random_below(random, 4);
+    weight[1] = kind < 2 ? 1 - weight[0] : (1 - weight[0]) * random_unit(random);
+    weight[2] = 1 - weight[0] - weight[1];
+    for (int k = 0; k < 3; k++) {
+        double *p = points + k;
+        for (int i = 0; i < 2; i++) p[3 * i] = offset + random_unit(random);
+        p[6] = p[0] * at + p[3] * (1 - at) + thin * (random_unit(random) - 0.5);
+        q[k] = (kind == 3 ? p[0] : p[0] * weight[0] + p[3] * weight[1] + p[6] * weight[2]) +
+               away * (random_unit(random) - 0.5);
+    }
+}
+
+/* Off by less than 2^-48 of the size; inside a triangle that is not thin of the distance itself. So also inside an edge, but
+ * for the face's foot that is taken to lie on the wrong side of it. */
+static void test_accuracy(void **state)
+{
+    (void)state;
+    if (WIDE_DIGITS < 106) skip();
+    uint64_t random = new_seed("accuracy");
+    static const double offset[] = {0, 1, 1e6, 1e12}, thin[] = {1, 1e-3, 1e-9, 1e-14, 1e-40};
+    for (int round = 0; round < 12000; round++) {
+        double points[9], q[3], height = thin[mw__random_below(&random, 5)],
+                                away = pow(10, 4 - 20 * random_unit(&random));
+        random_case(points, q, offset[mw__random_below(&random, 4)], height, away, &random);
+        const double *const corner[3] = {points, points + 3, points + 6};
+        mw_surface_hit hit = nearest_of(points, q, INFINITY);
+        if (hit.triangle == MW_NONE) continue; /* too thin for its place */
+        long double right = distance_to_triangle(corner, q), error = fabsl(right - hit.distance);
+        long double size = size_from(points, q);
+        assert_true(error <= 0x1p-48L * size);
+        if (height < 1 || size > 100 || fmax(hit.weight[0], fmax(hit.weight[1], hit.weight[2])) > 1 - 1e-6) continue;
+        double least = fmin(hit.weight[0], fmin(hit.weight[1], hit.weight[2]));
+        if (least > 1e-6) assert_true(error <= 0x1p-48L * right + 1e-28L);
+        if (least == 0) assert_true(error <= 0x1p-48L * right + 1e-28L + 0x1p-100L * size * size / right);
+    }
+}
+
 /* Strays, points far away, coordinates at the end of the range. */
 static void test_far(void **state)
 {
@@ -395,6 +501,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shapes), cmocka_unit_test(test_slivers), cmocka_unit_test(test_units),
+        cmocka_unit_test(test_offset), cmocka_unit_test(test_huge),    cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_far),    cmocka_unit_test(test_motion),  cmocka_unit_test(test_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

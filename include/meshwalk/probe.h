@@ -60,8 +60,7 @@ typedef enum mw_touch_state {
 MW_API const char *mw_touch_state_name(mw_touch_state state);
 
 typedef struct mw_touch {
-    double
-        distance; /* from q along m to the point touched, in units of length: negative where it lies behind q. Off by
+    double distance; /* from q along m to the point touched, in units of length: negative where it lies behind q. Off by
                           less than 2^-40 of itself where it is a normal double; infinite beyond the largest double (the
                           state is MW_TOUCH_HIT still); NaN but for MW_TOUCH_HIT */
     double
@@ -153,11 +152,16 @@ MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, co
                             const double motion[3], uint32_t *triangles, uint32_t *iteration, size_t capacity,
                             mw_touch *touch);
 
-/* The point of the surface nearest to a point: the proxy of haptic rendering. Distances are rounded; of several triangles
- * at the same rounded distance the lowest-numbered. */
+/* The point of the surface nearest to a point q: the proxy of haptic rendering. Distances are rounded, and the least of them
+ * decides; of several triangles at the same rounded distance the lowest-numbered is the answer. A distance is off by less
+ * than 2^-48 of how far the farthest corner of its triangle is from q (and 2^-1070), wherever the origin is: mostly by less
+ * than 2^-48 of itself, but not where q is that near the surface and next to an edge, nor in very thin triangles. The point
+ * is rounded to its own coordinates beyond that, and lies in the box round its triangle; a corner is exactly that.
+ * Triangles without area own no nearest point. */
 typedef struct mw_surface_hit {
-    uint32_t triangle; /* the caller's number; MW_NONE where the point is not finite, or no triangle is usable */
-    double distance, point[3];
+    uint32_t triangle; /* the caller's number; MW_NONE where the point is not finite, or no usable triangle in reach */
+    double distance;   /* infinite beyond the largest double; this and what follows NaN without a triangle           */
+    double point[3];
     double weight[3];
 } mw_surface_hit;
 

@@ -1,36 +1,82 @@
 /* nearest.c - the point of a surface nearest to a point: branch and bound on the boxes.
  *
- * Distances are rounded, and still the answer does not depend on the boxes. The distance of a triangle is that from q to
- * a point p of it, as rounded; p may be off, but is kept within the triangle's own box. So a box at a rounded distance
- * from q holds no triangle at a smaller one, but for the few roundings that the margins here cover. */
+ * All is computed on what lies between q and the corners, not on coordinates: a surface far from the origin, or a
+ * triangle much larger than its distance, costs no digits of the distance. Two differences of coordinates and a product
+ * of them are exact, or nearly (an `offset`); what is left of them after cancelling is rounded.
+ *
+ * Distances are rounded, and still the answer does not depend on the boxes: the distance of a triangle is at least that
+ * of its own box, as rounded (distance_to_corners_box). So a box at a rounded distance from q holds no triangle at a
+ * smaller one, but for the few roundings that REACH_ERROR covers. */
 #include "surface/prober.h"
 
-/* --- the nearest point of a triangle ------------------------------------------------------------------------------ */
+/* --- vectors ------------------------------------------------------------------------------------------------------ */
 
-/* The corners and q, scaled so that squares of their differences neither overflow nor, where it matters, underflow. */
-typedef struct frame {
-    double a[3][3], q[3];
-} frame;
-
-/* A point of the triangle, by weights, and how far it is from q. */
-typedef struct candidate {
-    double weight[3], point[3], distance;
-} candidate;
+/* head + tail, the head being the sum as rounded: a difference of two points without error, a product with one of
+ * 2^-100. */
+typedef struct offset {
+    double head[3], tail[3];
+} offset;
 
 static double dot(const double u[3], const double v[3])
 {
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
-static void subtract(double r[3], const double u[3], const double v[3])
+/* *tail: what a + b as rounded, which is returned, leaves out [Knuth]. */
+static double two_sum(double a, double b, double *tail)
 {
-    for (int k = 0; k < 3; k++) r[k] = u[k] - v[k];
+    double sum = a + b, of_b = sum - a;
+    *tail = (a - (sum - of_b)) + (b - of_b);
+    return sum;
 }
 
-/* 0 to 1; NaN, of 0 / 0 in a triangle without extent, becomes 0. */
-static double clamp(double x)
+static double two_product(double a, double b, double *tail)
 {
-    return x > 0 ? x < 1 ? x : 1 : 0;
+    double product = a * b;
+    *tail = fma(a, b, -product);
+    return product;
+}
+
+/* (to - from) * scale, a power of two. */
+static offset between(const double from[3], const double to[3], double scale)
+{
+    offset v;
+    for (int k = 0; k < 3; k++) {
+        v.head[k] = two_sum(to[k], -from[k], &v.tail[k]) * scale;
+        v.tail[k] *= scale;
+    }
+    return v;
+}
+
+/* u x v, off by less than 2^-100 |u| |v|, however much cancels. v x u is exactly the opposite, so that both triangles
+ * of an edge find it at the same distance. */
+static offset cross(const offset *u, const offset *v)
+{
+    offset r;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        double plus_tail, minus_tail, tail;
+        double plus = two_product(u->head[i], v->head[j], &plus_tail);
+        double minus = two_product(u->head[j], v->head[i], &minus_tail);
+        double sum = two_sum(plus, -minus, &tail);
+        tail += plus_tail - minus_tail;
+        tail +=
+            (u->head[i] * v->tail[j] - u->tail[j] * v->head[i]) + (u->tail[i] * v->head[j] - u->head[j] * v->tail[i]);
+        r.head[k] = two_sum(sum, tail, &r.tail[k]);
+    }
+    return r;
+}
+
+/* u . v, off by less than 2^-100 |u| |v| and 2^-52 of itself. */
+static double dot_offsets(const offset *u, const offset *v)
+{
+    double sum = 0, tails = 0;
+    for (int k = 0; k < 3; k++) {
+        double of_product, of_sum, product = two_product(u->head[k], v->head[k], &of_product);
+        sum = two_sum(sum, product, &of_sum);
+        tails += of_sum + of_product + (u->head[k] * v->tail[k] + u->tail[k] * v->head[k]);
+    }
+    return sum + tails;
 }
 
 /* sqrt(x x + y y + z z), off by less than 2^-50 of itself. */
@@ -40,95 +86,175 @@ static double length(double x, double y, double z)
     return square > 0x1p-900 && square < 0x1p1000 ? sqrt(square) : hypot(hypot(x, y), z);
 }
 
-/* The point with these weights, kept within the triangle's box, if it is nearer than *best. */
-static void try_weights(candidate *best, const mw_corners corner, const double q[3], double u, double v, double w)
-{
-    candidate c = {.weight = {u, v, w}};
-    for (int k = 0; k < 3; k++) {
-        double x = corner[0][k], y = corner[1][k], z = corner[2][k], at = u * x + v * y + w * z;
-        double low = x < y ? x : y, high = x < y ? y : x;
-        low = z < low ? z : low;
-        high = z > high ? z : high;
-        c.point[k] = at < low ? low : at > high ? high : at;
-    }
-    c.distance = length(c.point[0] - q[0], c.point[1] - q[1], c.point[2] - q[2]);
-    if (c.distance < best->distance) *best = c;
-}
+/* --- the nearest point of a triangle ------------------------------------------------------------------------------ */
 
-static void try_edge(candidate *best, const mw_corners corner, const frame *f, const double q[3], int edge)
-{
-    int next = (edge + 1) % 3;
-    double along[3], to[3], weight[3] = {0, 0, 0};
-    subtract(along, f->a[next], f->a[edge]);
-    subtract(to, f->q, f->a[edge]);
-    weight[next] = clamp(dot(to, along) / dot(along, along));
-    weight[edge] = 1 - weight[next];
-    try_weights(best, corner, q, weight[0], weight[1], weight[2]);
-}
+/* A triangle as seen from q, in a unit of about its size, the distance of its farthest corner. Shorter edges than
+ * SHORT_EDGE, and triangles with less height than LEAST_HEIGHT of their longest edge, are taken for their ends and
+ * edges: what that costs is less than 2^-50 of the size, and with longer ones the 2^-100 of products do not matter. */
+typedef struct view {
+    double before, after;      /* lengths are scaled by both, powers of two; the first keeps them in range */
+    double q[3];               /* scaled by the first */
+    offset corner[3], edge[3]; /* from q; edge k from corner k on */
+    double square[3];          /* of the edges' lengths */
+} view;
 
-/* Take off v its part along u; how many times u that is. */
-static double take_off(double v[3], const double u[3], double square_of_u)
-{
-    double times = dot(v, u) / square_of_u;
-    for (int k = 0; k < 3; k++) v[k] -= times * u[k];
-    return times;
-}
+#define SHORT_EDGE 0x1p-50
+#define LEAST_HEIGHT 0x1p-51
+#define LEAST_SQUARE 0x1p-450 /* of the longest edge: its square has a square still, and one of a triangle's area */
 
-/* The foot of the perpendicular, where it lies inside. The axes are the longest edge, and what is perpendicular to it of another
- * one; that is found in two rounds, for in a thin triangle next to nothing is left of the other edge, and that would be
- * perpendicular in its first digits only. So the foot is off by a few roundings of coordinates, however thin. */
-static void try_face(candidate *best, const mw_corners corner, const frame *f, const double q[3])
-{
-    double edge[3][3], square[3], up[3], to[3], weight[3];
-    for (int k = 0; k < 3; k++) {
-        subtract(edge[k], f->a[(k + 1) % 3], f->a[k]);
-        square[k] = dot(edge[k], edge[k]);
-    }
-    int i = square[0] >= square[1] ? square[0] >= square[2] ? 0 : 2 : square[1] >= square[2] ? 1 : 2;
-    subtract(up, f->a[(i + 2) % 3], f->a[i]);
-    subtract(to, f->q, f->a[i]);
-    double slope = take_off(up, edge[i], square[i]);
-    slope += take_off(up, edge[i], square[i]);
-    double along = take_off(to, edge[i], square[i]), height = dot(to, up) / dot(up, up);
-    along -= slope * height;
-    if (!(height > 0 && along > 0 && height + along < 1)) return;
-    weight[i] = 1 - along - height;
-    weight[(i + 1) % 3] = along;
-    weight[(i + 2) % 3] = height;
-    try_weights(best, corner, q, weight[0], weight[1], weight[2]);
-}
+/* A point of the triangle: its weights, where it is from q, and how far, in the unit of the view. */
+typedef struct candidate {
+    double weight[3], away[3], distance;
+} candidate;
 
-static frame make_frame(const mw_corners corner, const double q[3])
+static double largest_coordinate(const mw_corners corner, const double q[3])
 {
     double largest = 0;
     for (int k = 0; k < 3; k++) {
         largest = fmax(largest, fabs(q[k]));
         for (int i = 0; i < 3; i++) largest = fmax(largest, fabs(corner[i][k]));
     }
-    bool extreme = largest > 0x1p400 || (largest < 0x1p-300 && largest > 0);
-    int exponent = extreme ? ilogb(largest) : 0;
-    double scale = ldexp(1, exponent > -1000 ? -exponent : 1000);
-    frame f;
-    for (int k = 0; k < 3; k++) {
-        f.q[k] = q[k] * scale;
-        for (int i = 0; i < 3; i++) f.a[i][k] = corner[i][k] * scale;
-    }
-    return f;
+    return largest;
 }
 
-/* The nearest of the foot of the perpendicular, if inside, and of the nearest points of the edges. */
-static candidate nearest_of_triangle(const mw_corners corner, const double q[3])
+static view view_from(const double q[3], const mw_corners corner)
 {
-    frame f = make_frame(corner, q);
-    candidate best = {{1, 0, 0}, {corner[0][0], corner[0][1], corner[0][2]}, INFINITY};
-    for (int edge = 0; edge < 3; edge++) try_edge(&best, corner, &f, q, edge);
-    try_face(&best, corner, &f, q);
+    view v = {.before = largest_coordinate(corner, q) < 0x1p920 ? 0x1p100 : 0x1p-4};
+    double at[3][3], size = 0;
+    for (int k = 0; k < 3; k++) {
+        v.q[k] = q[k] * v.before;
+        for (int i = 0; i < 3; i++) {
+            at[i][k] = corner[i][k] * v.before;
+            size = fmax(size, fabs(at[i][k] - v.q[k]));
+        }
+    }
+    v.after = size > 0 ? ldexp(1, -ilogb(size)) : 1;
+    for (int i = 0; i < 3; i++) {
+        v.corner[i] = between(v.q, at[i], v.after);
+        v.edge[i] = between(at[i], at[(i + 1) % 3], v.after);
+        v.square[i] = dot(v.edge[i].head, v.edge[i].head);
+    }
+    return v;
+}
+
+static void offer(candidate *best, candidate c)
+{
+    c.distance = length(c.away[0], c.away[1], c.away[2]);
+    if (c.distance < best->distance) *best = c;
+}
+
+static void try_corner(candidate *best, const view *v, int i)
+{
+    const double *p = v->corner[i].head;
+    candidate c = {.away = {p[0], p[1], p[2]}};
+    c.weight[i] = 1;
+    offer(best, c);
+}
+
+/* The foot of the perpendicular on an edge e from p to r, or its end beyond which that is: p without its part along e
+ * is e x (p x r) / |e|^2. */
+static void try_edge(candidate *best, const view *v, int i)
+{
+    int j = (i + 1) % 3;
+    const double *e = v->edge[i].head;
+    double square = v->square[i], along = -dot(v->corner[i].head, e) / square;
+    if (!(square > SHORT_EDGE * SHORT_EDGE && along > 0 && along < 1)) {
+        try_corner(best, v, along < 0.5 ? i : j);
+        return;
+    }
+    offset m = cross(&v->corner[i], &v->corner[j]);
+    candidate c = {.weight = {0}};
+    c.weight[i] = 1 - along;
+    c.weight[j] = along;
+    for (int k = 0; k < 3; k++) {
+        int x = (k + 1) % 3, y = (k + 2) % 3;
+        c.away[k] = (e[x] * m.head[y] - e[y] * m.head[x]) / square;
+    }
+    offer(best, c);
+}
+
+/* The foot of the perpendicular on the plane, if it lies inside. It is found along the longest edge e, and along `up`,
+ * n x e, which is perpendicular to that and |e|^2 times as long as the height. In a thin triangle n is all that tells
+ * which way up is: it is as good as the coordinates allow. So the foot is off by a few roundings of the size, however
+ * thin. */
+static bool try_face(candidate *best, const view *v)
+{
+    const double *square = v->square;
+    int i = square[0] >= square[1] ? square[0] >= square[2] ? 0 : 2 : square[1] >= square[2] ? 1 : 2;
+    int j = (i + 1) % 3, apex = (i + 2) % 3;
+    const double *e = v->edge[i].head, *back = v->edge[apex].head;
+    offset normal = cross(&v->edge[apex], &v->edge[i]);
+    const double *n = normal.head, *p = v->corner[i].head;
+    double square_n = dot(n, n), least = LEAST_HEIGHT * square[i];
+    if (!(square[i] > LEAST_SQUARE && square_n > least * least)) return false;
+    double up[3] = {n[1] * e[2] - n[2] * e[1], n[2] * e[0] - n[0] * e[2], n[0] * e[1] - n[1] * e[0]};
+    double height = -dot(p, up) / square_n, slope = -dot(back, e) / square[i];
+    double along = -dot(p, e) / square[i] - slope * height;
+    if (!(height > 0 && along > 0 && height + along < 1)) return false;
+    double times = dot_offsets(&normal, &v->corner[i]) / square_n;
+    candidate c = {.away = {n[0] * times, n[1] * times, n[2] * times}};
+    c.weight[i] = 1 - along - height;
+    c.weight[j] = along;
+    c.weight[apex] = height;
+    offer(best, c);
+    return true;
+}
+
+static candidate nearest_in_view(const view *v)
+{
+    candidate best = {.distance = INFINITY};
+    if (try_face(&best, v)) return best;
+    for (int i = 0; i < 3; i++) try_edge(&best, v, i);
     return best;
+}
+
+static void box_of_corners(const mw_corners corner, int k, double *low, double *high)
+{
+    double x = corner[0][k], y = corner[1][k], z = corner[2][k];
+    *low = x < y ? x : y;
+    *high = x < y ? y : x;
+    *low = z < *low ? z : *low;
+    *high = z > *high ? z : *high;
+}
+
+/* How far q is from the box of a triangle. */
+static double distance_to_corners_box(const mw_corners corner, const double q[3])
+{
+    double away[3], low, high;
+    for (int k = 0; k < 3; k++) {
+        box_of_corners(corner, k, &low, &high);
+        away[k] = q[k] < low ? low - q[k] : q[k] > high ? q[k] - high : 0;
+    }
+    return length(away[0], away[1], away[2]);
+}
+
+/* A corner as it is; else q and what lies between, kept within the triangle's box. */
+static void place(double point[3], const candidate *c, const view *v, const mw_corners corner)
+{
+    for (int k = 0; k < 3; k++) {
+        double low, high, at = (v->q[k] + c->away[k] / v->after) / v->before;
+        box_of_corners(corner, k, &low, &high);
+        point[k] = at < low ? low : at > high ? high : at;
+        for (int i = 0; i < 3; i++)
+            if (c->weight[i] == 1) point[k] = corner[i][k];
+    }
+}
+
+/* `least`: the distance of its box. */
+static mw_surface_hit nearest_of_triangle(const mw_corners corner, const double q[3], double least)
+{
+    view v = view_from(q, corner);
+    candidate c = nearest_in_view(&v);
+    mw_surface_hit hit = {.distance = fmax(c.distance / v.after / v.before, least),
+                          .weight = {c.weight[0], c.weight[1], c.weight[2]}};
+    place(hit.point, &c, &v, corner);
+    return hit;
 }
 
 /* --- the search --------------------------------------------------------------------------------------------------- */
 
-/* Bounds are in the frame of the boxes, and rounded as for lines (certain.c). Distances are off by 2^-50 of themselves. */
+/* Bounds are in the frame of the boxes, and rounded as for lines (certain.c). Distances are off by 2^-50 of
+ * themselves. */
 #define REACH_ERROR (1 + 0x1p-40)
 
 typedef struct search {
@@ -136,28 +262,13 @@ typedef struct search {
     const double *point;
     double q[3], width, reach; /* in the frame */
     double max_distance;
-    uint32_t best;
-    candidate nearest;
+    mw_surface_hit nearest;
 } search;
 
 static void set_reach(search *s, double distance)
 {
     double scale = s->prober->boxes.scale;
     s->reach = (distance + MW_SURFACE_TINY_LENGTH) * scale * REACH_ERROR + MW_SURFACE_LEAST_WIDTH;
-}
-
-/* How far q is from the box of a triangle: less than from the triangle, but for REACH_ERROR. */
-static double distance_to_corners_box(const mw_corners corner, const double q[3])
-{
-    double away[3];
-    for (int k = 0; k < 3; k++) {
-        double x = corner[0][k], y = corner[1][k], z = corner[2][k];
-        double low = x < y ? x : y, high = x < y ? y : x;
-        low = z < low ? z : low;
-        high = z > high ? z : high;
-        away[k] = q[k] < low ? low - q[k] : q[k] > high ? q[k] - high : 0;
-    }
-    return length(away[0], away[1], away[2]);
 }
 
 /* Less than the distance of q to all that is in a box. */
@@ -178,14 +289,15 @@ static void look_at_triangle(search *s, uint32_t t)
     if (!mw__corners_finite(surface, t)) return;
     const mw_corners corner = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
                                mw__surface_corner(surface, t, 2)};
-    if (distance_to_corners_box(corner, s->point) > s->nearest.distance * REACH_ERROR) return;
-    candidate c = nearest_of_triangle(corner, s->point);
-    if (c.distance > s->max_distance || c.distance > s->nearest.distance) return;
-    if (c.distance == s->nearest.distance && t >= s->best) return;
+    double least = distance_to_corners_box(corner, s->point);
+    if (least > fmin(s->nearest.distance, s->max_distance)) return;
+    mw_surface_hit hit = nearest_of_triangle(corner, s->point, least);
+    if (hit.distance > s->max_distance || hit.distance > s->nearest.distance) return;
+    if (hit.distance == s->nearest.distance && t >= s->nearest.triangle) return;
     if (mw__collinear3(corner[0], corner[1], corner[2])) return;
-    s->best = t;
-    s->nearest = c;
-    set_reach(s, c.distance);
+    s->nearest = hit;
+    s->nearest.triangle = t;
+    set_reach(s, hit.distance);
 }
 
 static void look_into(search *s, mw_surface_box_stack *stack, mw_surface_box_visit visit)
@@ -227,18 +339,12 @@ mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], 
     search s = {.prober = prober,
                 .point = point,
                 .max_distance = max_distance,
-                .best = MW_NONE,
-                .nearest = {.distance = INFINITY}};
+                .nearest = {.triangle = MW_NONE, .distance = INFINITY}};
     mw__surface_enter(prober->surface);
     bool current = prober->version == prober->surface->version;
     if (current) search_boxes(&s);
     mw__surface_leave(prober->surface);
     if (!current) return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
-    if (s.best == MW_NONE) return MW_OK;
-    *hit = (mw_surface_hit){.triangle = s.best, .distance = s.nearest.distance};
-    for (int k = 0; k < 3; k++) {
-        hit->point[k] = s.nearest.point[k];
-        hit->weight[k] = s.nearest.weight[k];
-    }
+    if (s.nearest.triangle != MW_NONE) *hit = s.nearest;
     return MW_OK;
 }
