@@ -1,14 +1,15 @@
 /* probe.h - which triangle of a surface a probe touches [thesis App. G].
  *
- * A query is a point q, where the probe is, and a motion vector m: together the *line* through q along m. It touches a
- * triangle where it meets it on either side of q, at most max_distance away, m pointing at the triangle's front. A
- * triangle that the line only lies in, edge on, is not touched. What is decided is decided exactly, on the doubles given.
+ * A query is a point q, where the probe is, and a motion vector m: together the *line* through q along m. It touches
+ * a triangle where it meets it on either side of q, at most max_distance away, m pointing at the triangle's front. A
+ * triangle that the line only lies in, edge on, is not touched. What is decided is decided exactly, on the doubles
+ * given.
  *
- * Two modes. As published: walks over the surface along planes through the line, from a few first triangles; fast, needs
- * nothing beside the surface, and honest: a touch it tells of is one (the first it found), but where its iterations end
- * without one it says MW_TOUCH_LIMIT, which does not mean that there is none. Certain: complete; of several touches the one at
- * the smallest |distance|, of those the lowest-numbered triangle; MW_TOUCH_NONE means that there is none. It needs boxes
- * over the triangles (mw_prober_options.boxes). */
+ * Two modes. As published: walks over the surface along planes through the line, from a few first triangles; fast,
+ * needs nothing beside the surface, and honest: a touch it tells of is one (the first it found), but where its
+ * iterations end without one it says MW_TOUCH_LIMIT, which does not mean that there is none. Certain: complete; of
+ * several touches the one at the smallest |distance|, of those the lowest-numbered triangle; MW_TOUCH_NONE means
+ * that there is none. It needs boxes over the triangles (mw_prober_options.boxes). */
 #ifndef MESHWALK_PROBE_H
 #define MESHWALK_PROBE_H
 
@@ -27,7 +28,8 @@ typedef struct mw_prober_options {
 } mw_prober_options;
 
 /* surface: must outlive the prober. options: NULL = all zero. out: owned by the caller (mw_prober_destroy); NULL on
- * failure. MW_ERROR_ARGUMENT: NULL; MW_ERROR_INPUT: the surface has no triangle; MW_ERROR_MEMORY. O(1) without boxes. */
+ * failure. MW_ERROR_ARGUMENT: NULL; MW_ERROR_INPUT: the surface has no triangle; MW_ERROR_MEMORY. O(1) without
+ * boxes. */
 MW_API mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options, mw_prober **out,
                                   mw_error *error);
 MW_API void mw_prober_destroy(mw_prober *prober); /* NULL is allowed */
@@ -125,7 +127,8 @@ typedef struct mw_probe_cursor {
     uint32_t reserved[5];
 } mw_probe_cursor;
 
-/* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown start, `certain` without boxes, a distance that is negative or NaN. */
+/* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown start, `certain` without boxes, a distance that is
+ * negative or NaN. */
 MW_API mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *prober, const mw_probe_options *options,
                                       mw_error *error);
 
@@ -134,30 +137,31 @@ MW_API mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *
 MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                          const double motion[3]);
 
-/* n probes: x, y, z, mx, my, mz of query i at queries[i * stride]; stride in doubles, 0 = 6. Results in input order; the
- * same for every number of threads, without a race. Each begins as the start says; MW_PROBE_LAST: with the triangle of
- * the query before it in its chunk of 4,096. Of a shared surface, each query is answered as a whole, but an update may come
- * between two of a batch. MW_ERROR_ARGUMENT as mw_probe_cursor_init. */
+/* n probes: x, y, z, mx, my, mz of query i at queries[i * stride]; stride in doubles, 0 = 6. Results in input order;
+ * the same for every number of threads, without a race. Each begins as the start says; MW_PROBE_LAST: with the
+ * triangle of the query before it in its chunk of 4,096. Of a shared surface, each query is answered as a whole, but
+ * an update may come between two of a batch. MW_ERROR_ARGUMENT as mw_probe_cursor_init. */
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
                                 const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
                                 mw_error *error);
 
-/* The triangles that the walks of a probe visit, in order; iteration[i] (may be NULL, else of `capacity`) is the number of the
- * walk, from 0, that triangles[i] is of. Within a walk each triangle is linked to the one before it; where a border made the
- * walk go back, to the walk's first. One query by the cursor, without a race, whose answer goes to *touch (may be NULL). In
- * certain mode the boxes answer, and the only walk is a short one, of 64 triangles at most, from the triangle touched last:
- * none of them need be the answer, and there are none where nothing was touched yet, where m does not point at that
- * triangle's front, or where the start is SAMPLE or RANDOM. Writes at most `capacity` and returns how many there were. */
+/* The triangles that the walks of a probe visit, in order; iteration[i] (may be NULL, else of `capacity`) is the
+ * number of the walk, from 0, that triangles[i] is of. Within a walk each triangle is linked to the one before it;
+ * where a border made the walk go back, to the walk's first. One query by the cursor, without a race, whose answer
+ * goes to *touch (may be NULL). In certain mode the boxes answer, and the only walk is a short one, of 64 triangles
+ * at most, from the triangle touched last: none of them need be the answer, and there are none where nothing was
+ * touched yet, where m does not point at that triangle's front, or where the start is SAMPLE or RANDOM. Writes at
+ * most `capacity` and returns how many there were. */
 MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                             const double motion[3], uint32_t *triangles, uint32_t *iteration, size_t capacity,
                             mw_touch *touch);
 
-/* The point of the surface nearest to a point q: the proxy of haptic rendering. Distances are rounded, and the least of them
- * decides; of several triangles at the same rounded distance the lowest-numbered is the answer. A distance is off by less
- * than 2^-48 of how far the farthest corner of its triangle is from q (and 2^-1070), wherever the origin is: mostly by less
- * than 2^-48 of itself, but not where q is that near the surface and next to an edge, nor in very thin triangles. The point
- * is rounded to its own coordinates beyond that, and lies in the box round its triangle; a corner is exactly that.
- * Triangles without area own no nearest point. */
+/* The point of the surface nearest to a point q: the proxy of haptic rendering. Distances are rounded, and the least
+ * of them decides; of several triangles at the same rounded distance the lowest-numbered is the answer. A distance
+ * is off by less than 2^-48 of how far the farthest corner of its triangle is from q (and 2^-1070), wherever the
+ * origin is: mostly by less than 2^-48 of itself, but not where q is that near the surface and next to an edge, nor
+ * in very thin triangles. The point is rounded to its own coordinates beyond that, and lies in the box round its
+ * triangle; a corner is exactly that. Triangles without area own no nearest point. */
 typedef struct mw_surface_hit {
     uint32_t triangle; /* the caller's number; MW_NONE where the point is not finite, or no usable triangle in reach */
     double distance;   /* infinite beyond the largest double; this and what follows NaN without a triangle           */
@@ -165,8 +169,8 @@ typedef struct mw_surface_hit {
     double weight[3];
 } mw_surface_hit;
 
-/* max_distance: look no farther (INFINITY: anywhere); triangle is MW_NONE where there is none. MW_ERROR_ARGUMENT: the prober
- * has no boxes, or they are not up to date; the distance is negative or NaN. Thread-safe. */
+/* max_distance: look no farther (INFINITY: anywhere); triangle is MW_NONE where there is none. MW_ERROR_ARGUMENT:
+ * the prober has no boxes, or they are not up to date; the distance is negative or NaN. Thread-safe. */
 MW_API mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
                                        mw_surface_hit *hit, mw_error *error);
 

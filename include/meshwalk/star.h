@@ -1,9 +1,9 @@
 /* star.h - which facet of a star-shaped polyhedron a ray from its centre meets [thesis App. F].
  *
- * A polyhedron is star-shaped about a centre that sees the inside of every facet: each ray from the centre meets it once.
- * The sphere is one, with any triangulation of it. The answer is exact and unique: a ray through an edge or a vertex
- * belongs to the lowest-numbered facet that it meets. It does not depend on walk, start, seed, threads or the order of
- * the queries. */
+ * A polyhedron is star-shaped about a centre that sees the inside of every facet: each ray from the centre meets it
+ * once. The sphere is one, with any triangulation of it. The answer is exact and unique: a ray through an edge or a
+ * vertex belongs to the lowest-numbered facet that it meets. It does not depend on walk, start, seed, threads or the
+ * order of the queries. */
 #ifndef MESHWALK_STAR_H
 #define MESHWALK_STAR_H
 
@@ -61,8 +61,9 @@ MW_API mw_status mw_star_create(const mw_surface *surface, const mw_star_options
                                 mw_error *error);
 MW_API void mw_star_destroy(mw_star *star); /* NULL is allowed */
 
-/* Bring up to date with a surface that has changed, during its update (mw_surface_begin_update): decides anew whether it
- * is star-shaped about the centre, O(n). Errors as mw_star_create. Until it succeeds all queries get MW_BAD. */
+/* Bring up to date with a surface that has changed, during its update (mw_surface_begin_update): decides anew
+ * whether it is star-shaped about the centre, O(n). Errors as mw_star_create. Until it succeeds all queries get
+ * MW_BAD. */
 MW_API mw_status mw_star_update(mw_star *star, mw_error *error);
 
 typedef struct mw_star_info {
@@ -75,20 +76,21 @@ MW_API void mw_star_describe(const mw_star *star, mw_star_info *info);
 
 /* Every defect of the arrays as a polyhedron star-shaped about the centre of the options: those of
  * mw_surface_check_arrays, but facets may be oriented either way, so MW_DEFECT_CLASHING stands for edges at which no
- * orientation agrees (of one-sided surfaces) only; MW_DEFECT_OPEN_EDGE, MW_DEFECT_THROUGH_CENTRE, MW_DEFECT_TURNED; and if there is
- * none of all these MW_DEFECT_COVERED. Of arrays that are unusable only what makes them so. check->embedding: 1 if
- * mw_star_create takes it. O(n). MW_OK also when defects were found. Release with mw_check_release. Thread-safe. */
+ * orientation agrees (of one-sided surfaces) only; MW_DEFECT_OPEN_EDGE, MW_DEFECT_THROUGH_CENTRE, MW_DEFECT_TURNED;
+ * and if there is none of all these MW_DEFECT_COVERED. Of arrays that are unusable only what makes them so.
+ * check->embedding: 1 if mw_star_create takes it. O(n). MW_OK also when defects were found. Release with
+ * mw_check_release. Thread-safe. */
 MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options,
                                       mw_check *check, mw_error *error);
 
 /* --- the unit sphere ---------------------------------------------------------------------------------------------- */
 
-/* The direction of a longitude and a latitude in degrees: x to (0, 0), y to (90, 0), z to the north pole. Multiples of 90
- * degrees give exact directions, and longitudes that differ by 360 the same one; others are rounded, each coordinate off
- * by less than 2^-52. NaN where an argument is not finite, or the latitude's magnitude is above 90. */
+/* The direction of a longitude and a latitude in degrees: x to (0, 0), y to (90, 0), z to the north pole. Multiples
+ * of 90 degrees give exact directions, and longitudes that differ by 360 the same one; others are rounded, each
+ * coordinate off by less than 2^-52. NaN where an argument is not finite, or the latitude's magnitude is above 90. */
 MW_API void mw_lonlat_direction(double longitude, double latitude, double direction[3]);
-/* The longitude (-180 to 180) and latitude of a direction (not zero, of any length; else NaN), rounded. The longitude of a
- * pole is 0. */
+/* The longitude (-180 to 180) and latitude of a direction (not zero, of any length; else NaN), rounded. The
+ * longitude of a pole is 0. */
 MW_API void mw_direction_lonlat(const double direction[3], double *longitude, double *latitude);
 
 /* --- queries ------------------------------------------------------------------------------------------------------ */
@@ -105,8 +107,8 @@ typedef struct mw_star_index_options {
 } mw_star_index_options;
 #define MW_STAR_MAX_LEVELS 12
 
-/* Build the index of a start that needs one. MW_ERROR_ARGUMENT for another start, options out of range, or a star that is
- * not up to date; MW_ERROR_MEMORY. */
+/* Build the index of a start that needs one. MW_ERROR_ARGUMENT for another start, options out of range, or a star
+ * that is not up to date; MW_ERROR_MEMORY. */
 MW_API mw_status mw_star_index_create(const mw_star *star, mw_star_start_kind start,
                                       const mw_star_index_options *options, mw_star_index **out, mw_error *error);
 MW_API void mw_star_index_destroy(mw_star_index *index); /* NULL is allowed */
@@ -132,8 +134,8 @@ typedef struct mw_star_query_options {
     uint32_t reserved[6];
 } mw_star_query_options;
 
-/* What a query changes: one per thread, a plain value. It serves only the star it was initialised with, also after updates.
- * Its members are private. */
+/* What a query changes: one per thread, a plain value. It serves only the star it was initialised with, also after
+ * updates. Its members are private. */
 typedef struct mw_star_cursor {
     mw_counters counters; /* of all queries so far, if they count. Of the stages, `init` is the choice of the first
                              facet by an octahedron */
@@ -145,23 +147,24 @@ typedef struct mw_star_cursor {
     uint8_t reserved[13];
 } mw_star_cursor;
 
-/* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown walk or start, a start without its index, an index of another
- * start, the orthogonal walk on a star without angles. MW_STAR_START_SORTED means MW_STAR_START_LAST in single queries. */
+/* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown walk or start, a start without its index, an index of
+ * another start, the orthogonal walk on a star without angles. MW_STAR_START_SORTED means MW_STAR_START_LAST in
+ * single queries. */
 MW_API mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const mw_star_query_options *options,
                                      mw_error *error);
 
-/* The facet that the ray from the centre through `point` meets. where: MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD where
- * the point is the centre or not finite, or the star is not up to date. weight[k]: the ray meets the facet's plane at
- * sum of weight[k] * vertex k, so these are the barycentric weights of that point of the flat facet (on the sphere: of
- * the central projection onto it, not of areas on the sphere); each >= 0 and off by less than 2^-34, exactly 0 for the
- * vertices off an edge that the ray meets, sum 1 up to rounding; where determinants leave the range of doubles, from rounded
- * differences, and less exact. Thread-safe with one cursor per thread; no allocation. */
+/* The facet that the ray from the centre through `point` meets. where: MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD
+ * where the point is the centre or not finite, or the star is not up to date. weight[k]: the ray meets the facet's
+ * plane at sum of weight[k] * vertex k, so these are the barycentric weights of that point of the flat facet (on the
+ * sphere: of the central projection onto it, not of areas on the sphere); each >= 0 and off by less than 2^-34,
+ * exactly 0 for the vertices off an edge that the ray meets, sum 1 up to rounding; where determinants leave the
+ * range of doubles, from rounded differences, and less exact. Thread-safe with one cursor per thread; no allocation. */
 MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor, const double point[3]);
 
-/* The same for n points, x, y, z of point i at points[i * stride]; stride in doubles, 0 = 3. Results in input order, the
- * same for every number of threads. counters: NULL, or filled with the sum over the batch. MW_STAR_START_AUTO means
- * MW_STAR_START_SORTED for 64 queries and more. MW_ERROR_ARGUMENT as mw_star_cursor_init; MW_ERROR_MEMORY (then locations
- * is unspecified). */
+/* The same for n points, x, y, z of point i at points[i * stride]; stride in doubles, 0 = 3. Results in input order,
+ * the same for every number of threads. counters: NULL, or filled with the sum over the batch. MW_STAR_START_AUTO
+ * means MW_STAR_START_SORTED for 64 queries and more. MW_ERROR_ARGUMENT as mw_star_cursor_init; MW_ERROR_MEMORY
+ * (then locations is unspecified). */
 MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n, size_t stride,
                                       const mw_star_query_options *options, mw_location *locations,
                                       mw_counters *counters, mw_error *error);

@@ -1,12 +1,12 @@
 /* surface.h - a triangle mesh in space, from the caller's arrays; it may move and change between queries.
  *
- * A surface keeps the caller's numbering, as a planar mesh does (mesh.h): vertices, triangles, local vertices 0, 1, 2 as
- * given, local edge k from local vertex k to local vertex (k + 1) mod 3. The front of a triangle is the side from which
- * its vertices are seen counter-clockwise, in a right-handed frame.
+ * A surface keeps the caller's numbering, as a planar mesh does (mesh.h): vertices, triangles, local vertices 0, 1,
+ * 2 as given, local edge k from local vertex k to local vertex (k + 1) mod 3. The front of a triangle is the side
+ * from which its vertices are seen counter-clockwise, in a right-handed frame.
  *
- * What is asked of a surface: which facet a ray from a centre meets (star.h), which triangle a probe touches (probe.h).
- * Both keep what they need beside the surface, which must outlive them. A surface is const while it is queried: any
- * number of threads may query one surface. To change it, see mw_surface_begin_update. */
+ * What is asked of a surface: which facet a ray from a centre meets (star.h), which triangle a probe touches
+ * (probe.h). Both keep what they need beside the surface, which must outlive them. A surface is const while it is
+ * queried: any number of threads may query one surface. To change it, see mw_surface_begin_update. */
 #ifndef MESHWALK_SURFACE_H
 #define MESHWALK_SURFACE_H
 
@@ -31,13 +31,12 @@ typedef struct mw_surface_options {
     uint32_t reserved[8];
 } mw_surface_options;
 
-/* Build a surface: copies the arrays, finds the neighbours in O(n). Open borders, several pieces, flat triangles, vertices
- * that no triangle uses and neighbours of different orientation are accepted.
- *   arrays   x, y, z of vertex i at points[i * point_stride] and the two doubles after it; a stride of 0 means 3 here
- *   options  NULL = all zero
- *   out      set to the new surface, owned by the caller (mw_surface_destroy), or to NULL on failure
- * MW_ERROR_INPUT names the first defect that makes the arrays unusable (see mw_mesh_create); MW_ERROR_ARGUMENT: NULL, a
- * stride of 1 or 2, or another than 3 with `borrow`; MW_ERROR_LIMIT; MW_ERROR_MEMORY. Thread-safe. */
+/* Build a surface: copies the arrays, finds the neighbours in O(n). Open borders, several pieces, flat triangles,
+ * vertices that no triangle uses and neighbours of different orientation are accepted. arrays   x, y, z of vertex i
+ * at points[i * point_stride] and the two doubles after it; a stride of 0 means 3 here options  NULL = all zero out
+ * set to the new surface, owned by the caller (mw_surface_destroy), or to NULL on failure MW_ERROR_INPUT names the
+ * first defect that makes the arrays unusable (see mw_mesh_create); MW_ERROR_ARGUMENT: NULL, a stride of 1 or 2, or
+ * another than 3 with `borrow`; MW_ERROR_LIMIT; MW_ERROR_MEMORY. Thread-safe. */
 MW_API mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_options *options, mw_surface **out,
                                    mw_error *error);
 MW_API void mw_surface_destroy(mw_surface *surface); /* NULL is allowed */
@@ -53,14 +52,15 @@ MW_API size_t mw_surface_bytes(const mw_surface *surface);
 
 /* --- change ------------------------------------------------------------------------------------------------------- */
 
-/* An update: begin, overwrite vertices in mw_surface_points and flip edges as wanted, bring up to date what is kept beside
- * the surface (mw_star_update, mw_prober_update), end. Neither call costs anything per vertex. Between the two no query
- * may run; with options.shared these calls see to that themselves, whatever other threads do, and an update waits for
- * the queries that have begun, not for those that come: mw_star_locate, _batch and _path, mw_probe, _batch and _path,
- * mw_nearest_on_surface, mw_surface_describe. Of a batch each query is answered as a whole: an update may come between two
- * of them. All else about the surface and what is kept beside it (making stars, probers and indices, describing them,
- * reading vertices) is the updating thread's. Without it they only mark the surface as changed. One thread updates at a
- * time. A star or a prober that needed to be brought up to date and was not does not answer (see there). */
+/* An update: begin, overwrite vertices in mw_surface_points and flip edges as wanted, bring up to date what is kept
+ * beside the surface (mw_star_update, mw_prober_update), end. Neither call costs anything per vertex. Between the
+ * two no query may run; with options.shared these calls see to that themselves, whatever other threads do, and an
+ * update waits for the queries that have begun, not for those that come: mw_star_locate, _batch and _path, mw_probe,
+ * _batch and _path, mw_nearest_on_surface, mw_surface_describe. Of a batch each query is answered as a whole: an
+ * update may come between two of them. All else about the surface and what is kept beside it (making stars, probers
+ * and indices, describing them, reading vertices) is the updating thread's. Without it they only mark the surface as
+ * changed. One thread updates at a time. A star or a prober that needed to be brought up to date and was not does
+ * not answer (see there). */
 MW_API void mw_surface_begin_update(mw_surface *surface);
 MW_API void mw_surface_end_update(mw_surface *surface);
 
@@ -68,13 +68,13 @@ MW_API void mw_surface_end_update(mw_surface *surface);
  * becomes NaN or infinite makes its triangles own no point, as in a tolerant surface. */
 MW_API double *mw_surface_points(mw_surface *surface);
 
-/* Flip the edge between two triangles, during an update: of triangle a b c with local edge ab, and its neighbour b a d
- * they become, under the same numbers, c d b and d c a (`triangle` keeps the corner c as it was, and the neighbour d).
- * With options.weld one place may have different numbers in the two triangles: b is then the number that it has in
- * `triangle`, a that in its neighbour.
- * MW_ERROR_INPUT, and nothing is changed: the edge has one triangle only, its triangles are oriented differently, or c
- * and d are the same, or joined by an edge already; that is looked for in the fan of `triangle` round c (another fan of a
- * pinched vertex is not looked at). Time: the number of triangles in that fan. */
+/* Flip the edge between two triangles, during an update: of triangle a b c with local edge ab, and its neighbour b a
+ * d they become, under the same numbers, c d b and d c a (`triangle` keeps the corner c as it was, and the neighbour
+ * d). With options.weld one place may have different numbers in the two triangles: b is then the number that it has
+ * in `triangle`, a that in its neighbour. MW_ERROR_INPUT, and nothing is changed: the edge has one triangle only,
+ * its triangles are oriented differently, or c and d are the same, or joined by an edge already; that is looked for
+ * in the fan of `triangle` round c (another fan of a pinched vertex is not looked at). Time: the number of triangles
+ * in that fan. */
 MW_API mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local_edge, mw_error *error);
 
 /* --- what kind of surface it is ----------------------------------------------------------------------------------- */
@@ -96,10 +96,10 @@ typedef struct mw_surface_info {
     double volume; /* of a closed oriented surface: enclosed, positive if fronts face out; else NaN; rounded */
 } mw_surface_info;
 
-/* In O(n). With options.weld vertices with equal coordinates count once. A triangle that has a vertex twice (with weld: two
- * vertices with equal coordinates) is flat, and counts neither for edges and fans nor in `euler`; the third triangle at an
- * edge of a tolerant surface has a border edge of its own there. With options.shared this is a query: not to be called
- * between begin and end of an update. MW_ERROR_MEMORY, MW_ERROR_ARGUMENT: NULL. Thread-safe. */
+/* In O(n). With options.weld vertices with equal coordinates count once. A triangle that has a vertex twice (with
+ * weld: two vertices with equal coordinates) is flat, and counts neither for edges and fans nor in `euler`; the
+ * third triangle at an edge of a tolerant surface has a border edge of its own there. With options.shared this is a
+ * query: not to be called between begin and end of an update. MW_ERROR_MEMORY, MW_ERROR_ARGUMENT: NULL. Thread-safe. */
 MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, mw_error *error);
 
 /* Find every defect of the arrays as a surface: the unusable group of mw_defect_kind, then MW_DEFECT_CLASHING, and

@@ -1,12 +1,12 @@
 /* flat.c - facets without area are flipped away.
  *
- * A flat facet is flipped at its longest edge. If the facet across has an area, both have one afterwards: one flat facet
- * less. If it is flat, too, and has a longer edge, that one is flipped first; edges grow along the way, so it comes to an
- * end. If both have the same longest edge, both have shorter ones afterwards, between vertices of the same line: that, too,
- * comes to an end. Where the apexes on both sides are at one place, the two facets lie on each other, and go together; and
- * where two corners are at one place, the two facets at the edge between them go as if it was shrunk to a point. What lay
- * beside them is linked, and they are void: two facets less. After a flip the search goes on beside it, so that a fan of
- * flat facets takes time in proportion to their number. */
+ * A flat facet is flipped at its longest edge. If the facet across has an area, both have one afterwards: one flat
+ * facet less. If it is flat, too, and has a longer edge, that one is flipped first; edges grow along the way, so it
+ * comes to an end. If both have the same longest edge, both have shorter ones afterwards, between vertices of the
+ * same line: that, too, comes to an end. Where the apexes on both sides are at one place, the two facets lie on each
+ * other, and go together; and where two corners are at one place, the two facets at the edge between them go as if
+ * it was shrunk to a point. What lay beside them is linked, and they are void: two facets less. After a flip the
+ * search goes on beside it, so that a fan of flat facets takes time in proportion to their number. */
 #include "star/flat.h"
 
 static const double *corner(const mw_star *star, uint32_t t, uint32_t k)
@@ -19,8 +19,8 @@ static bool is_flat(const mw_star *star, uint32_t t)
     return mw__collinear3(corner(star, t, 0), corner(star, t, 1), corner(star, t, 2));
 }
 
-/* Of a flat facet, whose corners are three places: the edge off the middle one. On a line that is not perpendicular to an
- * axis different points have different coordinates. */
+/* Of a flat facet, whose corners are three places: the edge off the middle one. On a line that is not perpendicular
+ * to an axis different points have different coordinates. */
 static uint32_t longest_edge(const mw_star *star, uint32_t t)
 {
     int axis = 0;
@@ -66,8 +66,9 @@ static void flip(mw_star *star, uint32_t f, uint32_t edge)
     join(star, f, 2, mw__link(g, 1));
 }
 
-/* Two half-edges of facets that go: what lies across one is linked with what lies across the other. That may be a half-edge that
- * goes, too, and then finds its new partner when its own turn comes; partners of each other have nothing across. */
+/* Two half-edges of facets that go: what lies across one is linked with what lies across the other. That may be a
+ * half-edge that goes, too, and then finds its new partner when its own turn comes; partners of each other have
+ * nothing across. */
 static void glue(mw_star *star, uint32_t a, uint32_t b)
 {
     uint32_t across_a = star->tri[mw__link_triangle(a)].link[mw__link_edge(a)];
@@ -88,8 +89,8 @@ static uint32_t short_edge(const mw_star *star, uint32_t t)
     return k;
 }
 
-/* Of facet t, edge `edge` has its ends at one place. If it is linked to another edge of t, the third edge has, too, as those two
- * end in the same places. */
+/* Of facet t, edge `edge` has its ends at one place. If it is linked to another edge of t, the third edge has, too,
+ * as those two end in the same places. */
 static void shrink(mw_star *star, uint32_t t, uint32_t edge)
 {
     uint32_t link = star->tri[t].link[edge];

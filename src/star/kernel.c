@@ -93,8 +93,8 @@ static bool look_at_edges(mw_survey *s)
 
 /* --- piece by piece ----------------------------------------------------------------------------------------------- */
 
-/* Collect the piece of facet `first` into the queue, and how its facets are to be turned to agree with it. An edge whose
- * two facets cannot agree is a defect. */
+/* Collect the piece of facet `first` into the queue, and how its facets are to be turned to agree with it. An edge
+ * whose two facets cannot agree is a defect. */
 static bool collect(mw_survey *s, uint32_t first, uint32_t *count)
 {
     const mw_star *star = s->star;
@@ -202,8 +202,8 @@ static double normal(const mw_star *star, const double a[3], const double b[3], 
     return mw__orient2d((mw_point){c[i], c[j]}, (mw_point){a[i], a[j]}, (mw_point){b[i], b[j]});
 }
 
-/* Does the ray from the centre in direction (1, e, e^2), for all small e > 0, lie to the left of the edge ab? It lies on the
- * circle of no edge: some coordinate of a normal is not 0. */
+/* Does the ray from the centre in direction (1, e, e^2), for all small e > 0, lie to the left of the edge ab? It
+ * lies on the circle of no edge: some coordinate of a normal is not 0. */
 static bool ray_is_left(const mw_star *star, const double a[3], const double b[3])
 {
     for (int k = 0; k < 3; k++) {

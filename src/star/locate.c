@@ -35,8 +35,8 @@ static void enter(mw_star_walk *walk, uint32_t t, uint32_t stage, uint32_t fuel)
     if (walk->work) walk->work->triangles[stage]++;
 }
 
-/* About 45 times the square root of the number of facets is far above the length of any walk on a Delaunay sphere of spread
- * points; a constant for small ones. Who needs more cycles, or nearly. */
+/* About 45 times the square root of the number of facets is far above the length of any walk on a Delaunay sphere of
+ * spread points; a constant for small ones. Who needs more cycles, or nearly. */
 static uint32_t fuel(const mw_star *star)
 {
     return (uint32_t)(4096 + 45 * sqrt(star->tri_count));

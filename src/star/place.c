@@ -14,11 +14,12 @@ static double norm(const double v[3])
     return fabs(v[0]) + fabs(v[1]) + fabs(v[2]);
 }
 
-/* Determinants of corners that lie far from the centre, but near each other, lose what these have in common. It can be
- * taken off first: det(a - c, b - c, d) does not change where a multiple t d is taken off a - c, any multiple. What is left, w,
- * is short. Corners from the centre are in w, which is overwritten. With S, W and D the largest norms of a - c plus t d, of
- * w and of d, and u = 2^-53: w is off by 2 u S, which makes 4 u S W D of the determinant; d, itself rounded, 6 u S W D; its
- * evaluation 7 u W W D, where W <= S. All that is less than 2^-48 S W D, which is returned. */
+/* Determinants of corners that lie far from the centre, but near each other, lose what these have in common. It can
+ * be taken off first: det(a - c, b - c, d) does not change where a multiple t d is taken off a - c, any multiple.
+ * What is left, w, is short. Corners from the centre are in w, which is overwritten. With S, W and D the largest
+ * norms of a - c plus t d, of w and of d, and u = 2^-53: w is off by 2 u S, which makes 4 u S W D of the
+ * determinant; d, itself rounded, 6 u S W D; its evaluation 7 u W W D, where W <= S. All that is less than 2^-48 S W
+ * D, which is returned. */
 static double shear(double w[3][3], const double d[3], double area[3])
 {
     double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], long_norm = 0, short_norm = 0;
