@@ -102,82 +102,100 @@ typedef struct view {
 #define LEAST_HEIGHT 0x1p-51
 #define LEAST_SQUARE 0x1p-450 /* of the longest edge: its square has a square still, and one of a triangle's area */
 
-/* A point of the triangle: its weights, where it is from q, and how far, in the unit of the view. */
+/* A point of the triangle: its weights, and where it is from q, in the unit of the view. */
 typedef struct candidate {
-    double weight[3], away[3], distance;
+    double weight[3], away[3];
 } candidate;
+
+static double larger(double x, double y)
+{
+    return x > y ? x : y;
+}
 
 static double largest_coordinate(const mw_corners corner, const double q[3])
 {
     double largest = 0;
     for (int k = 0; k < 3; k++) {
-        largest = fmax(largest, fabs(q[k]));
-        for (int i = 0; i < 3; i++) largest = fmax(largest, fabs(corner[i][k]));
+        largest = larger(largest, fabs(q[k]));
+        for (int i = 0; i < 3; i++) largest = larger(largest, fabs(corner[i][k]));
     }
     return largest;
 }
 
-static view view_from(const double q[3], const mw_corners corner)
+static void view_from(view *v, const double q[3], const mw_corners corner)
 {
-    view v = {.before = largest_coordinate(corner, q) < 0x1p920 ? 0x1p100 : 0x1p-4};
     double at[3][3], size = 0;
+    v->before = largest_coordinate(corner, q) < 0x1p920 ? 0x1p100 : 0x1p-4;
     for (int k = 0; k < 3; k++) {
-        v.q[k] = q[k] * v.before;
+        v->q[k] = q[k] * v->before;
         for (int i = 0; i < 3; i++) {
-            at[i][k] = corner[i][k] * v.before;
-            size = fmax(size, fabs(at[i][k] - v.q[k]));
+            at[i][k] = corner[i][k] * v->before;
+            size = larger(size, fabs(at[i][k] - v->q[k]));
         }
     }
-    v.after = size > 0 ? ldexp(1, -ilogb(size)) : 1;
+    v->after = size > 0 ? ldexp(1, -ilogb(size)) : 1;
     for (int i = 0; i < 3; i++) {
-        v.corner[i] = between(v.q, at[i], v.after);
-        v.edge[i] = between(at[i], at[(i + 1) % 3], v.after);
-        v.square[i] = dot(v.edge[i].head, v.edge[i].head);
+        v->corner[i] = between(v->q, at[i], v->after);
+        v->edge[i] = between(at[i], at[(i + 1) % 3], v->after);
+        v->square[i] = dot(v->edge[i].head, v->edge[i].head);
     }
-    return v;
 }
 
-static void offer(candidate *best, candidate c)
-{
-    c.distance = length(c.away[0], c.away[1], c.away[2]);
-    if (c.distance < best->distance) *best = c;
-}
-
-static void try_corner(candidate *best, const view *v, int i)
+static candidate nearest_on_corner(const view *v, int i)
 {
     const double *p = v->corner[i].head;
     candidate c = {.away = {p[0], p[1], p[2]}};
     c.weight[i] = 1;
-    offer(best, c);
+    return c;
 }
 
-/* The foot of the perpendicular on an edge e from p to r, or its end beyond which that is: p without its part along e
- * is e x (p x r) / |e|^2. */
-static void try_edge(candidate *best, const view *v, int i)
+/* Where on an edge e from p the foot of the perpendicular is, 0 to 1; its ends if it is beyond them, or the edge is short. */
+static double along_edge(const view *v, int i)
+{
+    double square = v->square[i], along = -dot(v->corner[i].head, v->edge[i].head) / square;
+    if (square > SHORT_EDGE * SHORT_EDGE) return along > 0 ? along < 1 ? along : 1 : 0;
+    return along < 0.5 ? 0 : 1;
+}
+
+/* The foot: p without its part along e is e x (p x r) / |e|^2, where r is the other end. */
+static candidate nearest_on_edge(const view *v, int i, double along)
 {
     int j = (i + 1) % 3;
+    if (along == 0 || along == 1) return nearest_on_corner(v, along == 0 ? i : j);
     const double *e = v->edge[i].head;
-    double square = v->square[i], along = -dot(v->corner[i].head, e) / square;
-    if (!(square > SHORT_EDGE * SHORT_EDGE && along > 0 && along < 1)) {
-        try_corner(best, v, along < 0.5 ? i : j);
-        return;
-    }
     offset m = cross(&v->corner[i], &v->corner[j]);
     candidate c = {.weight = {0}};
     c.weight[i] = 1 - along;
     c.weight[j] = along;
     for (int k = 0; k < 3; k++) {
         int x = (k + 1) % 3, y = (k + 2) % 3;
-        c.away[k] = (e[x] * m.head[y] - e[y] * m.head[x]) / square;
+        c.away[k] = (e[x] * m.head[y] - e[y] * m.head[x]) / v->square[i];
     }
-    offer(best, c);
+    return c;
+}
+
+/* Which edge is nearest is decided on rounded points: a farther one is farther by a few roundings of the size. */
+static candidate nearest_on_edges(const view *v)
+{
+    double least = INFINITY, along = 0;
+    int nearest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *p = v->corner[i].head, *e = v->edge[i].head;
+        double t = along_edge(v, i), away[3] = {p[0] + t * e[0], p[1] + t * e[1], p[2] + t * e[2]};
+        double square = dot(away, away);
+        if (square >= least) continue;
+        least = square;
+        nearest = i;
+        along = t;
+    }
+    return nearest_on_edge(v, nearest, along);
 }
 
 /* The foot of the perpendicular on the plane, if it lies inside. It is found along the longest edge e, and along `up`,
  * n x e, which is perpendicular to that and |e|^2 times as long as the height. In a thin triangle n is all that tells
  * which way up is: it is as good as the coordinates allow. So the foot is off by a few roundings of the size, however
  * thin. */
-static bool try_face(candidate *best, const view *v)
+static bool nearest_on_face(const view *v, candidate *c)
 {
     const double *square = v->square;
     int i = square[0] >= square[1] ? square[0] >= square[2] ? 0 : 2 : square[1] >= square[2] ? 1 : 2;
@@ -192,20 +210,11 @@ static bool try_face(candidate *best, const view *v)
     double along = -dot(p, e) / square[i] - slope * height;
     if (!(height > 0 && along > 0 && height + along < 1)) return false;
     double times = dot_offsets(&normal, &v->corner[i]) / square_n;
-    candidate c = {.away = {n[0] * times, n[1] * times, n[2] * times}};
-    c.weight[i] = 1 - along - height;
-    c.weight[j] = along;
-    c.weight[apex] = height;
-    offer(best, c);
+    *c = (candidate){.away = {n[0] * times, n[1] * times, n[2] * times}};
+    c->weight[i] = 1 - along - height;
+    c->weight[j] = along;
+    c->weight[apex] = height;
     return true;
-}
-
-static candidate nearest_in_view(const view *v)
-{
-    candidate best = {.distance = INFINITY};
-    if (try_face(&best, v)) return best;
-    for (int i = 0; i < 3; i++) try_edge(&best, v, i);
-    return best;
 }
 
 static void box_of_corners(const mw_corners corner, int k, double *low, double *high)
@@ -243,18 +252,20 @@ static void place(double point[3], const candidate *c, const view *v, const mw_c
 /* `least`: the distance of its box. */
 static mw_surface_hit nearest_of_triangle(const mw_corners corner, const double q[3], double least)
 {
-    view v = view_from(q, corner);
-    candidate c = nearest_in_view(&v);
-    mw_surface_hit hit = {.distance = fmax(c.distance / v.after / v.before, least),
-                          .weight = {c.weight[0], c.weight[1], c.weight[2]}};
+    view v;
+    view_from(&v, q, corner);
+    candidate c;
+    if (!nearest_on_face(&v, &c)) c = nearest_on_edges(&v);
+    double distance = length(c.away[0], c.away[1], c.away[2]) / v.after / v.before;
+    mw_surface_hit hit = {.distance = larger(distance, least), .weight = {c.weight[0], c.weight[1], c.weight[2]}};
     place(hit.point, &c, &v, corner);
     return hit;
 }
 
 /* --- the search --------------------------------------------------------------------------------------------------- */
 
-/* Bounds are in the frame of the boxes, and rounded as for lines (certain.c). Distances are off by 2^-50 of
- * themselves. */
+/* Bounds are in the frame of the boxes, and rounded as for lines (certain.c). The distance of a box of either kind is off
+ * by less than 2^-48 of itself. */
 #define REACH_ERROR (1 + 0x1p-40)
 
 typedef struct search {
