@@ -1,5 +1,5 @@
-/* The nearest point of a surface: what the boxes find is what each triangle says when it is alone, and no point of the surface is
- * nearer by more than rounding, by another method in longer numbers. */
+/* The nearest point of a surface: what the boxes find is what each triangle says when it is alone, and no point of the
+ * surface is nearer by more than rounding, by another method in longer numbers. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -187,7 +187,7 @@ static double extent_of(const shape *s, const double q[3])
     return largest;
 }
 
-/* Points of all kinds against one surface: of its queries, which lie on it, beside it and off it, and with a little noise. */
+/* Points of all kinds against one surface: of its queries, which lie on it, beside it and off it, with a little noise. */
 static void check_shape(const shape *s, size_t n, uint64_t *random)
 {
     mw_surface *surface = shape_surface(s, (mw_surface_options){.tolerant = 1});
@@ -368,7 +368,7 @@ static long double size_from(const double points[9], const double q[3])
     return size;
 }
 
-/* A triangle at `offset`, whose height is about `thin`, and q about `away` from a point of it, its edge, or a corner. */
+/* A triangle at `offset`, whose height is about `thin`, and q about `away` from a point of it, an edge, or a corner. */
 static void random_case(double points[9], double q[3], double offset, double thin, double away, uint64_t *random)
 {
     double at = random_unit(random), weight[3] = {random_unit(random), 0, 0};
@@ -384,8 +384,8 @@ static void random_case(double points[9], double q[3], double offset, double thi
     }
 }
 
-/* Off by less than 2^-48 of the size; inside a triangle that is not thin of the distance itself. So also inside an edge, but
- * for the face's foot that is taken to lie on the wrong side of it. */
+/* Off by less than 2^-48 of the size; inside a triangle that is not thin of the distance itself. So also inside an
+ * edge, but for the face's foot that is taken to lie on the wrong side of it. */
 static void test_accuracy(void **state)
 {
     (void)state;

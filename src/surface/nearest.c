@@ -149,7 +149,7 @@ static candidate nearest_on_corner(const view *v, int i)
     return c;
 }
 
-/* Where on an edge e from p the foot of the perpendicular is, 0 to 1; its ends if it is beyond them, or the edge is short. */
+/* Where on an edge from p the foot of the perpendicular is, 0 to 1; an end if it is beyond, or the edge is short. */
 static double along_edge(const view *v, int i)
 {
     double square = v->square[i], along = -dot(v->corner[i].head, v->edge[i].head) / square;
@@ -264,8 +264,8 @@ static mw_surface_hit nearest_of_triangle(const mw_corners corner, const double 
 
 /* --- the search --------------------------------------------------------------------------------------------------- */
 
-/* Bounds are in the frame of the boxes, and rounded as for lines (certain.c). The distance of a box of either kind is off
- * by less than 2^-48 of itself. */
+/* Bounds are in the frame of the boxes, and rounded as for lines (certain.c). The distance of a box of
+ * either kind is off by less than 2^-48 of itself. */
 #define REACH_ERROR (1 + 0x1p-40)
 
 typedef struct search {
