@@ -187,7 +187,7 @@ static double extent_of(const shape *s, const double q[3])
     return largest;
 }
 
-/* Points of all kinds against one surface: of its queries, which lie on it, beside it and off it, with a little noise. */
+/* Points of all kinds against one surface: of its queries, on it, beside it and off it, with a little noise. */
 static void check_shape(const shape *s, size_t n, uint64_t *random)
 {
     mw_surface *surface = shape_surface(s, (mw_surface_options){.tolerant = 1});
