@@ -9,6 +9,7 @@
 #include "touch_oracle.h"
 
 #include <pthread.h>
+#include <time.h>
 #include <stdatomic.h>
 
 enum { QUERIES = 10000, FEW = 300, THREADS = 4 };
@@ -154,10 +155,16 @@ static void test_race_in_batch(void **state)
 
 typedef struct job {
     const world *world;
+    const mw_star *star;
     uint32_t number;
     const _Atomic int *stop;
     size_t hits;
 } job;
+
+static void draw_direction(uint64_t *random, double m[3])
+{
+    for (int k = 0; k < 3; k++) m[k] = random_unit(random) - 0.5;
+}
 
 /* Probes from the outside to the middle of the ball, until told to stop. Wherever it has moved, they touch. */
 static void *probing(void *argument)
@@ -170,10 +177,8 @@ static void *probing(void *argument)
     uint64_t random = j->number;
     do {
         double q[3], m[3];
-        for (int k = 0; k < 3; k++) {
-            m[k] = random_unit(&random) - 0.5;
-            q[k] = -200 * m[k];
-        }
+        draw_direction(&random, m);
+        for (int k = 0; k < 3; k++) q[k] = -200 * m[k];
         mw_touch touch = mw_probe(j->world->prober, &cursor, q, m);
         if (touch.state != MW_TOUCH_HIT) return "a probe of the middle touches nothing";
         j->hits++;
@@ -181,23 +186,68 @@ static void *probing(void *argument)
     return NULL;
 }
 
+/* Rays from the middle meanwhile: the star is always up to date. */
+static void *shining(void *argument)
+{
+    job *j = argument;
+    mw_star_cursor cursor;
+    if (mw_star_cursor_init(&cursor, j->star, NULL, NULL)) return "no cursor";
+    uint64_t random = j->number;
+    do {
+        double q[3];
+        draw_direction(&random, q);
+        if (mw_star_locate(j->star, &cursor, q).where == MW_BAD) return "a ray meets nothing";
+        j->hits++;
+    } while (!atomic_load(j->stop) || j->hits < 200);
+    return NULL;
+}
+
+/* Frame after frame each vertex moves along its ray; sometimes it is known how far at most. */
+static void deform(world *w, mw_star *star, int frame)
+{
+    double moved = 0, *points = mw_surface_points(w->surface);
+    mw_surface_begin_update(w->surface);
+    for (uint32_t v = 0; v < w->s.point_count; v++) {
+        double *p = points + 3 * (size_t)v, factor = 1 + (frame % 2 ? -0.01 : 0.01) * (v % 7) / 7.0, square = 0;
+        for (int k = 0; k < 3; k++) {
+            double before = p[k];
+            p[k] *= factor;
+            square += (p[k] - before) * (p[k] - before);
+        }
+        moved = fmax(moved, sqrt(square));
+    }
+    mw_prober_update(w->prober, frame % 10 ? moved * 1.0001 : -1, 1);
+    assert_int_equal(mw_star_update(star, NULL), MW_OK);
+    mw_surface_end_update(w->surface);
+}
+
+/* A thousand times a second, while four threads query. */
 static void test_moving(void **state)
 {
-    world *w = *state;
+    enum { FRAMES = 300, FRAME_NS = 1000000 };
+    (void)state;
+    uint64_t random = 41;
+    world ball = {.s = ball_shape(6, 64, 0.3, &random)}, *w = &ball;
+    mw_prober_options options = {.boxes = 1};
     _Atomic int stop = 0;
+    mw_star *star;
+    w->surface = shape_surface(&w->s, (mw_surface_options){.shared = 1});
+    assert_int_equal(mw_prober_create(w->surface, &options, &w->prober, NULL), MW_OK);
+    assert_int_equal(mw_star_create(w->surface, NULL, &star, NULL), MW_OK);
     pthread_t thread[THREADS];
     job jobs[THREADS];
     for (uint32_t i = 0; i < THREADS; i++) {
-        jobs[i] = (job){w, i, &stop, 0};
-        assert_int_equal(pthread_create(&thread[i], NULL, probing, &jobs[i]), 0);
+        jobs[i] = (job){w, star, i, &stop, 0};
+        assert_int_equal(pthread_create(&thread[i], NULL, i == 0 ? shining : probing, &jobs[i]), 0);
     }
-    for (int frame = 0; frame < 60; frame++) {
-        double scale = frame % 2 ? 0.5 : 2;
-        mw_surface_begin_update(w->surface);
-        double *points = mw_surface_points(w->surface);
-        for (uint32_t i = 0; i < 3 * w->s.point_count; i++) points[i] *= scale;
-        mw_prober_update(w->prober, -1, 1);
-        mw_surface_end_update(w->surface);
+    struct timespec next;
+    clock_gettime(CLOCK_MONOTONIC, &next);
+    for (int frame = 0; frame < FRAMES; frame++) {
+        deform(w, star, frame);
+        next.tv_nsec += FRAME_NS;
+        next.tv_sec += next.tv_nsec / 1000000000;
+        next.tv_nsec %= 1000000000;
+        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, NULL); /* at once where a frame took longer */
     }
     atomic_store(&stop, 1);
     const char *wrong = NULL;
@@ -206,6 +256,10 @@ static void test_moving(void **state)
         assert_int_equal(pthread_join(thread[i], &result), 0);
         if (result) wrong = result;
     }
+    mw_star_destroy(star);
+    mw_prober_destroy(w->prober);
+    mw_surface_destroy(w->surface);
+    shape_free(&w->s);
     if (wrong) fail_msg("%s", wrong);
 }
 
