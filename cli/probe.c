@@ -21,7 +21,7 @@ static const char *start_name(int i)
 static const char *start_help(int i)
 {
     static const char *const texts[MW_PROBE_START_COUNT] = {
-        [MW_PROBE_AUTO] = "last",
+        [MW_PROBE_AUTO] = "last where that triangle is near, else sample",
         [MW_PROBE_LAST] = "the triangle of the query before; else, and in further walks, as sample",
         [MW_PROBE_SAMPLE] = "the nearest of a sample of triangles whose fronts the motion points at",
         [MW_PROBE_RANDOM] = "a random triangle whose front the motion points at",

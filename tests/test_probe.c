@@ -361,7 +361,7 @@ static void test_seed_is_short(void **state)
     uint64_t random = 29;
     world w = world_of("long patch", patch_shape(60, 3, &random), (mw_surface_options){0});
     const double far[6] = {238, 239, 20, 0, 0, -1}, past[6] = {250, 250, 20, 0, 0, -1};
-    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.certain = 1, .count = 1});
+    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.certain = 1, .start = MW_PROBE_LAST, .count = 1});
     cursor.last = 0;
     mw_touch touch = ask(&w, &cursor, far);
     assert_int_equal(touch.state, MW_TOUCH_HIT);
@@ -397,7 +397,7 @@ static void test_coherence(void **state)
 {
     (void)state;
     const world *w = &worlds[STAR_SHAPED];
-    mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.count = 1});
+    mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.start = MW_PROBE_LAST, .count = 1});
     double down[6] = {1, 2, 90, 0.01, 0.02, -1}, up[6] = {1, 2, 90, 0.01, 0.02, 1};
     assert_int_equal(ask(w, &cursor, down).state, MW_TOUCH_HIT);
     assert_true(cursor.counters.samples > 0);
@@ -411,6 +411,32 @@ static void test_coherence(void **state)
     assert_true(cursor.counters.samples > before.samples);
     assert_int_equal(cursor.counters.queries, 3);
     assert_int_equal(cursor.counters.hits, 3);
+}
+
+/* By itself a probe begins at the triangle touched before where that is near, and looks for another where it is not. */
+static void test_auto(void **state)
+{
+    (void)state;
+    uint64_t random = 31;
+    world w = world_of("large ball", ball_shape(20, 1000, 0.1, &random), (mw_surface_options){0});
+    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.count = 1});
+    for (uint32_t v = 0; v < 40; v++) {
+        const double *p = w.s.points + 3 * (size_t)(v % 2 ? v : w.s.point_count - 1 - v);
+        double q[6] = {p[0], p[1], p[2], 0.5 - p[0], 0.25 - p[1], -p[2]};
+        uint64_t before = cursor.counters.samples;
+        assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_HIT);
+        uint64_t first = cursor.counters.samples - before;
+        assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_HIT); /* it is there already */
+        assert_int_equal(cursor.counters.samples, before + first);
+        for (int k = 0; k < 3; k++) {
+            q[k] = -q[k]; /* the other side of the ball */
+            q[3 + k] = -q[3 + k];
+        }
+        before = cursor.counters.samples;
+        assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_HIT);
+        assert_true(cursor.counters.samples > before);
+    }
+    world_free(&w);
 }
 
 /* The path is what the counters count: no walk visits a triangle twice, its triangles are linked, and it passes by
@@ -492,13 +518,13 @@ static void test_border(void **state)
     world w = world_of("strip", s, (mw_surface_options){0});
     for (uint32_t first = 0; first < 2 * N; first++) {
         double q[6] = {11.5, 2.1, 20, 0, 0, -1};
-        mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.iterations = 1, .count = 1});
+        mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 1, .count = 1});
         cursor.last = first;
         mw_touch touch = ask(&w, &cursor, q);
         assert_int_equal(touch.state, MW_TOUCH_HIT);
         assert_true(touch.triangle >= 2 * N - 2);
         q[0] = -0.5; /* beyond the border: the walk goes to both ends */
-        cursor = cursor_of(&w, (mw_probe_options){.iterations = 1, .count = 1});
+        cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 1, .count = 1});
         cursor.last = first;
         assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_LIMIT);
         assert_true(cursor.counters.triangles <= 2 * N);
@@ -525,7 +551,7 @@ static void test_degenerate_planes(void **state)
         sights o = sights_make(&w.s, lines[i]);
         uint32_t best = sights_best(&o, 0);
         for (uint32_t first = 0; first < 4; first++) {
-            mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.iterations = 200});
+            mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 200});
             cursor.last = first;
             mw_touch touch = ask(&w, &cursor, lines[i]);
             check_touch(&w, &o, &touch, 0);
@@ -533,7 +559,8 @@ static void test_degenerate_planes(void **state)
         }
         sights_free(&o);
     }
-    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.iterations = 1, .max_distance = 1e-9, .count = 1});
+    mw_probe_cursor cursor =
+        cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 1, .max_distance = 1e-9, .count = 1});
     const double middle[6] = {2, 2, 2, -1, -1, -1};
     cursor.last = 2; /* its middle (1, 1, 1) lies on the line and spans no plane with it */
     assert_int_equal(ask(&w, &cursor, middle).state, MW_TOUCH_LIMIT);
@@ -672,6 +699,7 @@ int main(void)
         cmocka_unit_test(test_seed_is_short),
         cmocka_unit_test(test_sample_helps),
         cmocka_unit_test(test_coherence),
+        cmocka_unit_test(test_auto),
         cmocka_unit_test(test_path),
         cmocka_unit_test(test_border),
         cmocka_unit_test(test_degenerate_planes),

@@ -78,11 +78,13 @@ typedef struct mw_touch {
 } mw_touch;
 
 typedef enum mw_probe_start {
-    MW_PROBE_AUTO = 0, /* as LAST                                                                                    */
-    MW_PROBE_LAST,     /* the triangle touched last by this cursor, if any, and if m points at its front; else, and in
+    MW_PROBE_AUTO =
+        0,           /* as LAST where that triangle is nearer to the point than the nearest of a sample is likely to be,
+                          else SAMPLE                                                                              */
+    MW_PROBE_LAST,   /* the triangle touched last by this cursor, if any, and if m points at its front; else, and in
                           further iterations, SAMPLE                                                               */
-    MW_PROBE_SAMPLE,   /* the nearest of k random triangles whose fronts m points at [thesis App. G, Alg. 1]         */
-    MW_PROBE_RANDOM,   /* a random triangle whose front m points at                                                  */
+    MW_PROBE_SAMPLE, /* the nearest of k random triangles whose fronts m points at [thesis App. G, Alg. 1]         */
+    MW_PROBE_RANDOM, /* a random triangle whose front m points at                                                  */
     MW_PROBE_START_COUNT
 } mw_probe_start;
 /* "auto", "last", "sample", "random"; NULL for another number. */

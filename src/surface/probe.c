@@ -70,7 +70,6 @@ static mw_probe_options resolve(const mw_probe_options *options, const mw_surfac
 {
     mw_probe_options all = *options;
     if (isinf(all.max_distance)) all.max_distance = 0;
-    if (all.start == MW_PROBE_AUTO) all.start = MW_PROBE_LAST;
     all.samples = sample_count(surface, all.samples);
     if (all.iterations == 0) all.iterations = ITERATIONS;
     return all;
@@ -97,16 +96,32 @@ mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *prober,
 
 /* --- one probe ---------------------------------------------------------------------------------------------------- */
 
+/* Is triangle t nearer to q than the nearest of a sample, by expectation? Of k points spread over a ball of radius r, that
+ * is at a distance of about 2 r / sqrt(k). */
+static bool beats_sample(const mw_prober *prober, uint32_t t, const double q[3], uint32_t samples)
+{
+    const double *p = mw__surface_corner(prober->surface, t, 0);
+    double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+    return (x * x + y * y + z * z) * samples < 4 * prober->spread2;
+}
+
+/* Does the search begin at the triangle touched last? */
+static bool is_coherent(const mw_prober *prober, const mw_probe_cursor *cursor, const double q[3])
+{
+    mw_probe_start start = cursor->options.start;
+    if (cursor->prober != prober || cursor->last >= prober->surface->tri_count) return false;
+    return start == MW_PROBE_LAST ||
+           (start == MW_PROBE_AUTO && beats_sample(prober, cursor->last, q, cursor->options.samples));
+}
+
 static mw_search plan(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3])
 {
     const mw_probe_options *options = &cursor->options;
-    bool coherent =
-        options->start == MW_PROBE_LAST && cursor->prober == prober && cursor->last < prober->surface->tri_count;
     return (mw_search){
         .surface = prober->surface,
         .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}},
         .reach = options->max_distance > 0 ? options->max_distance : INFINITY,
-        .last = coherent ? cursor->last : MW_NONE,
+        .last = is_coherent(prober, cursor, q) ? cursor->last : MW_NONE,
         .samples = options->samples,
         .nearest = options->start != MW_PROBE_RANDOM,
         .iterations = options->iterations,
@@ -143,9 +158,9 @@ static mw_touch probe(const mw_prober *prober, mw_probe_cursor *cursor, const do
     mw_probe_counters work = {0};
     mw_touch touch = mw__no_touch(MW_TOUCH_BAD);
     if (mw__is_finite3(q) && mw__is_finite3(m) && (m[0] != 0 || m[1] != 0 || m[2] != 0)) {
+        mw__surface_enter(prober->surface);
         mw_search search = plan(prober, cursor, q, m);
         mw_probe_counters *to = counted ? &work : NULL;
-        mw__surface_enter(prober->surface);
         touch = cursor->options.certain ? answer_certain(prober, &search, cursor->options.max_distance, to, trace)
                                         : answer_published(&search, to, trace);
         mw__surface_leave(prober->surface);

@@ -22,6 +22,26 @@ static void fit(mw_prober *prober, uint32_t threads)
     prober->slack_limit = SLACK_LIMIT * mw__surface_boxes_leaf_size(&prober->boxes);
 }
 
+/* Of a few corners, evenly taken. A guide only: overflow, and surfaces that grow, make choices worse, not answers. */
+static double measure_spread(const mw_surface *surface)
+{
+    enum { CORNERS = 256 };
+    uint32_t stride = surface->tri_count / CORNERS + 1, count = 0;
+    double sum[3] = {0, 0, 0}, squares = 0;
+    for (uint32_t t = 0; t < surface->tri_count; t += stride) {
+        const double *p = mw__surface_corner(surface, t, 0), *origin = mw__surface_corner(surface, 0, 0);
+        if (!mw__is_finite3(p) || !mw__is_finite3(origin)) continue;
+        for (int k = 0; k < 3; k++) {
+            double x = p[k] - origin[k];
+            sum[k] += x;
+            squares += x * x;
+        }
+        count++;
+    }
+    double mean2 = count ? (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count : 0;
+    return count ? (squares - mean2) / count : 0;
+}
+
 mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options, mw_prober **out,
                            mw_error *error)
 {
@@ -36,6 +56,7 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     prober->surface = surface;
     prober->version = surface->version;
     prober->has_boxes = options->boxes != 0;
+    prober->spread2 = measure_spread(surface);
     if (prober->has_boxes) {
         if (!mw__surface_boxes_create(&prober->boxes, surface)) {
             mw_prober_destroy(prober);

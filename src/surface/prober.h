@@ -15,6 +15,7 @@ struct mw_prober {
     const mw_surface *surface;
     mw_surface_boxes boxes;
     bool has_boxes;
+    double spread2;     /* mean square of the distance of vertices from their mean, about, as it was at first */
     uint64_t version;   /* of the surface that the boxes hold for */
     double slack;       /* how much larger they are taken to be than they were fitted */
     double slack_limit; /* beyond that they are fitted anew */
