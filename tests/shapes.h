@@ -148,6 +148,17 @@ static inline shape shape_join(shape a, shape b, double dx)
     return s;
 }
 
+/* A copy: each coordinate x becomes x * scale + shift. */
+static inline shape shape_scaled(const shape *s, double scale, double shift)
+{
+    shape copy = shape_make(s->point_count, s->triangle_count);
+    for (uint32_t i = 0; i < 3 * s->point_count; i++) copy.points[i] = s->points[i] * scale + shift;
+    memcpy(copy.triangles, s->triangles, 3 * sizeof *s->triangles * s->triangle_count);
+    copy.point_count = s->point_count;
+    copy.triangle_count = s->triangle_count;
+    return copy;
+}
+
 /* Turn a share of the triangles round. */
 static inline void shape_clash(shape *s, double share, uint64_t *random)
 {

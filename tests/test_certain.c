@@ -8,24 +8,12 @@
 #include <cmocka.h>
 
 #include "memory.h"
-#include "surface/prober.h"
+#include "probers.h"
 #include "touch_oracle.h"
 
 static uint64_t new_seed(const char *name)
 {
-    uint64_t seed = UINT64_C(20240611);
-    const char *given = getenv("MW_TEST_SEED");
-    if (given) seed = strtoull(given, NULL, 0);
-    printf("%s: seed %llu\n", name, (unsigned long long)seed);
-    return seed;
-}
-
-static mw_prober *new_prober(const mw_surface *surface)
-{
-    mw_prober *prober;
-    mw_error error;
-    expect_ok(mw_prober_create(surface, &(mw_prober_options){.boxes = 1}, &prober, &error), "prober", &error);
-    return prober;
+    return probers_seed(name, 20240611);
 }
 
 static mw_line line_of(const double query[6])
@@ -174,12 +162,7 @@ static void check_scaled(const shape *s, double scale, double shift, double m_sc
 {
     enum { QUERIES = 8 };
     double *queries = shape_queries(s, QUERIES, random);
-    shape copy = shape_make(s->point_count, 0);
-    for (uint32_t i = 0; i < 3 * s->point_count; i++) copy.points[i] = s->points[i] * scale + shift;
-    copy.point_count = s->point_count;
-    free(copy.triangles);
-    copy.triangles = s->triangles;
-    copy.triangle_count = s->triangle_count;
+    shape copy = shape_scaled(s, scale, shift);
     mw_surface *surface = shape_surface(&copy, (mw_surface_options){.tolerant = 1});
     mw_prober *prober = new_prober(surface);
     for (size_t i = 0; i < QUERIES; i++) {
@@ -195,7 +178,7 @@ static void check_scaled(const shape *s, double scale, double shift, double m_sc
     }
     mw_prober_destroy(prober);
     mw_surface_destroy(surface);
-    free(copy.points);
+    shape_free(&copy);
     free(queries);
 }
 

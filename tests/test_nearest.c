@@ -8,24 +8,11 @@
 
 #include <float.h>
 
-#include "shapes.h"
-#include "surface/prober.h"
+#include "probers.h"
 
 static uint64_t new_seed(const char *name)
 {
-    uint64_t seed = UINT64_C(19990712);
-    const char *given = getenv("MW_TEST_SEED");
-    if (given) seed = strtoull(given, NULL, 0);
-    printf("%s: seed %llu\n", name, (unsigned long long)seed);
-    return seed;
-}
-
-static mw_prober *new_prober(const mw_surface *surface)
-{
-    mw_prober *prober;
-    mw_error error;
-    expect_ok(mw_prober_create(surface, &(mw_prober_options){.boxes = 1}, &prober, &error), "prober", &error);
-    return prober;
+    return probers_seed(name, 19990712);
 }
 
 static mw_surface_hit nearest(const mw_prober *prober, const double q[3], double max_distance)
@@ -271,11 +258,7 @@ static void test_units(void **state)
     mw_prober *prober = new_prober(surface);
     double *queries = shape_queries(&s, 60, &random);
     for (size_t e = 0; e < sizeof exponent / sizeof *exponent; e++) {
-        shape scaled = shape_make(s.point_count, s.triangle_count);
-        for (uint32_t i = 0; i < 3 * s.point_count; i++) scaled.points[i] = ldexp(s.points[i], exponent[e]);
-        memcpy(scaled.triangles, s.triangles, 3 * sizeof *s.triangles * s.triangle_count);
-        scaled.point_count = s.point_count;
-        scaled.triangle_count = s.triangle_count;
+        shape scaled = shape_scaled(&s, ldexp(1, exponent[e]), 0);
         mw_surface *other = shape_surface(&scaled, (mw_surface_options){0});
         mw_prober *other_prober = new_prober(other);
         for (size_t i = 0; i < 60; i++) {
