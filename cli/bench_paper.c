@@ -61,8 +61,8 @@ static int run_file(const char *path, void *self)
     paper *p = self;
     switch (p->table->subject) {
     case PAPER_DOMAINS: return paper_domain_file(p, path, base_name(path));
-    case PAPER_STARS: return paper_star_file(p, path, base_name(path));
-    case PAPER_SURFACES: return paper_surface_file(p, path, base_name(path));
+    case PAPER_STARS:
+    case PAPER_SURFACES: return paper_polyhedron_file(p, path, base_name(path));
     default: return run_point_file(p, path);
     }
 }

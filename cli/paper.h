@@ -62,13 +62,15 @@ paper_result *paper_add(paper *p, const char *name, bool own);
 int paper_domains(paper *p, const size_t *sizes);
 int paper_domain_file(paper *p, const char *path, const char *name);
 
-/* App. F: polyhedra that are made, of the sizes, which a 0 ends; and one from a file. Return 0 or an exit code. */
-int paper_stars(paper *p, const size_t *sizes);
-int paper_star_file(paper *p, const char *path, const char *name);
+/* A star-shaped polyhedron (App. F), or a surface (App. G). Return 0 or an exit code. */
+int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool own);
+int paper_surface(paper *p, const mw_arrays *arrays, const char *name, bool own);
 
-/* App. G: surfaces that are made; and one from a file. Return 0 or an exit code. */
+/* Those that are made, of the sizes, which a 0 ends; and the one of a file, as the table wants it. Return 0 or an exit
+ * code. */
+int paper_stars(paper *p, const size_t *sizes);
 int paper_surfaces(paper *p, const size_t *sizes);
-int paper_surface_file(paper *p, const char *path, const char *name);
+int paper_polyhedron_file(paper *p, const char *path, const char *name);
 
 /* What is published of an algorithm, or of algorithm i, for this result; NaN if nothing. */
 double paper_published_of(const paper *p, const paper_result *r, const algorithm *a, quantity q);

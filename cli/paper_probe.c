@@ -7,7 +7,6 @@
  * directions were drawn: with these the counts come near to the published ones. Every touch that is told is compared with
  * what a complete search finds. */
 #include "datasets.h"
-#include "files.h"
 #include "message.h"
 #include "paper.h"
 #include "polyhedra.h"
@@ -309,7 +308,7 @@ static void find_model(paper_result *r, double triangles)
     }
 }
 
-static int measure_arrays(paper *p, const mw_arrays *arrays, const char *name, bool own)
+int paper_surface(paper *p, const mw_arrays *arrays, const char *name, bool own)
 {
     mw_error error;
     mw_surface *surface = NULL;
@@ -333,36 +332,5 @@ static int measure_arrays(paper *p, const mw_arrays *arrays, const char *name, b
     release(&s);
     mw_surface_destroy(surface);
     progress_phase("measuring", NULL); /* the name may go */
-    return end;
-}
-
-int paper_surfaces(paper *p, const size_t *sizes)
-{
-    static const polyhedron_kind kinds[] = {POLYHEDRON_BUMPS, POLYHEDRON_KNOT};
-    int end = 0;
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++) {
-            mw_error error;
-            polyhedron made;
-            const char *name = polyhedron_name((int)kinds[k]);
-            progress_phase("making the surface", name);
-            if (polyhedron_make(&made, kinds[k], sizes[i], p->settings->common.seed, &error) != MW_OK)
-                return fail_mesh(name, &error);
-            mw_arrays arrays = polyhedron_arrays(&made);
-            end = measure_arrays(p, &arrays, name, false);
-            polyhedron_release(&made);
-        }
-    return end;
-}
-
-int paper_surface_file(paper *p, const char *path, const char *name)
-{
-    mw_mesh_file file;
-    progress_phase("reading", path);
-    int end = files_read_mesh(path, &file);
-    if (end) return end;
-    mw_arrays arrays = mw_mesh_file_arrays(&file);
-    end = measure_arrays(p, &arrays, name, true);
-    mw_mesh_file_release(&file);
     return end;
 }

@@ -3,7 +3,6 @@
  * All walks locate the same rays, uniform over the sphere; what they find is compared. The polyhedra are the subdivided
  * icosahedron, which is the authors' own, and hulls of random points. Table 2 has the same queries begin by indexes of 128,
  * 512 and 2048 elements, each a data set of its own. */
-#include "files.h"
 #include "message.h"
 #include "paper.h"
 #include "polyhedra.h"
@@ -241,7 +240,7 @@ static mw_status make_star(const mw_surface *surface, mw_star **star, mw_error *
     return mw_star_create(surface, &options, star, error);
 }
 
-static int measure_arrays(paper *p, const mw_arrays *arrays, const char *name, bool own)
+int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool own)
 {
     static const uint32_t elements[] = {128, 512, 2048};
     mw_error error;
@@ -258,36 +257,5 @@ static int measure_arrays(paper *p, const mw_arrays *arrays, const char *name, b
             end = measure_star(p, surface, star, name, own, elements[i]);
     mw_star_destroy(star);
     mw_surface_destroy(surface);
-    return end;
-}
-
-/* A number of vertices that only a subdivided icosahedron has makes one. */
-int paper_stars(paper *p, const size_t *sizes)
-{
-    int end = 0;
-    for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++) {
-        mw_error error;
-        polyhedron made;
-        polyhedron_kind kind = polyhedron_is_icosahedron(sizes[i]) ? POLYHEDRON_ICOSAHEDRON : POLYHEDRON_STAR;
-        const char *name = polyhedron_name((int)kind);
-        progress_phase("making the polyhedron", name);
-        if (polyhedron_make(&made, kind, sizes[i], p->settings->common.seed, &error) != MW_OK)
-            return fail_mesh(name, &error);
-        mw_arrays arrays = polyhedron_arrays(&made);
-        end = measure_arrays(p, &arrays, name, false);
-        polyhedron_release(&made);
-    }
-    return end;
-}
-
-int paper_star_file(paper *p, const char *path, const char *name)
-{
-    mw_mesh_file file;
-    progress_phase("reading", path);
-    int end = files_read_mesh(path, &file);
-    if (end) return end;
-    mw_arrays arrays = mw_mesh_file_arrays(&file);
-    end = measure_arrays(p, &arrays, name, true);
-    mw_mesh_file_release(&file);
     return end;
 }
