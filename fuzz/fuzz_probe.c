@@ -9,12 +9,16 @@ enum { MOST_POINTS = 16, MOST_TRIANGLES = 24, PROBES = 8 };
 typedef struct input {
     const uint8_t *byte;
     size_t left;
+    uint64_t random;
 } input;
 
+/* The bytes given, then random ones that depend on them: short inputs are whole scenes, too. */
 static int next(input *in)
 {
-    if (in->left == 0) return 0;
+    in->random = in->random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    if (in->left == 0) return (int)(in->random >> 56);
     in->left--;
+    in->random ^= *in->byte;
     return *in->byte++;
 }
 
@@ -115,7 +119,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     triangles s = {.points = 3 + (uint32_t)(size % (MOST_POINTS - 2))};
-    input in = {data, size};
+    input in = {data, size, 1};
     mw_surface_options how = {.weld = next(&in) % 2, .tolerant = 1};
     s.count = 1 + (uint32_t)next(&in) % MOST_TRIANGLES;
     for (uint32_t i = 0; i < 3 * s.points; i++) s.point[i] = (double)coordinate(&in);
