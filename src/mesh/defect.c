@@ -85,6 +85,37 @@ static void describe_overlap(const mw_defect *d, char *text, size_t size)
                  d->triangle, d->other, d->edge);
 }
 
+/* Defects of surfaces and star-shaped polyhedra. */
+static void describe_in_space(const mw_defect *d, char *text, size_t size)
+{
+    uint32_t t = d->triangle;
+    unsigned e = d->edge;
+    switch (d->kind) {
+    case MW_DEFECT_CLASHING:
+        snprintf(text, size, "triangle %" PRIu32 ": triangle %" PRIu32 " at edge %u is oriented differently", t,
+                 d->other, e);
+        return;
+    case MW_DEFECT_OPEN_EDGE:
+        snprintf(text, size, "triangle %" PRIu32 ": edge %u has no neighbour: the polyhedron is not closed", t, e);
+        return;
+    case MW_DEFECT_THROUGH_CENTRE:
+        snprintf(text, size, "triangle %" PRIu32 ": its plane passes through the centre", t);
+        return;
+    case MW_DEFECT_TURNED:
+        if (d->other == MW_NONE)
+            snprintf(text, size, "triangle %" PRIu32 ": turns its back to the centre, unlike most", t);
+        else
+            snprintf(text, size,
+                     "triangle %" PRIu32 ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u", t,
+                     d->other, e);
+        return;
+    case MW_DEFECT_COVERED:
+        snprintf(text, size, "triangle %" PRIu32 ": a ray from the centre meets it and triangle %" PRIu32, t, d->other);
+        return;
+    default: return;
+    }
+}
+
 void mw_defect_describe(const mw_defect *d, char *text, size_t size)
 {
     uint32_t t = d->triangle, v = d->vertex;
@@ -124,26 +155,10 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
     case MW_DEFECT_OVERLAP: describe_overlap(d, text, size); return;
     case MW_DEFECT_FLAT: snprintf(text, size, "triangle %" PRIu32 ": has no area", t); return;
     case MW_DEFECT_CLASHING:
-        snprintf(text, size, "triangle %" PRIu32 ": triangle %" PRIu32 " at edge %u is oriented differently", t,
-                 d->other, e);
-        return;
     case MW_DEFECT_OPEN_EDGE:
-        snprintf(text, size, "triangle %" PRIu32 ": edge %u has no neighbour: the polyhedron is not closed", t, e);
-        return;
     case MW_DEFECT_THROUGH_CENTRE:
-        snprintf(text, size, "triangle %" PRIu32 ": its plane passes through the centre", t);
-        return;
     case MW_DEFECT_TURNED:
-        if (d->other == MW_NONE)
-            snprintf(text, size, "triangle %" PRIu32 ": turns its back to the centre, unlike most", t);
-        else
-            snprintf(text, size,
-                     "triangle %" PRIu32 ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u", t,
-                     d->other, e);
-        return;
-    case MW_DEFECT_COVERED:
-        snprintf(text, size, "triangle %" PRIu32 ": a ray from the centre meets it and triangle %" PRIu32, t, d->other);
-        return;
+    case MW_DEFECT_COVERED: describe_in_space(d, text, size); return;
     case MW_DEFECT_COUNT: break;
     }
     snprintf(text, size, "triangle %" PRIu32 ": unknown defect", t);
