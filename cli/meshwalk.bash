@@ -11,7 +11,7 @@ _meshwalk_options() {
         triangulate) echo "--constraints --keep --split --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details $query $stream $common" ;;
         sample) echo "--field --outside $query $stream $common" ;;
-        star) echo "--centre --lonlat --walk --start --sample --cells --levels --columns $stream $common" ;;
+        star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
         probe)
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
@@ -46,7 +46,10 @@ _meshwalk_names() {
             esac
             ;;
         --arithmetic) echo 'exact double' ;;
-        --finish) echo 'auto remembering stochastic' ;;
+        --finish)
+            [[ $1 == star ]] && echo 'auto stochastic forgetful' && return
+            echo 'auto remembering stochastic'
+            ;;
         --fill) echo 'auto yes no' ;;
         --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;

@@ -90,6 +90,7 @@ static mw_star_query_options options_of(const scene *s, size_t i)
     return (mw_star_query_options){
         .walk = mw_star_walk_by_name(algorithm_of(s, i)->walk),
         .start = start_of(s, i),
+        .finish = mw_star_walk_by_name(s->paper->table->finish),
         .index = s->index[i],
         .seed = s->paper->settings->common.seed,
         .threads = s->paper->settings->common.threads,

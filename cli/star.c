@@ -14,7 +14,7 @@ typedef struct star_settings {
     stream_settings stream;
     coordinates centre; /* not given: the origin */
     uint32_t sample, cells, levels;
-    int walk, start; /* mw_star_walk_kind, mw_star_start_kind */
+    int walk, start, finish; /* mw_star_walk_kind, mw_star_start_kind, number of a name of --finish */
     bool lonlat;
 } star_settings;
 
@@ -35,8 +35,16 @@ static const char *start_help(int i)
     return mw_star_start_help((mw_star_start_kind)i);
 }
 
+/* What may end the walk whose own tests are only a guide. */
+static const mw_star_walk_kind finishes[] = {MW_STAR_WALK_AUTO, MW_STAR_WALK_STOCHASTIC, MW_STAR_WALK_FORGETFUL};
+static const char *finish_name(int i)
+{
+    return i < (int)(sizeof finishes / sizeof *finishes) ? mw_star_walk_name(finishes[i]) : NULL;
+}
+
 static const choices walks = {"walk", walk_name, walk_help};
 static const choices starts = {"start", start_name, start_help};
+static const choices finish_choices = {"way to finish", finish_name, NULL};
 
 static const option star_options[] = {
     {"centre", 0, OPTION_POINT, offsetof(star_settings, centre), "X,Y,Z",
@@ -50,6 +58,9 @@ static const option star_options[] = {
      "how to walk to the facet (default: auto):", &walks},
     {"start", 0, OPTION_CHOICE, offsetof(star_settings, start), "NAME",
      "how to choose the first facet (default: auto):", &starts},
+    {"finish", 0, OPTION_CHOICE, offsetof(star_settings, finish), "NAME",
+     "the walk that ends the orthogonal one, whose own tests are only a guide (default: auto, which is stochastic):",
+     &finish_choices},
     {"sample", 0, OPTION_COUNT, offsetof(star_settings, sample), "K",
      "--start sample: look at K random facets (default: 0, twice the fourth root of the number of vertices)", NULL},
     {"cells", 0, OPTION_COUNT, offsetof(star_settings, cells), "N",
@@ -164,6 +175,7 @@ static int answer_rays(void *self, const queries *block, void *answers)
     mw_star_query_options options = {
         .walk = (mw_star_walk_kind)s->walk,
         .start = (mw_star_start_kind)s->start,
+        .finish = finishes[s->finish],
         .seed = common->seed + block->block, /* other random numbers in each block */
         .sample = s->sample,
         .threads = common->threads,

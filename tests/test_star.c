@@ -73,8 +73,10 @@ static void check_rays(const polyhedron *p, mw_surface_options how, const double
         if (bad) expected = (mw_location){.triangle = MW_NONE, .where = MW_BAD, .local = 255};
         for (int walk = 0; walk < MW_STAR_WALK_COUNT; walk++)
             for (int start = 0; start <= MW_STAR_START_SORTED; start++) {
-                mw_star_query_options options = {
-                    .walk = (mw_star_walk_kind)walk, .start = (mw_star_start_kind)start, .seed = (uint64_t)i};
+                mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
+                                                 .start = (mw_star_start_kind)start,
+                                                 .finish = i % 2 ? MW_STAR_WALK_FORGETFUL : MW_STAR_WALK_STOCHASTIC,
+                                                 .seed = (uint64_t)i};
                 mw_star_cursor cursor;
                 expect_ok(mw_star_cursor_init(&cursor, w.star, &options, NULL), "cursor", NULL);
                 mw_location found = mw_star_locate(w.star, &cursor, q);
@@ -421,6 +423,11 @@ static void test_arguments(void **state)
     assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), MW_ERROR_ARGUMENT);
     options = (mw_star_query_options){.start = MW_STAR_START_COUNT};
     assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), MW_ERROR_ARGUMENT);
+    for (int finish = 0; finish <= MW_STAR_WALK_COUNT + 256; finish++) {
+        bool known = finish == 0 || finish == MW_STAR_WALK_STOCHASTIC || finish == MW_STAR_WALK_FORGETFUL;
+        options = (mw_star_query_options){.finish = (mw_star_walk_kind)finish};
+        assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), known ? MW_OK : MW_ERROR_ARGUMENT);
+    }
     options = (mw_star_query_options){.start = MW_STAR_START_GRID};
     assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), MW_ERROR_ARGUMENT);
     options = (mw_star_query_options){.walk = MW_STAR_WALK_ORTHOGONAL};

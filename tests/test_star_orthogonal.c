@@ -229,6 +229,85 @@ static void test_globe(void **state)
     free(q);
 }
 
+/* The final location alone depends on its walk: the forgetful one makes more tests in as many facets, or nearly. Other walks
+ * have none, and know nothing of it. */
+static void expect_finishes(const mw_star *star, mw_star_query_options options, const double *q, size_t n)
+{
+    mw_location *want = malloc(n * sizeof *want), *at = malloc(n * sizeof *at);
+    assert_true(want && at);
+    mw_counters automatic = run(star, options, q, n, want);
+    options.finish = MW_STAR_WALK_STOCHASTIC;
+    mw_counters stochastic = run(star, options, q, n, at);
+    assert_memory_equal(at, want, n * sizeof *at);
+    assert_memory_equal(&stochastic, &automatic, sizeof automatic);
+    options.finish = MW_STAR_WALK_FORGETFUL;
+    mw_counters forgetful = run(star, options, q, n, at);
+    assert_memory_equal(at, want, n * sizeof *at);
+    bool same = memcmp(&forgetful, &stochastic, sizeof forgetful) == 0;
+    assert_int_equal(same, options.walk != MW_STAR_WALK_ORTHOGONAL);
+    if (!same) {
+        assert_int_equal(forgetful.triangles_init, stochastic.triangles_init);
+        assert_true(10 * forgetful.orient_final > 11 * stochastic.orient_final);
+        assert_in_range(20 * forgetful.triangles_final, 19 * stochastic.triangles_final,
+                        21 * stochastic.triangles_final);
+    }
+    free(want);
+    free(at);
+}
+
+static void test_finishes(void **state)
+{
+    enum { N = 3000 };
+    static double q[3 * N];
+    uint64_t random = 7;
+    (void)state;
+    for (int i = 0; i < 3 * N; i++) q[i] = random_unit(&random) - 0.5;
+    sphere s = make_sphere(lattice_octahedron(5), 0.3, 0);
+    for (int start = 0; start < MW_STAR_START_COUNT; start++) {
+        mw_star_query_options options = {.start = (mw_star_start_kind)start};
+        mw_star_index *index = NULL;
+        mw_error error;
+        if (mw_star_start_has_index(options.start))
+            expect_ok(mw_star_index_create(s.star, options.start, NULL, &index, &error), "index", &error);
+        options.index = index;
+        for (int walk = 0; walk < MW_STAR_WALK_COUNT; walk++) {
+            options.walk = (mw_star_walk_kind)walk;
+            expect_finishes(s.star, options, q, N);
+        }
+        mw_star_index_destroy(index);
+    }
+    release_sphere(&s);
+}
+
+/* A path shows the final location, too. */
+static void test_finish_of_path(void **state)
+{
+    (void)state;
+    uint64_t random = 8;
+    sphere s = make_sphere(lattice_octahedron(4), 0.3, 0);
+    uint64_t tests[2] = {0, 0};
+    for (int i = 0; i < 1000; i++)
+        for (int f = 0; f < 2; f++) {
+            mw_star_query_options options = {.walk = MW_STAR_WALK_ORTHOGONAL,
+                                             .start = MW_STAR_START_FRONT,
+                                             .finish = f ? MW_STAR_WALK_FORGETFUL : MW_STAR_WALK_STOCHASTIC,
+                                             .seed = (uint64_t)i,
+                                             .count = 1};
+            mw_star_cursor cursor;
+            mw_error error;
+            mw_location path, single;
+            double q[3];
+            for (int k = 0; k < 3; k++) q[k] = random_unit(&random) - 0.5;
+            expect_ok(mw_star_cursor_init(&cursor, s.star, &options, &error), "cursor", &error);
+            mw_star_path(s.star, &cursor, q, NULL, 0, &path);
+            tests[f] += cursor.counters.orient_final;
+            single = mw_star_locate(s.star, &cursor, q);
+            assert_memory_equal(&path, &single, sizeof path);
+        }
+    assert_true(10 * tests[1] > 11 * tests[0]);
+    release_sphere(&s);
+}
+
 /* Each facet with vertices of its own. */
 static void test_welded(void **state)
 {
@@ -298,9 +377,10 @@ static void test_legs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_angles),     cmocka_unit_test(test_seam),    cmocka_unit_test(test_seam_of_chords),
-        cmocka_unit_test(test_seam_again), cmocka_unit_test(test_spheres), cmocka_unit_test(test_globe),
-        cmocka_unit_test(test_welded),     cmocka_unit_test(test_legs),
+        cmocka_unit_test(test_angles),         cmocka_unit_test(test_seam),    cmocka_unit_test(test_seam_of_chords),
+        cmocka_unit_test(test_seam_again),     cmocka_unit_test(test_spheres), cmocka_unit_test(test_globe),
+        cmocka_unit_test(test_welded),         cmocka_unit_test(test_legs),    cmocka_unit_test(test_finishes),
+        cmocka_unit_test(test_finish_of_path),
     };
     return cmocka_run_group_tests_name("star_orthogonal", tests, NULL, NULL);
 }

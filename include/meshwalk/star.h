@@ -126,11 +126,13 @@ MW_API void mw_star_index_describe(const mw_star_index *index, mw_star_index_inf
 typedef struct mw_star_query_options {
     mw_star_walk_kind walk;
     mw_star_start_kind start;
-    uint64_t seed;    /* for everything random; answers do not depend on it              */
-    uint32_t sample;  /* MW_STAR_START_SAMPLE: facets looked at; 0 = 2 times the fourth root of the vertices */
-    uint32_t threads; /* batches: 0 = what OpenMP gives                                  */
-    int count;        /* 1: fill the counters                                            */
-    const mw_star_index *index; /* for the starts that have one, NULL else; must outlive the cursor */
+    mw_star_walk_kind finish; /* the final location of the orthogonal walk: MW_STAR_WALK_STOCHASTIC, or
+                                 MW_STAR_WALK_FORGETFUL, which counts as the paper does; 0 = stochastic           */
+    uint32_t sample;          /* MW_STAR_START_SAMPLE: facets looked at; 0 = 2 times the fourth root of the vertices */
+    uint64_t seed;            /* for everything random; answers do not depend on it                               */
+    uint32_t threads;         /* batches: 0 = what OpenMP gives                                                   */
+    int count;                /* 1: fill the counters                                                             */
+    const mw_star_index *index; /* for the starts that have one, NULL else; must outlive the cursor               */
     uint32_t reserved[6];
 } mw_star_query_options;
 
@@ -143,13 +145,13 @@ typedef struct mw_star_cursor {
     uint64_t random;
     uint32_t last;
     uint32_t sample;
-    uint8_t walk, start, count;
-    uint8_t reserved[13];
+    uint8_t walk, start, finish, count;
+    uint8_t reserved[12];
 } mw_star_cursor;
 
-/* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown walk or start, a start without its index, an index of
- * another start, the orthogonal walk on a star without angles. MW_STAR_START_SORTED means MW_STAR_START_LAST in
- * single queries. */
+/* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown walk or start, a finish that is neither stochastic nor
+ * forgetful, a start without its index, an index of another start, the orthogonal walk on a star without angles.
+ * MW_STAR_START_SORTED means MW_STAR_START_LAST in single queries. */
 MW_API mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const mw_star_query_options *options,
                                      mw_error *error);
 

@@ -68,8 +68,10 @@ static void go_straight(mw_star_walk *walk, mw_star_trace *trace)
     run(walk, &mw__star_straight, trace);
 }
 
-/* To the facet that the ray meets, from facet t. Returns true if another walk had to end what the first could not. */
-static bool walk_to(mw_star_walk *walk, const mw_star_kernels *kernel, uint32_t t, mw_star_trace *trace)
+/* To the facet that the ray meets, from facet t; what a cheap walk leaves is ended by `finish`. Returns true if another
+ * walk had to end what these could not. */
+static bool walk_to(mw_star_walk *walk, const mw_star_kernels *kernel, const mw_star_kernels *finish, uint32_t t,
+                    mw_star_trace *trace)
 {
     enter(walk, t, MW_STAR_STAGE_WALK, kernel == &mw__star_straight ? UINT32_MAX : fuel(walk->star));
     if (walk->work) walk->work->visited++;
@@ -77,7 +79,7 @@ static bool walk_to(mw_star_walk *walk, const mw_star_kernels *kernel, uint32_t 
     mw_star_verdict verdict = run(walk, kernel, trace);
     if (verdict == MW_STAR_CLOSE) {
         enter(walk, walk->t, MW_STAR_STAGE_FINAL, fuel(walk->star));
-        verdict = run(walk, &mw__star_stochastic, trace);
+        verdict = run(walk, finish, trace);
     }
     if (MW_LIKELY(verdict == MW_STAR_FOUND)) return false;
     go_straight(walk, trace);
@@ -157,7 +159,7 @@ mw_location mw__star_answer(const mw_star *star, const mw_star_cursor *cursor, c
     mw_star_work work = {0};
     mw_star_walk walk = begin(star, point, *random, cursor->count || trace ? &work : NULL);
     uint32_t t = mw__star_start(star, cursor, *last, &walk);
-    bool handed_over = walk_to(&walk, kernels[cursor->walk], t, trace);
+    bool handed_over = walk_to(&walk, kernels[cursor->walk], kernels[cursor->finish], t, trace);
     mw_location location = settle(star, walk.t, point);
     if (cursor->count) count(counters, &work, handed_over);
     *last = walk.t;
@@ -171,6 +173,6 @@ uint32_t mw__star_facet(const mw_star *star, const double d[3], uint32_t t)
     for (int k = 0; k < 3; k++) q[k] = star->centre[k] + star->reach * d[k];
     if (!mw__is_finite3(q) || is_centre(star, q)) return t; /* at the rim of the range of doubles: any facet will do */
     mw_star_walk walk = begin(star, q, 0, NULL);
-    walk_to(&walk, &mw__star_stochastic, t, NULL);
+    walk_to(&walk, &mw__star_stochastic, NULL, t, NULL);
     return walk.t;
 }

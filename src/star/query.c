@@ -12,6 +12,8 @@ mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const
     mw_star_start_kind start = options->start;
     if ((unsigned)options->walk >= MW_STAR_WALK_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
     if ((unsigned)start >= MW_STAR_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    if (options->finish && options->finish != MW_STAR_WALK_STOCHASTIC && options->finish != MW_STAR_WALK_FORGETFUL)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by stochastic or forgetful");
     if (options->walk == MW_STAR_WALK_ORTHOGONAL && !star->angle)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the orthogonal walk needs a star with angles");
     if (start == MW_STAR_START_AUTO && options->index) start = mw__star_index_start(options->index);
@@ -26,6 +28,7 @@ mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const
         .sample = options->sample,
         .walk = (uint8_t)options->walk,
         .start = (uint8_t)start,
+        .finish = (uint8_t)options->finish,
         .count = options->count != 0,
     };
     return MW_OK;

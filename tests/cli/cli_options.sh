@@ -48,6 +48,8 @@ run triangulate a -o b.ply --format pyl; refused 2 "unknown format 'pyl'; did yo
 run star --walk orthogonl a b; refused 2 "unknown walk 'orthogonl'; did you mean 'orthogonal'\?"
 run star --walk lawson a b; refused 2 "unknown walk 'lawson'"
 run star --start octaedron a b; refused 2 "unknown start 'octaedron'; did you mean 'octahedron'\?"
+run star --finish straight a b; refused 2 "unknown way to finish 'straight'$"
+run star --finish forgetfull a b; refused 2 "unknown way to finish 'forgetfull'; did you mean 'forgetful'\?"
 run star --center 1,2,3 a b; refused 2 "unknown option '--center'; did you mean '--centre'\?"
 run star --cells 1073741825 a b; refused 2 "'--cells' wants at most 2\^30, not '1073741825'"
 run star --levels 14 a b; refused 2 "'--levels' wants at most 13, not '14'"
@@ -175,6 +177,8 @@ for option in walk start; do
         holds "meshwalk-star.1 names $name" grep -Eq "^\.Cm .*\<$name\>" "$source_tree/docs/man/meshwalk-star.1"
     done
 done
+holds "help and completion of star --finish differ" \
+    test "$(complete_words meshwalk star --finish '')" == "$(row finish)"
 run probe --help
 flat=$(tr -s ' \n' ' ' <"$logs/out")
 for words in "--strict exit with 1 if a row is 'limit' or 'bad'" 'without --race results do not depend on it' \

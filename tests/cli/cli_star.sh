@@ -74,7 +74,9 @@ for walk in $walks; do
     done
     run_on "$points" star --walk "$walk" --threads 3 --seed 7 octahedron.off -; exits 0; prints "$answers"
 done
-for options in '--start grid --cells 1' '--start grid --cells 1000' '--start nonuniform-grid --cells 3' \
+for options in '--finish auto' '--finish stochastic' '--finish forgetful' '--walk orthogonal --finish auto' \
+    '--walk orthogonal --finish stochastic' '--walk orthogonal --finish forgetful' \
+    '--start grid --cells 1' '--start grid --cells 1000' '--start nonuniform-grid --cells 3' \
     '--start octahedron --levels 1' '--start octahedron --levels 5' '--start sample --sample 1'; do
     # shellcheck disable=SC2086 # words
     run_on "$points" star $options octahedron.off -; exits 0; prints "$answers"
@@ -249,6 +251,25 @@ holds "one thread and two print the same" same_text one.csv two.csv
 paste -d, many.csv <(tail -n +2 two.csv) |
     awk -F, '$1 != $3 || $2 != $4 || $5 == "bad" { exit 1 } END { if (NR != 300000) exit 1 }'
 holds "there is a row for each, in order" test "${PIPESTATUS[*]}" == "0 0"
+
+# What ends the orthogonal walk changes the tests, not the answers. Parallels turned against each other.
+awk 'BEGIN { print 56, 2, 0, 0; for (i = 0; i < 56; i++) print i, i % 8 * 45 + int(i / 8) * 17, int(i / 8) * 30 - 90 }' >turned.node
+awk 'BEGIN { print 96, 3, 0
+    for (i = 0; i < 48; i++) {
+        a = i; b = i % 8 == 7 ? i - 7 : i + 1; print 2*i, a, b, b+8; print 2*i+1, a, b+8, a+8 } }' >turned.ele
+head -n 30000 many.csv >some.csv
+final_tests() { # final_tests NAME: those per query of the final location that --finish NAME makes
+    run star --lonlat --walk orthogonal --finish "$1" --stats --json turned.node some.csv -o finish.csv; exits 0
+    holds "auto and --finish $1 agree" same_text auto.csv finish.csv
+    tests=$(sed -nE 's/.*"orient_final": ([0-9.]+).*/\1/p' "$logs/err")
+}
+run star --lonlat turned.node some.csv -o auto.csv; exits 0
+final_tests auto; automatic=$tests
+final_tests stochastic; stochastic=$tests
+final_tests forgetful; forgetful=$tests
+holds "auto makes $automatic tests, stochastic $stochastic" test "$automatic" == "$stochastic"
+holds "forgetful makes $forgetful tests, stochastic $stochastic" \
+    awk "BEGIN { exit !($forgetful > 1.01 * $stochastic) }"
 
 # Real polyhedra, where they are at hand: every walk and start agrees, nothing is lost.
 data=${MW_SHARED:-}/star
