@@ -292,12 +292,24 @@ static void aim(double p[15])
     }
 }
 
+/* What doubles tell is so, and the same to the last bit. */
+static long check_inside(const mw_line *line, const mw_corners s, const double side[3])
+{
+    double told[3];
+    if (!mw__hit_inside(line, s, told)) return 0;
+    for (int k = 0; k < 3; k++) {
+        assert_true(told[k] == side[k] && told[k] > 0);
+        assert_true(mw__side(line, s[(k + 1) % 3], s[(k + 2) % 3]) < 0);
+    }
+    return 1;
+}
+
 static void test_weights(void **unused)
 {
     (void)unused;
     mpz_t side[3];
     mpz_inits(side[0], side[1], side[2], NULL);
-    long exponent[3], met = 0, zeros = 0;
+    long exponent[3], met = 0, zeros = 0, plain = 0;
     for (long i = case_count(80000); i > 0; i--) {
         double p[15], told[3];
         generate(p, 15, 3);
@@ -311,10 +323,11 @@ static void test_weights(void **unused)
         if (!sides_agree(told, side, exponent)) fail_case("hit_sides", p, 15, told[0]);
         met++;
         zeros += told[0] == 0 || told[1] == 0 || told[2] == 0;
+        plain += check_inside(&line, s, told);
     }
     mpz_clears(side[0], side[1], side[2], NULL);
-    fprintf(stderr, "%ld met, %ld of them at an edge\n", met, zeros);
-    assert_true(met > 20000 && zeros > 3000);
+    fprintf(stderr, "%ld met, %ld of them at an edge, %ld inside by doubles\n", met, zeros, plain);
+    assert_true(met > 20000 && zeros > 3000 && plain > 2000);
 }
 
 /* --- touches on small lattices ------------------------------------------------------------------------------------ */
@@ -493,6 +506,18 @@ static void check_answer(const lattice *l, uint32_t t)
     }
 }
 
+/* Told of a triangle that is not touched, or by other numbers than those of the answer? */
+static long check_again(const lattice *l, uint32_t t, bool touched)
+{
+    double d = (double)below(12);
+    mw_touch again;
+    if (!mw__touch_again(l->surface, &l->line, t, d, &again)) return 0;
+    mw_touch touch = mw__touch_lowest(l->surface, &l->line, t);
+    assert_true(touched && mw__in_reach(l->surface, &l->line, t, d));
+    assert_memory_equal(&again, &touch, sizeof touch);
+    return 1;
+}
+
 static void check_reach(const lattice *l, uint32_t t)
 {
     int64_t normal[3], d = (int64_t)below(12);
@@ -511,7 +536,7 @@ static void check_reach(const lattice *l, uint32_t t)
 static void test_touches(void **unused)
 {
     (void)unused;
-    long touched = 0, lowered = 0, by_flat = 0, backs = 0;
+    long touched = 0, lowered = 0, by_flat = 0, backs = 0, again = 0;
     for (long i = case_count(5000); i > 0; i--) {
         lattice l;
         generate_surface(&l);
@@ -522,9 +547,11 @@ static void test_touches(void **unused)
                 assert_int_equal(mw__touches(l.surface, &l.line, t), side < 0);
                 assert_int_equal(mw__meets(l.surface, &l.line, t), side != 0);
                 backs += side > 0;
+                again += check_again(&l, t, side < 0);
                 if (side >= 0) continue;
                 uint32_t lowest = brute_lowest(&l, t, true);
                 assert_int_equal(mw__lowest_touched(l.surface, &l.line, t), lowest);
+                assert_int_equal(mw__touch_lowest(l.surface, &l.line, t).triangle, lowest);
                 check_answer(&l, t);
                 if (below(4) == 0) check_reach(&l, t);
                 touched++;
@@ -534,9 +561,10 @@ static void test_touches(void **unused)
         }
         mw_surface_destroy(l.surface);
     }
-    fprintf(stderr, "%ld touched, %ld with a lower one, %ld of them behind flat triangles; %ld from behind\n", touched,
-            lowered, by_flat, backs);
-    assert_true(touched > 50000 && lowered > 7000 && by_flat > 500 && backs > 50000);
+    fprintf(stderr,
+            "%ld touched, %ld with a lower one, %ld of them behind flat triangles; %ld from behind; %ld again\n",
+            touched, lowered, by_flat, backs, again);
+    assert_true(touched > 50000 && lowered > 7000 && by_flat > 500 && backs > 50000 && again > 5000);
 }
 
 /* A fan of more triangles than anything that is remembered: from each, the first is found. */

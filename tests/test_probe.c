@@ -413,6 +413,27 @@ static void test_coherence(void **state)
     assert_int_equal(cursor.counters.hits, 3);
 }
 
+/* Whether walks are counted changes no answer, also where the probe stays, or moves little, and need not walk. */
+static void test_counting(void **state)
+{
+    (void)state;
+    enum { QUERIES = 200, STEPS = 6 };
+    uint64_t random = 34;
+    for (int i = 0; i < WORLDS; i++) {
+        const world *w = &worlds[i];
+        double *query = shape_queries(&w->s, QUERIES, &random);
+        mw_probe_cursor plain = cursor_of(w, (mw_probe_options){.start = MW_PROBE_LAST});
+        mw_probe_cursor counted = cursor_of(w, (mw_probe_options){.start = MW_PROBE_LAST, .count = 1});
+        for (size_t j = 0; j < QUERIES * STEPS; j++) {
+            double *q = query + j / STEPS * 6;
+            if (j % STEPS > 1) q[j % 3] += 0.125 * (random_unit(&random) - 0.5);
+            mw_touch one = ask(w, &plain, q), other = ask(w, &counted, q);
+            assert_memory_equal(&one, &other, sizeof one);
+        }
+        free(query);
+    }
+}
+
 /* By itself a probe begins at the triangle touched before where that is near, and looks for another where it is not. */
 static void test_auto(void **state)
 {
@@ -699,6 +720,7 @@ int main(void)
         cmocka_unit_test(test_seed_is_short),
         cmocka_unit_test(test_sample_helps),
         cmocka_unit_test(test_coherence),
+        cmocka_unit_test(test_counting),
         cmocka_unit_test(test_auto),
         cmocka_unit_test(test_path),
         cmocka_unit_test(test_border),

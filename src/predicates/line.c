@@ -278,18 +278,35 @@ static void exact_quotient(const mw_line *line, const mw_corners s, double fract
     exponent[1] += motion;
 }
 
-double mw__hit_distance(const mw_line *line, const mw_corners s)
+/* Products and quotients of a few such magnitudes, and squares of the largest of a vector, are normal doubles. */
+static bool is_ordinary(double x)
 {
-    double bound[2], fraction[2] = {rounded_n(line, s, &bound[0]), rounded_m(line, s, &bound[1])};
+    return fabs(x) > 0x1p-200 && fabs(x) < 0x1p200;
+}
+
+static double distance_by_fractions(const mw_line *line, const mw_corners s, double n, double m, bool fine)
+{
+    double fraction[2];
     int exponent[3] = {0};
-    bool fine = FINE * fabs(fraction[0]) > bound[0] && FINE * fabs(fraction[1]) > bound[1];
     if (fine) {
-        for (int i = 0; i < 2; i++) fraction[i] = frexp(fraction[i], &exponent[i]);
+        fraction[0] = frexp(n, &exponent[0]);
+        fraction[1] = frexp(m, &exponent[1]);
     } else {
         exact_quotient(line, s, fraction, exponent);
     }
     double length = length_fraction(line->m, &exponent[2]);
     return scaled(fraction[0] * length / fraction[1], exponent[0] - exponent[1] + exponent[2]);
+}
+
+/* Powers of two change no digit: ordinary numbers need none. */
+double mw__hit_distance(const mw_line *line, const mw_corners s)
+{
+    double n_bound, m_bound, n = rounded_n(line, s, &n_bound), m = rounded_m(line, s, &m_bound);
+    bool fine = FINE * fabs(n) > n_bound && FINE * fabs(m) > m_bound;
+    const double *v = line->m;
+    double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    if (MW_LIKELY(fine && is_ordinary(n) && is_ordinary(m) && is_ordinary(square))) return n * sqrt(square) / m;
+    return distance_by_fractions(line, s, n, m, fine);
 }
 
 /* The sides as fractions of about the size of the largest. */
@@ -325,4 +342,16 @@ void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3])
     }
     double most = fmax(fmax(bound[0], bound[1]), bound[2]);
     if (!(most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM)) exact_sides(line, s, side);
+}
+
+bool mw__hit_inside(const mw_line *line, const mw_corners s, double side[3])
+{
+    double bound, most = 0, sum = 0;
+    for (int k = 0; k < 3; k++) {
+        side[k] = -mw__side_rounded(line, s[(k + 1) % 3], s[(k + 2) % 3], &bound);
+        if (!(side[k] > bound)) return false;
+        most = bound > most ? bound : most;
+        sum += side[k];
+    }
+    return most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM;
 }

@@ -71,4 +71,8 @@ double mw__hit_distance(const mw_line *line, const mw_corners s);
  * less than 2^-42 of their sum, which lies from 2^-900 to 2^900. For a triangle that the line meets. */
 void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3]);
 
+/* Does the line meet the triangle strictly inside, with m pointing at its front? Where doubles are enough to tell, and
+ * for weights: then true, and side[] is that of mw__hit_sides. False tells nothing. */
+bool mw__hit_inside(const mw_line *line, const mw_corners s, double side[3]);
+
 #endif

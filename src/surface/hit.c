@@ -211,26 +211,63 @@ uint32_t mw__lowest_touched(const mw_surface *surface, const mw_line *line, uint
 
 /* --- answers ------------------------------------------------------------------------------------------------------ */
 
-mw_touch mw__touch(const mw_surface *surface, const mw_line *line, uint32_t triangle)
+static mw_touch inside(uint32_t triangle, double distance, const double side[3])
 {
-    mw_touch touch = {.triangle = triangle, .state = MW_TOUCH_HIT, .where = MW_INSIDE, .local = UINT8_MAX};
-    mw_corners c;
-    double side[3];
-    corners_of(surface, triangle, c);
-    touch.distance = mw__hit_distance(line, c);
-    mw__hit_sides(line, c, side);
     double sum = side[0] + side[1] + side[2];
+    return (mw_touch){.distance = distance,
+                      .weight = {side[0] / sum, side[1] / sum, side[2] / sum},
+                      .triangle = triangle,
+                      .state = MW_TOUCH_HIT,
+                      .where = MW_INSIDE,
+                      .local = UINT8_MAX};
+}
+
+static mw_touch touch(const mw_line *line, uint32_t triangle, const mw_corners corners, const double side[3])
+{
+    mw_touch touch = inside(triangle, mw__hit_distance(line, corners), side);
     uint32_t zeros = 0;
-    for (uint32_t k = 0; k < 3; k++) {
-        touch.weight[k] = side[k] / sum;
-        zeros += side[k] == 0;
-    }
+    for (uint32_t k = 0; k < 3; k++) zeros += side[k] == 0;
     for (uint32_t k = 0; k < 3; k++) { /* corner k is off the edge after it, or alone on the line */
         if (zeros == 1 && side[k] == 0) touch.local = (uint8_t)mw__next(k);
         if (zeros == 2 && side[k] != 0) touch.local = (uint8_t)k;
     }
     if (zeros > 0) touch.where = zeros == 1 ? MW_ON_EDGE : MW_ON_VERTEX;
     return touch;
+}
+
+mw_touch mw__touch(const mw_surface *surface, const mw_line *line, uint32_t triangle)
+{
+    mw_corners c;
+    double side[3];
+    corners_of(surface, triangle, c);
+    mw__hit_sides(line, c, side);
+    return touch(line, triangle, c, side);
+}
+
+mw_touch mw__touch_lowest(const mw_surface *surface, const mw_line *line, uint32_t triangle)
+{
+    mw_corners c;
+    double side[3];
+    corners_of(surface, triangle, c);
+    mw__hit_sides(line, c, side);
+    bool alone = side[0] != 0 && side[1] != 0 && side[2] != 0;
+    if (MW_LIKELY(alone)) return touch(line, triangle, c, side);
+    return mw__touch(surface, line, mw__lowest_touched(surface, line, triangle));
+}
+
+/* Distances are off by less than 2^-40 of themselves, or by what underflows. */
+#define REACH_ERROR (1 + 0x1p-38)
+
+bool mw__touch_again(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d, mw_touch *touch)
+{
+    mw_corners c;
+    double side[3];
+    corners_of(surface, triangle, c);
+    if (!mw__hit_inside(line, c, side)) return false;
+    double distance = mw__hit_distance(line, c);
+    if (!((fabs(distance) + MW_SURFACE_TINY_LENGTH) * REACH_ERROR < d)) return false;
+    *touch = inside(triangle, distance, side);
+    return true;
 }
 
 mw_touch mw__no_touch(mw_touch_state state)

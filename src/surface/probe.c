@@ -132,11 +132,18 @@ static mw_search plan(const mw_prober *prober, mw_probe_cursor *cursor, const do
     };
 }
 
+/* A probe that moves in small steps mostly touches the triangle that it touched last, where its first walk would begin and
+ * end: no need to walk, but to be counted or seen. */
 static mw_touch answer_published(const mw_search *search, mw_probe_counters *work, mw_trace *trace)
 {
+    mw_touch again;
+    bool stays =
+        search->last != MW_NONE && mw__touch_again(search->surface, &search->line, search->last, search->reach, &again);
+    if (stays && !work) return again;
     uint32_t t = mw__search_all(search, work, trace);
+    if (stays) return again;
     if (t == MW_NONE) return mw__no_touch(MW_TOUCH_LIMIT);
-    return mw__touch(search->surface, &search->line, mw__lowest_touched(search->surface, &search->line, t));
+    return mw__touch_lowest(search->surface, &search->line, t);
 }
 
 static mw_touch answer_certain(const mw_prober *prober, mw_search *search, double max_distance, mw_probe_counters *work,

@@ -45,6 +45,12 @@ uint32_t mw__lowest_touched(const mw_surface *surface, const mw_line *line, uint
 mw_touch mw__touch(const mw_surface *surface, const mw_line *line, uint32_t triangle);
 mw_touch mw__no_touch(mw_touch_state state);
 
+/* The same for the lowest-numbered of the triangles touched at the point where `triangle` is. */
+mw_touch mw__touch_lowest(const mw_surface *surface, const mw_line *line, uint32_t triangle);
+
+/* Is the triangle touched inside, at most d away, so clearly that doubles tell? Then its answer goes to *touch. */
+bool mw__touch_again(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d, mw_touch *touch);
+
 /* --- certain.c ---------------------------------------------------------------------------------------------------- */
 
 /* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and complete. `seed`: a
