@@ -228,19 +228,93 @@ static void test_octahedron_finds(void **state)
         for (int i = 0; i < N; i++) {
             double d[3], v[3][3];
             draw_direction(&random, d);
-            if (i % 8 == 0) d[i / 8 % 3] = 0; /* on an edge */
-            cell_corners(levels, mw__star_octahedron_cell(&octahedron, d, &work), v);
+            bool on_edge = i % 8 == 0;
+            if (on_edge) d[i / 8 % 3] = 0;
+            cell_corners(levels, mw__star_octahedron_cell(&octahedron, d, on_edge ? NULL : &work), v);
             double turn = determinant(v[0], v[1], v[2]);
             for (int k = 0; k < 3; k++)
                 if (copysign(1, turn) * determinant(v[k], v[(k + 1) % 3], d) < -1e-15)
                     fail_msg("%u levels: %.17g %.17g %.17g is not in its triangle", levels, d[0], d[1], d[2]);
         }
-        double mean = (double)work.triangles[MW_STAR_STAGE_INIT] / N;
+        double mean = (double)work.triangles[MW_STAR_STAGE_INIT] / (N - N / 8);
         assert_int_equal(work.orient[MW_STAR_STAGE_INIT], 3 * work.triangles[MW_STAR_STAGE_INIT]);
         assert_int_equal(work.visited, 0);
         print_message("%u levels: %.2f triangles\n", levels, mean);
-        assert_true(levels == 0 ? fabs(mean - 2.5) < 0.1 : fabs(mean - before - 5.25) < 0.2);
+        double want = levels == 0 ? 2.5 : levels == 3 ? 7.97 : before + 5.25;
+        if (fabs(mean - want) > 0.05) fail_msg("%u levels: %.3f triangles, not %.2f", levels, mean, want);
         before = mean;
+    }
+}
+
+/* Do triangles of 3 corners share an edge, the one opposite to corner k of the first? */
+static bool is_across(double a[3][3], uint32_t k, double b[3][3])
+{
+    int shared = 0;
+    for (uint32_t i = 0; i < 3; i++)
+        for (int j = 0; j < 3 && i != k; j++) shared += memcmp(a[i], b[j], sizeof a[i]) == 0;
+    return shared == 2;
+}
+
+/* Steps of a barycentric walk from cell to cell as it is defined, from the first cell. */
+static uint32_t walk_cells(double cell[32][3][3], uint32_t cells, const double d[3], uint32_t *end)
+{
+    uint32_t at = 0, visits = 0;
+    for (;;) {
+        double(*v)[3] = cell[at], least = 0, turn = determinant(v[0], v[1], v[2]);
+        uint32_t out = 3, next = 0;
+        visits++;
+        for (uint32_t k = 0; k < 3; k++) {
+            double value = determinant(v[(k + 1) % 3], v[(k + 2) % 3], d) / turn;
+            if (value < least) {
+                least = value;
+                out = k;
+            }
+        }
+        *end = at;
+        if (out == 3) return visits;
+        while (next == at || !is_across(v, out, cell[next])) assert_true(++next < cells);
+        at = next;
+    }
+}
+
+/* Among the faces, and in their first subdivision. */
+static void test_octahedron_walks(void **state)
+{
+    uint64_t random = 9;
+    (void)state;
+    for (uint32_t levels = 0; levels < 2; levels++) {
+        mw_star_octahedron octahedron = {.levels = levels};
+        uint32_t cells = 8u << 2 * levels, end;
+        double cell[32][3][3];
+        for (uint32_t i = 0; i < cells; i++) {
+            cell_corners(levels, i, cell[i]);
+            for (int k = 0; k < 9; k++) cell[i][k / 3][k % 3] += 0.0; /* -0 is 0 */
+        }
+        for (int i = 0; i < 20000; i++) {
+            mw_star_work work = {0};
+            double d[3];
+            draw_direction(&random, d);
+            uint32_t found = mw__star_octahedron_cell(&octahedron, d, &work);
+            uint32_t visits = walk_cells(cell, cells, d, &end);
+            if (found != end || work.triangles[MW_STAR_STAGE_INIT] != visits)
+                fail_msg("%a %a %a: cell %u by %u triangles, not %u by %u", d[0], d[1], d[2], found,
+                         (unsigned)work.triangles[MW_STAR_STAGE_INIT], end, visits);
+        }
+    }
+}
+
+/* Directions at the rim of the doubles, and beyond: some cell, and an end. */
+static void test_octahedron_ends(void **state)
+{
+    static const double value[] = {0, -0.0, 5e-324, -5e-324, 1, -1, 1.5e308, -1.5e308, INFINITY, -INFINITY, NAN};
+    enum { N = sizeof value / sizeof *value };
+    (void)state;
+    for (uint32_t levels = 0; levels < 4; levels++) {
+        mw_star_octahedron octahedron = {.levels = levels};
+        for (int i = 0; i < N * N * N; i++) {
+            double d[3] = {value[i % N], value[i / N % N], value[i / N / N]};
+            assert_true(mw__star_octahedron_cell(&octahedron, d, NULL) < 8u << 2 * levels);
+        }
     }
 }
 
@@ -438,6 +512,8 @@ int main(void)
         cmocka_unit_test(test_published_grids),
         cmocka_unit_test(test_octahedron_covers_the_sphere),
         cmocka_unit_test(test_octahedron_finds),
+        cmocka_unit_test(test_octahedron_walks),
+        cmocka_unit_test(test_octahedron_ends),
         cmocka_unit_test(test_answers),
         cmocka_unit_test(test_where_it_begins),
         cmocka_unit_test(test_refused),
