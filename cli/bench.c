@@ -15,6 +15,8 @@ static const struct {
 } measurements[] = {
     {"paper", bench_paper},
     {"near-vertices", bench_near},
+    {"peers", bench_peers},
+    {"scale", bench_scale},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 
@@ -33,7 +35,7 @@ static const choices format_choices = {"format", format_name, NULL};
 
 static const option bench_options[] = {
     {"queries", 0, OPTION_COUNT, offsetof(bench_settings, queries), "N",
-     "points to locate on each set (default: 0, a million); of them at most 20000 are timed", NULL},
+     "points to locate on each set (default: 0, a million); of paper at most 20000 of them are timed", NULL},
     {"sizes", 0, OPTION_TEXT, offsetof(bench_settings, sizes), "LIST",
      "numbers of vertices of the sets that are made, as in 1e4,1e5 (default: those of the table)", NULL},
     {"enclose", 0, OPTION_CHOICE, offsetof(bench_settings, enclose), "NAME",
@@ -42,6 +44,15 @@ static const option bench_options[] = {
      "files of points, or meshes whose vertices are taken, in place of the sets: ground.las,survey.csv; of D1 and "
      "F1 to G3 meshes, taken as they are; nothing is published for them, but for the models of G1 to G3",
      NULL},
+    {"engines", 0, OPTION_TEXT, offsetof(bench_settings, engines), "LIST",
+     "engines that peers and scale measure, as in meshwalk,embree-single (default: all there are; of scale, meshwalk)",
+     NULL},
+    {"tasks", 0, OPTION_TEXT, offsetof(bench_settings, tasks), "LIST",
+     "what peers and scale measure: random, sorted, coherent, half-outside, total, dense, delaunay, connectivity "
+     "(default: the first five; of scale, random and the last two)",
+     NULL},
+    {"rounds", 0, OPTION_COUNT, offsetof(bench_settings, rounds), "N",
+     "rounds of peers and scale, whose median counts (default: 0, five)", NULL},
     {"no-times", 0, OPTION_FLAG, offsetof(bench_settings, no_times), NULL, "count only", NULL},
     {"format", 0, OPTION_CHOICE, offsetof(bench_settings, format), "NAME",
      "how to print the figures (default: table):", &format_choices},
@@ -113,7 +124,7 @@ const command bench_command = {
     .operands = "WHAT [TABLE]",
     .operand_count = 2,
     .optional_operands = 1,
-    .summary = "measure the walks, beside the published figures",
+    .summary = "measure the walks, beside published figures and other libraries",
     .description =
         "'meshwalk bench paper TABLE' makes the sets of points of a published table, triangulates them, counts and "
         "times what the walks do, and prints each figure beside the published one and their ratio. TABLE is one of "
@@ -126,7 +137,15 @@ const command bench_command = {
         "'meshwalk bench near-vertices [SET]' locates points within 1e-15 of vertices, or one of the next doubles, in "
         "five meshes: uniform, grid, rings, slivers, offset, or in one of them. It prints for every walk and "
         "arithmetic how many of a million queries ran out of steps (cycles), and how many the celestial walk had to "
-        "end (hand-overs).",
+        "end (hand-overs).\n\n"
+        "'meshwalk bench peers [SET]' measures point location beside other libraries: CGAL, Embree, GEOS, Boost, SciPy "
+        "and "
+        "matplotlib, where the program was built with them. In one run all engines take turns, and all answers are "
+        "compared "
+        "with the exact one. 'meshwalk bench scale [SET]' measures from ten thousand vertices to a hundred million. "
+        "SET is "
+        "one of uniform, grid, gaussian, clusters, arcs, rectangle, rings, slivers and offset, or several of them with "
+        "commas between.",
     .options = tables,
     .settings_size = sizeof(bench_settings),
     .run = run,

@@ -10,8 +10,8 @@ enum { FORMAT_TABLE, FORMAT_TSV, FORMAT_JSON };
 
 typedef struct bench_settings {
     common_settings common;
-    const char *sizes, *data, *plot;
-    uint32_t queries;
+    const char *sizes, *data, *plot, *engines, *tasks;
+    uint32_t queries, rounds;
     int enclose, format;
     bool no_times;
 } bench_settings;
@@ -33,5 +33,7 @@ int bench_sizes(const char *list, size_list *sizes);
 /* The measurements: 'meshwalk bench WHAT [TABLE]'; the last is NULL if it was not given. Return the exit code. */
 int bench_paper(const bench_settings *s, const char *table);
 int bench_near(const bench_settings *s, const char *set);
+int bench_peers(const bench_settings *s, const char *set);
+int bench_scale(const bench_settings *s, const char *set);
 
 #endif

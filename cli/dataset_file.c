@@ -20,17 +20,23 @@ static bool is_unknown(const mw_error *error)
     return error->status == MW_ERROR_INPUT && strstr(error->message, ": this is no mesh in a format known here");
 }
 
-/* The vertices of a mesh; *none is set if the file is not a mesh. Returns 0 or an exit code. */
-static int read_vertices(dataset *d, const char *path, bool *none)
+/* A mesh; *none is set if the file is not one. Returns 0 or an exit code. */
+static int read_mesh(mw_mesh_file *file, const char *path, bool *none)
 {
     mw_error error;
-    mw_mesh_file file;
+    *file = (mw_mesh_file){0};
     *none = files_is_stream(path);
-    if (*none) return 0;
-    if (mw_read_mesh(path, &file, &error) != MW_OK) {
-        *none = is_unknown(&error);
-        return *none ? 0 : fail_reading(&error);
-    }
+    if (*none || mw_read_mesh(path, file, &error) == MW_OK) return 0;
+    *none = is_unknown(&error);
+    return *none ? 0 : fail_reading(&error);
+}
+
+/* The vertices of a mesh. */
+static int read_vertices(dataset *d, const char *path, bool *none)
+{
+    mw_mesh_file file;
+    int end = read_mesh(&file, path, none);
+    if (end || *none) return end;
     bool room = make_room(d, d->count + file.point_count);
     for (size_t i = 0; room && i < file.point_count; i++, d->count++)
         for (size_t k = 0; k < 2; k++) d->points[2 * d->count + k] = file.points[3 * i + k];
@@ -83,4 +89,13 @@ int dataset_read(dataset *d, const char *path, bool enclose)
     d->count += 4;
     dataset_enclose(d);
     return 0;
+}
+
+int dataset_read_mesh(dataset *d, mw_mesh_file *mesh, const char *path)
+{
+    bool points;
+    *d = (dataset){0};
+    progress_phase("reading", path);
+    int end = read_mesh(mesh, path, &points);
+    return end || !points ? end : dataset_read(d, path, false);
 }

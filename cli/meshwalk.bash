@@ -16,7 +16,7 @@ _meshwalk_options() {
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
-        bench) echo "--queries --sizes --enclose --data --no-times --format --plot $common" ;;
+        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --no-times --format --plot $common" ;;
     esac
 }
 
@@ -31,6 +31,12 @@ _meshwalk_names() {
             fi
             ;;
         --enclose) echo 'auto yes no' ;;
+        --tasks) echo 'random sorted coherent half-outside total dense delaunay connectivity' ;;
+        --engines)
+            echo 'meshwalk meshwalk-single meshwalk-grid meshwalk-grid-single meshwalk-last'
+            echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
+            echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
+            ;;
         --as) echo 'plane surface star' ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return
@@ -77,15 +83,17 @@ _meshwalk() {
         return
     fi
     names=$(_meshwalk_names "$command" "$before")
-    [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] && names=paper
+    [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] && names='paper near-vertices peers scale'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
+    [[ $command == bench && $before == @(peers|scale) ]] &&
+        names='uniform grid gaussian clusters arcs rectangle rings slivers offset'
     if [[ -n $names ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
     case $before in
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field) return ;;
-        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit) return ;;
+        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

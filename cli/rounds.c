@@ -6,15 +6,15 @@ size_t rounds_share(uint64_t queries)
     return all < TIMED_ROUNDS ? 1 : all / TIMED_ROUNDS;
 }
 
-static double median(double *times)
+double rounds_median(double *times, size_t count)
 {
-    for (int i = 1; i < TIMED_ROUNDS; i++)
-        for (int k = i; k > 0 && times[k] < times[k - 1]; k--) {
+    for (size_t i = 1; i < count; i++)
+        for (size_t k = i; k > 0 && times[k] < times[k - 1]; k--) {
             double other = times[k];
             times[k] = times[k - 1];
             times[k - 1] = other;
         }
-    return times[TIMED_ROUNDS / 2];
+    return (times[(count - 1) / 2] + times[count / 2]) / 2;
 }
 
 /* Round -1 warms up, with the first share of queries. */
@@ -27,6 +27,6 @@ int rounds_time(size_t entries, size_t share, time_share *run, void *self, doubl
             size_t entry = (k + (size_t)(round + 1)) % entries, turn = round < 0 ? 0 : (size_t)round;
             end = run(self, entry, turn * share, share, &times[entry][turn]);
         }
-    for (size_t i = 0; i < entries && end == 0; i++) medians[i] = median(times[i]);
+    for (size_t i = 0; i < entries && end == 0; i++) medians[i] = rounds_median(times[i], TIMED_ROUNDS);
     return end;
 }

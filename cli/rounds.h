@@ -21,4 +21,7 @@ typedef int time_share(void *self, size_t entry, size_t begin, size_t count, dou
  * queries 0 to TIMED_ROUNDS * share - 1, begun by another one; a round before warms up. Returns 0 or an exit code. */
 int rounds_time(size_t entries, size_t share, time_share *run, void *self, double *medians);
 
+/* The median of count > 0 times, which are put in order. */
+double rounds_median(double *times, size_t count);
+
 #endif

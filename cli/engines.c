@@ -1,0 +1,145 @@
+#include "engines.h"
+#include "bench.h"
+#include "message.h"
+
+#include <string.h>
+
+const engine engines[ENGINES] = {
+#define ENGINE(id, name, library, exact, parallel, tasks, help) {name, help, LIBRARY_##library, exact, parallel, tasks},
+#include "engines.def"
+};
+
+static const struct {
+    const char *name, *package; /* in Debian; it is wanted when the program is built, but of Python's when it runs */
+    bool python;
+} libraries[LIBRARIES] = {
+    [LIBRARY_MESHWALK] = {"meshwalk", NULL, false},
+    [LIBRARY_CGAL] = {"CGAL", "libcgal-dev", false},
+    [LIBRARY_EMBREE] = {"Embree 3", "libembree-dev", false},
+    [LIBRARY_GEOS] = {"GEOS", "libgeos-dev", false},
+    [LIBRARY_BOOST] = {"Boost", "libboost-dev", false},
+    [LIBRARY_SCIPY] = {"SciPy", "python3-scipy", true},
+    [LIBRARY_MATPLOTLIB] = {"matplotlib", "python3-matplotlib", true},
+};
+
+const char *engines_task(engine_task task)
+{
+    static const char *const names[TASKS] = {
+        [TASK_RANDOM] = "random",     [TASK_SORTED] = "sorted",
+        [TASK_COHERENT] = "coherent", [TASK_HALF_OUTSIDE] = "half-outside",
+        [TASK_TOTAL] = "total",       [TASK_DENSE] = "dense",
+        [TASK_DELAUNAY] = "delaunay", [TASK_CONNECTIVITY] = "connectivity",
+    };
+    return names[task];
+}
+
+#ifdef MW_PEERS
+static const bool with_peers = true;
+#else
+static const bool with_peers = false;
+const engine_code *peers_engine(engine_id id)
+{
+    (void)id;
+    return NULL;
+}
+#endif
+
+const engine_code *engines_code(engine_id id)
+{
+    if (engines[id].library == LIBRARY_MESHWALK) return engine_own(id);
+    const engine_code *code = peers_engine(id);
+    return code && code->structure->version() ? code : NULL;
+}
+
+/* --- lists of names ---------------------------------------------------------------------------------------------- */
+
+static const char *engine_name(int i)
+{
+    return i < ENGINES ? engines[i].name : NULL;
+}
+static const char *task_name(int i)
+{
+    return i < TASKS ? engines_task((engine_task)i) : NULL;
+}
+
+typedef struct naming {
+    const char *noun;
+    const char *(*name)(int);
+    uint32_t set;
+} naming;
+
+static int take_name(const char *word, void *self)
+{
+    naming *n = self;
+    for (int i = 0; n->name(i); i++)
+        if (strcmp(n->name(i), word) == 0) {
+            n->set |= UINT32_C(1) << i;
+            return 0;
+        }
+    text all = {0};
+    for (int i = 0; n->name(i); i++) text_printf(&all, "%s%s", i ? ", " : "", n->name(i));
+    text_bytes(&all, "", 1);
+    complain("unknown %s '%s'; there are %s", n->noun, word, all.failed ? "others" : all.bytes);
+    text_release(&all);
+    return END_USAGE;
+}
+
+int engines_tasks_named(const char *list, uint32_t *set)
+{
+    naming n = {.noun = "task", .name = task_name};
+    int end = bench_each_word(list, take_name, &n);
+    *set = n.set;
+    return end;
+}
+
+static bool is_in(uint32_t set, engine_id id)
+{
+    return set >> id & 1;
+}
+
+int engines_named(const char *list, uint32_t *set)
+{
+    naming n = {.noun = "engine", .name = engine_name};
+    int end = bench_each_word(list, take_name, &n);
+    *set = n.set;
+    for (engine_id id = 0; id < ENGINES && end == 0; id++)
+        if (is_in(n.set, id) && !engines_code(id)) {
+            engines_missing(UINT32_C(1) << id);
+            end = END_USAGE;
+        }
+    return end;
+}
+
+/* --- what there is ----------------------------------------------------------------------------------------------- */
+
+static bool wants_library(uint32_t set, engine_library library, bool present)
+{
+    for (engine_id id = 0; id < ENGINES; id++)
+        if (is_in(set, id) && engines[id].library == library && (engines_code(id) != NULL) == present) return true;
+    return false;
+}
+
+void engines_missing(uint32_t set)
+{
+    for (engine_library library = 0; library < LIBRARIES; library++) {
+        if (!wants_library(set, library, false)) continue;
+        bool python = libraries[library].python;
+        complain("without %s: %s%s%s (on Debian: apt-get install %s)", libraries[library].name,
+                 with_peers ? "" : "it takes a program built with -DMW_BUILD_BENCH=ON",
+                 with_peers || python ? "" : ", and ",
+                 !python      ? "its headers when that is built"
+                 : with_peers ? "python3 does not find it"
+                              : ", and python3 that finds it",
+                 libraries[library].package);
+    }
+}
+
+void engines_versions(text *t, uint32_t set)
+{
+    for (engine_library library = LIBRARY_MESHWALK + 1; library < LIBRARIES; library++)
+        for (engine_id id = 0; id < ENGINES; id++)
+            if (is_in(set, id) && engines[id].library == library && engines_code(id)) {
+                text_printf(t, ", %s", engines_code(id)->structure->version());
+                break;
+            }
+}
