@@ -4,44 +4,82 @@
  * lies close in the plane lies close in memory; numbers are translated at the end. */
 #include "triangulate/delaunay.h"
 
-#include "triangulate/delaunay_grow.h"
-#include "triangulate/delaunay_order.h"
+#include "base/threads.h"
+#include "triangulate/delaunay_harvest.h"
 
 #include <stdlib.h>
 
+enum {
+    PATCH = 1 << 14, /* points that with their facets fill a second-level cache, twice at most */
+    CHUNK = 1 << 14  /* points that a thread looks at at a time                                */
+};
+
 typedef struct delaunay {
     const mw_point *given;
-    uint32_t n;
-    uint32_t *order;    /* per place: number of the point; of equal points the vertex gets the lowest number */
-    uint32_t *sequence; /* places in the order of insertion                                                  */
-    mw_point *point;    /* per place; of a place that is merged with another, the other: see set_twin        */
-    mw_growth growth;
-    uint32_t duplicates;
+    mw_delaunay_setup setup;
+    mw_extent extent;
+    mw_ground ground;
+    mw_patches patches;
 } delaunay;
 
 static void release(delaunay *d)
 {
-    free(d->order);
-    free(d->sequence);
-    free(d->point);
-    free(d->growth.facet);
+    free(d->ground.order);
+    free(d->ground.sequence);
+    free(d->ground.point);
+    free(d->ground.facet);
+    free(d->patches.patch);
 }
 
 /* --- points --- */
 
-static mw_status find_extent(const mw_point *points, uint32_t n, mw_extent *extent, mw_error *error)
+static void extend(mw_extent *e, const mw_extent *by)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        if (by->low[axis] < e->low[axis]) e->low[axis] = by->low[axis];
+        if (by->high[axis] > e->high[axis]) e->high[axis] = by->high[axis];
+    }
+}
+
+/* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is none. */
+static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw_extent *extent)
 {
     mw_extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (uint32_t i = 0; i < n; i++) {
+    uint32_t i = from;
+    for (; i < to && isfinite(points[i].x) && isfinite(points[i].y); i++) {
         mw_point p = points[i];
-        if (!isfinite(p.x) || !isfinite(p.y)) return mw__fail_at(error, -1, i, "point %u is not finite", i);
         if (p.x < e.low[0]) e.low[0] = p.x;
         if (p.x > e.high[0]) e.high[0] = p.x;
         if (p.y < e.low[1]) e.low[1] = p.y;
         if (p.y > e.high[1]) e.high[1] = p.y;
     }
     *extent = e;
-    return MW_OK;
+    return i;
+}
+
+static mw_status find_extent(delaunay *d, mw_error *error)
+{
+    uint32_t n = d->ground.n, bad = n;
+    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
+    int team = mw__team(d->setup.threads, chunks);
+    (void)team; /* unused without OpenMP */
+    d->extent = (mw_extent){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(team) if (team > 1)
+#endif
+    for (int64_t i = 0; i < chunks; i++) {
+        mw_extent mine;
+        uint32_t from = (uint32_t)(i * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
+        uint32_t stop = extent_of(d->given, from, to, &mine);
+#ifdef _OPENMP
+#pragma omp critical(mw_extent)
+#endif
+        {
+            extend(&d->extent, &mine);
+            if (stop < to && stop < bad) bad = stop;
+        }
+    }
+    return bad < n ? mw__fail_at(error, -1, bad, "point %u is not finite", bad) : MW_OK;
 }
 
 static bool equal(mw_point a, mw_point b)
@@ -49,156 +87,118 @@ static bool equal(mw_point a, mw_point b)
     return a.x == b.x && a.y == b.y;
 }
 
-static void exchange(uint32_t *a, uint32_t *b)
+/* Nothing has grown: no three of the points are the corners of a triangle. */
+static mw_status fail_flat(const delaunay *d, mw_error *error)
 {
-    uint32_t old = *a;
-    *a = *b;
-    *b = old;
-}
-
-/* Bring three places that do not lie on one line to the front of the sequence. */
-static mw_status choose_first_three(delaunay *d, mw_error *error)
-{
-    const mw_point *p = d->point;
-    uint32_t *s = d->sequence, second = 1;
-    while (second < d->n && equal(p[s[0]], p[s[second]])) second++;
-    if (second >= d->n)
-        return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: all %u are equal", d->n);
-    exchange(&s[1], &s[second]);
-    uint32_t third = second + 1;
-    while (third < d->n && mw__orient2d(p[s[0]], p[s[1]], p[s[third]]) == 0) third++;
-    if (third < d->n) {
-        exchange(&s[2], &s[third]);
-        return MW_OK;
-    }
-    for (uint32_t i = 2; i < d->n; i++)
-        if (!equal(p[s[i]], p[s[0]]) && !equal(p[s[i]], p[s[1]]))
-            return mw__fail(error, MW_ERROR_INPUT, "all %u points lie on one line", d->n);
-    return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: only two among %u", d->n);
-}
-
-/* A place merged with another is no vertex any more. Its coordinates make room for the place of its twin. */
-static void set_twin(mw_point *point, uint32_t twin)
-{
-    *point = (mw_point){NAN, twin};
-}
-
-static bool get_twin(mw_point point, uint32_t *twin)
-{
-    if (!isnan(point.x)) return false;
-    *twin = (uint32_t)point.y;
-    return true;
+    const mw_point *p = d->ground.point;
+    uint32_t n = d->ground.n, second = 1, third;
+    while (second < n && equal(p[0], p[second])) second++;
+    if (second == n) return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: all %u are equal", n);
+    for (third = second + 1; third < n; third++)
+        if (!equal(p[third], p[0]) && !equal(p[third], p[second]))
+            return mw__fail(error, MW_ERROR_INPUT, "all %u points lie on one line", n);
+    return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: only two among %u", n);
 }
 
 /* --- growth --- */
 
-static mw_status prepare(delaunay *d, mw_extent *extent, mw_error *error)
+/* Points in the order of their places. Where each lies is hard to foresee, but its number is known. */
+static void copy_points(delaunay *d, const mw_key *keys)
 {
-    if (d->n < 3) return mw__fail(error, MW_ERROR_INPUT, "fewer than three points: %u", d->n);
-    if (d->n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", d->n);
-    mw_status status = find_extent(d->given, d->n, extent, error);
-    if (status != MW_OK) return status;
-    d->order = mw__alloc(d->n, sizeof *d->order);
-    if (!d->order || !mw__hilbert_order(d->given, d->n, extent, d->order)) return mw__fail_memory(error);
-    d->sequence = mw__alloc(d->n, sizeof *d->sequence);
-    d->point = mw__alloc(d->n, sizeof *d->point);
-    d->growth.facet = mw__alloc(2 * (size_t)d->n, sizeof *d->growth.facet);
-    if (!d->sequence || !d->point || !d->growth.facet) return mw__fail_memory(error);
-    for (uint32_t i = 0; i < d->n; i++) d->point[i] = d->given[d->order[i]];
-    mw__insertion_sequence(d->n, d->sequence);
-    return choose_first_three(d, error);
+    enum { AHEAD = 16 };
+    uint32_t n = d->ground.n;
+    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
+    int team = mw__team(d->setup.threads, chunks);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(team) if (team > 1)
+#endif
+    for (int64_t c = 0; c < chunks; c++) {
+        uint32_t from = (uint32_t)(c * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
+        for (uint32_t i = from; i < to; i++) {
+            if (i + AHEAD < n) __builtin_prefetch(&d->given[keys[i + AHEAD].item]);
+            d->ground.order[i] = keys[i].item;
+            d->ground.point[i] = d->given[keys[i].item];
+        }
+    }
 }
 
-static void grow(delaunay *d, const mw_extent *extent)
+static bool order(delaunay *d)
 {
-    d->growth.point = d->point;
-    mw__grow_begin(&d->growth, d->n, d->sequence, extent->high[0] - extent->low[0], extent->high[1] - extent->low[1]);
-    for (uint32_t i = 3; i < d->n; i++) {
-        uint32_t place = d->sequence[i], vertex = mw__grow(&d->growth, place);
-        if (MW_LIKELY(vertex == place)) continue;
-        if (d->order[place] < d->order[vertex]) exchange(&d->order[place], &d->order[vertex]);
-        set_twin(&d->point[place], vertex);
-        d->duplicates++;
+    mw_ground *g = &d->ground;
+    mw_key *keys = mw__alloc_lines(2 * (size_t)g->n, sizeof *keys);
+    g->order = mw__alloc_lines(g->n, sizeof *g->order);
+    g->point = mw__alloc_lines(g->n, sizeof *g->point);
+    bool done = keys && g->order && g->point;
+    if (done) done = mw__hilbert_order(d->given, g->n, &d->extent, d->setup.threads, keys, keys + g->n);
+    if (done) {
+        copy_points(d, keys);
+        done = mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
     }
+    free(keys);
+    return done;
+}
+
+static mw_status prepare(delaunay *d, mw_error *error)
+{
+    mw_ground *g = &d->ground;
+    if (g->n < 3) return mw__fail(error, MW_ERROR_INPUT, "fewer than three points: %u", g->n);
+    if (g->n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
+    mw_status status = find_extent(d, error);
+    if (status != MW_OK) return status;
+    g->width = d->extent.high[0] - d->extent.low[0];
+    g->height = d->extent.high[1] - d->extent.low[1];
+    if (!order(d)) return mw__fail_memory(error);
+    g->sequence = mw__alloc_lines(g->n, sizeof *g->sequence);
+    g->facet = mw__alloc_lines(2 * (size_t)g->n, sizeof *g->facet);
+    return g->sequence && g->facet ? MW_OK : mw__fail_memory(error);
 }
 
 static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
 {
-    for (uint32_t i = 0, twin; i < d->n; i++)
-        duplicate_of[d->order[i]] = get_twin(d->point[i], &twin) ? d->order[twin] : MW_NONE;
+    const mw_ground *g = &d->ground;
+    for (uint32_t i = 0, twin; i < g->n; i++)
+        duplicate_of[g->order[i]] = mw__get_twin(g->point[i], &twin) ? g->order[twin] : MW_NONE;
 }
 
-/* --- harvest --- */
-
-/* Number the facets that are no ghosts by their lowest vertex: along the curve. Sets number[f] for facet f, MW_NONE for
- * ghosts, and *count. */
-static bool number_facets(const mw_growth *g, uint32_t *number, uint32_t *count)
+/* The points are not needed any more: their room serves the harvest. */
+static bool harvest(delaunay *d, mw_triangle **tri, uint32_t *tri_count)
 {
-    uint32_t *next = mw__calloc((size_t)g->infinity + 1, sizeof *next);
-    if (!next) return false;
-    for (uint32_t f = 0; f < g->facet_count; f++) {
-        const uint32_t *v = g->facet[f].v;
-        uint32_t low = v[0] < v[1] ? v[0] : v[1];
-        if (v[2] < low) low = v[2];
-        number[f] = mw__is_ghost(g, &g->facet[f]) ? MW_NONE : low;
-        if (number[f] != MW_NONE) next[low + 1]++;
+    free(d->ground.sequence);
+    d->ground.sequence = NULL;
+    uint32_t *scratch = (uint32_t *)d->ground.point;
+    return mw__harvest(&d->patches, &d->ground, d->setup.threads, scratch, tri, tri_count);
+}
+
+mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
+                              uint32_t *duplicate_of, mw_triangulation_report *report, mw_triangle **tri,
+                              uint32_t *tri_count, mw_error *error)
+{
+    delaunay d = {.given = points, .setup = *setup, .ground = {.n = n}};
+    if (!d.setup.patch) d.setup.patch = PATCH;
+    *tri = NULL;
+    *tri_count = 0;
+    mw_status status = prepare(&d, error);
+    if (status == MW_OK) {
+        mw__grow_patches(&d.patches, &d.ground, d.setup.threads);
+        if (d.patches.patch[0].ghost == MW_NONE) status = fail_flat(&d, error);
     }
-    for (uint32_t i = 0; i < g->infinity; i++) next[i + 1] += next[i];
-    *count = next[g->infinity];
-    for (uint32_t f = 0; f < g->facet_count; f++)
-        if (number[f] != MW_NONE) number[f] = next[number[f]]++;
-    free(next);
-    return true;
-}
-
-static void copy_facets(const delaunay *d, const uint32_t *number, mw_triangle *tri)
-{
-    for (uint32_t f = 0; f < d->growth.facet_count; f++) {
-        if (number[f] == MW_NONE) continue;
-        const mw_facet *from = &d->growth.facet[f];
-        mw_triangle *t = &tri[number[f]];
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t other = number[mw__link_triangle(from->link[k])];
-            t->v[k] = d->order[from->v[k]];
-            t->link[k] = other == MW_NONE ? MW_NONE : mw__link(other, mw__link_edge(from->link[k]));
-        }
-        t->v[3] = t->v[0];
-        t->user = number[f];
+    if (status == MW_OK) {
+        const mw_patch *whole = &d.patches.patch[0];
+        if (duplicate_of) report_duplicates(&d, duplicate_of);
+        if (report) *report = (mw_triangulation_report){n, whole->duplicates, whole->visited};
+        if (!harvest(&d, tri, tri_count)) status = mw__fail_memory(error);
     }
-}
-
-static mw_status harvest(const delaunay *d, mw_triangle **tri, uint32_t *tri_count, mw_error *error)
-{
-    uint32_t *number = mw__alloc(d->growth.facet_count, sizeof *number);
-    bool done = number && number_facets(&d->growth, number, tri_count);
-    if (done) *tri = mw__alloc_lines(*tri_count, sizeof **tri);
-    done = done && *tri;
-    if (done) copy_facets(d, number, *tri);
-    free(number);
-    return done ? MW_OK : mw__fail_memory(error);
+    release(&d);
+    return status;
 }
 
 mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of,
                                  mw_triangulation_report *report, mw_triangle **tri, uint32_t *tri_count,
                                  mw_error *error)
 {
-    delaunay d = {.given = points, .n = n};
-    mw_extent extent;
-    *tri = NULL;
-    *tri_count = 0;
-    mw_status status = prepare(&d, &extent, error);
-    if (status == MW_OK) {
-        grow(&d, &extent);
-        if (duplicate_of) report_duplicates(&d, duplicate_of);
-        if (report) *report = (mw_triangulation_report){n, d.duplicates, d.growth.visited};
-        free(d.point);
-        free(d.sequence);
-        d.point = NULL;
-        d.sequence = NULL;
-        status = harvest(&d, tri, tri_count, error);
-    }
-    release(&d);
-    return status;
+    const mw_delaunay_setup alone = {.threads = 1};
+    return mw__delaunay_set_up(points, n, &alone, duplicate_of, report, tri, tri_count, error);
 }
 
 mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,

@@ -13,4 +13,14 @@ mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *d
                                  mw_triangulation_report *report, mw_triangle **tri, uint32_t *tri_count,
                                  mw_error *error);
 
+typedef struct mw_delaunay_setup {
+    uint32_t threads; /* 0 = as OpenMP gives; the result does not depend on it    */
+    uint32_t patch;   /* most points that grow in one piece, 0 = what is fastest  */
+} mw_delaunay_setup;
+
+/* The same by a setup; without one it is one thread, and what is fastest. */
+mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
+                              uint32_t *duplicate_of, mw_triangulation_report *report, mw_triangle **tri,
+                              uint32_t *tri_count, mw_error *error);
+
 #endif

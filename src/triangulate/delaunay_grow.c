@@ -176,25 +176,29 @@ static MW_INLINE void flip_round(mw_growth *g, uint32_t first, sight a, sight b,
     }
 }
 
-void mw__grow_begin(mw_growth *g, uint32_t point_count, const uint32_t first[3], double width, double height)
+void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double height)
+{
+    g->infinity = point_count;
+    g->far = 2 * (width * width + height * height);
+    /* 12 * 2^-1075 times the sum of the lifts (see mw__incircle), which is below 3 far, or times 1 */
+    g->underflow = 0x1p-1069 * fmax(g->far, 1);
+}
+
+void mw__grow_begin(mw_growth *g, const uint32_t first[3])
 {
     const mw_point *p = g->point;
-    uint32_t v[3] = {first[0], first[1], first[2]};
+    uint32_t v[3] = {first[0], first[1], first[2]}, t = g->facet_count;
     if (mw__orient2d(p[v[0]], p[v[1]], p[v[2]]) < 0) {
         v[1] = first[2];
         v[2] = first[1];
     }
-    g->infinity = point_count;
-    g->facet_count = 4;
-    g->facet[0] = (mw_facet){{v[0], v[1], v[2]}, {mw__link(1, 0), mw__link(2, 0), mw__link(3, 0)}};
-    for (uint32_t k = 0; k < 3; k++) /* the ghost of edge k is facet k + 1 */
-        g->facet[k + 1] = (mw_facet){{v[mw__next(k)], v[k], g->infinity},
-                                     {mw__link(0, k), mw__link(mw__prev(k) + 1, 2), mw__link(mw__next(k) + 1, 1)}};
-    g->last = 0;
-    g->visited = 0;
-    g->far = 2 * (width * width + height * height);
-    /* 12 * 2^-1075 times the sum of the lifts (see mw__incircle), which is below 3 far, or times 1 */
-    g->underflow = 0x1p-1069 * fmax(g->far, 1);
+    g->facet[t] = (mw_facet){{v[0], v[1], v[2]}, {mw__link(t + 1, 0), mw__link(t + 2, 0), mw__link(t + 3, 0)}};
+    for (uint32_t k = 0; k < 3; k++) /* the ghost of edge k */
+        g->facet[t + k + 1] =
+            (mw_facet){{v[mw__next(k)], v[k], g->infinity},
+                       {mw__link(t, k), mw__link(t + mw__prev(k) + 1, 2), mw__link(t + mw__next(k) + 1, 1)}};
+    g->facet_count = t + 4;
+    g->last = t;
 }
 
 uint32_t mw__grow(mw_growth *g, uint32_t point)

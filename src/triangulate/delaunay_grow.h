@@ -13,7 +13,7 @@ typedef struct mw_facet {
  * two facets, and a point outside the hull is inserted as any other. */
 typedef struct mw_growth {
     const mw_point *point; /* finite */
-    mw_facet *facet;       /* room for 2 * point_count - 2 */
+    mw_facet *facet;       /* room for two facets more with each point */
     uint32_t facet_count;
     uint32_t infinity; /* number of the vertex at infinity: the number of points                                  */
     uint32_t last;     /* where the next walk begins                                                              */
@@ -27,9 +27,11 @@ static MW_INLINE bool mw__is_ghost(const mw_growth *g, const mw_facet *f)
     return f->v[0] == g->infinity || f->v[1] == g->infinity || f->v[2] == g->infinity;
 }
 
-/* Begin with the triangle of three vertices that do not lie on one line. Fills everything but point and facet, which
- * the caller provides. No two coordinates differ by more than width and height. */
-void mw__grow_begin(mw_growth *g, uint32_t point_count, const uint32_t first[3], double width, double height);
+/* Fills in what depends on the points alone. No two coordinates differ by more than width and height. */
+void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double height);
+
+/* Begin with the triangle of three vertices that do not lie on one line: four facets, from number facet_count on. */
+void mw__grow_begin(mw_growth *g, const uint32_t first[3]);
 
 /* Insert a point. Returns its number, or that of the vertex at the same place. */
 uint32_t mw__grow(mw_growth *g, uint32_t point);
