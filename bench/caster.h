@@ -3,51 +3,16 @@
 #ifndef MW_BENCH_CASTER_H
 #define MW_BENCH_CASTER_H
 
+#include "device.h"
 #include "harness.h"
 #include "models.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <string>
 
 namespace bench
 {
-
-inline std::string caster_version()
-{
-    return "Embree " RTC_VERSION_STRING;
-}
-
-// What all casters share: the threads that build, and how much memory there is in use.
-class Device
-{
-    RTCDevice handle;
-    std::atomic<ssize_t> in_use = 0;
-
-  public:
-    explicit Device(unsigned threads)
-        : handle(rtcNewDevice(("threads=" + std::to_string(threads) + ",user_threads=0").c_str()))
-    {
-        if (!handle) fail("Embree does not run here");
-        rtcSetDeviceErrorFunction(
-            handle, [](void *, RTCError, const char *why) { fail(std::string("Embree: ") + why); }, nullptr);
-        rtcSetDeviceMemoryMonitorFunction(
-            handle,
-            [](void *self, ssize_t bytes, bool) {
-                static_cast<Device *>(self)->in_use += bytes;
-                return true;
-            },
-            this);
-    }
-    ~Device() { rtcReleaseDevice(handle); }
-    Device(const Device &) = delete;
-    Device &operator=(const Device &) = delete;
-    operator RTCDevice() const { return handle; }
-    size_t bytes() const { return static_cast<size_t>(in_use.load()); }
-};
 
 // How a caster treats a surface that moves: built once and for all, or after each move fitted to it, or built anew
 // quickly.

@@ -23,17 +23,22 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel>;
 
-inline std::string peer_version()
+inline const char *peer_version()
 {
     return "CGAL " CGAL_VERSION_STR;
 }
 
-inline std::vector<Point> peer_points(const Coordinates &coordinates)
+inline std::vector<Point> peer_points(const double *coordinates, size_t n)
 {
     std::vector<Point> points;
-    points.reserve(coordinates.size() / 2);
-    for (size_t i = 0; i < coordinates.size(); i += 2) points.emplace_back(coordinates[i], coordinates[i + 1]);
+    points.reserve(n);
+    for (size_t i = 0; i < n; i++) points.emplace_back(coordinates[2 * i], coordinates[2 * i + 1]);
     return points;
+}
+
+inline std::vector<Point> peer_points(const Coordinates &coordinates)
+{
+    return peer_points(coordinates.data(), coordinates.size() / 2);
 }
 
 } // namespace bench

@@ -119,19 +119,18 @@ static bool wants_library(uint32_t set, engine_library library, bool present)
     return false;
 }
 
+static const char *why_missing(engine_library library)
+{
+    if (!with_peers) return "this program was built without its peers (cmake -DMW_BUILD_BENCH=ON)";
+    return libraries[library].python ? "python3 does not find it" : "it was not found when this program was built";
+}
+
 void engines_missing(uint32_t set)
 {
-    for (engine_library library = 0; library < LIBRARIES; library++) {
-        if (!wants_library(set, library, false)) continue;
-        bool python = libraries[library].python;
-        complain("without %s: %s%s%s (on Debian: apt-get install %s)", libraries[library].name,
-                 with_peers ? "" : "it takes a program built with -DMW_BUILD_BENCH=ON",
-                 with_peers || python ? "" : ", and ",
-                 !python      ? "its headers when that is built"
-                 : with_peers ? "python3 does not find it"
-                              : ", and python3 that finds it",
-                 libraries[library].package);
-    }
+    for (engine_library library = 0; library < LIBRARIES; library++)
+        if (wants_library(set, library, false))
+            complain("without %s: %s; on Debian: apt-get install %s", libraries[library].name, why_missing(library),
+                     libraries[library].package);
 }
 
 void engines_versions(text *t, uint32_t set)

@@ -1,0 +1,50 @@
+// peers.h - what the peers of `meshwalk bench peers` share. Each is a file of its own, and gives its engines by number;
+// peers.cpp asks those that were built.
+#ifndef MW_BENCH_PEERS_H
+#define MW_BENCH_PEERS_H
+
+#include "cli/engine.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <malloc.h>
+#include <thread>
+#include <vector>
+
+namespace bench
+{
+
+// Each is nullptr for an engine of another peer.
+const engine_code *cgal_engine(engine_id id);
+const engine_code *embree_engine(engine_id id);
+const engine_code *geos_engine(engine_id id);
+const engine_code *boost_engine(engine_id id);
+
+// Memory in use, of libraries that do not tell how much they take.
+inline size_t heap_bytes()
+{
+    struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+// Call work(begin, end) for parts of 0 to n, on so many threads.
+template <class Work> void in_parts(size_t n, unsigned threads, const Work &work)
+{
+    std::vector<std::thread> others;
+    size_t part = (n + threads - 1) / threads;
+    for (unsigned k = 1; k < threads; k++)
+        others.emplace_back([&, k] { work(std::min(n, k * part), std::min(n, (k + 1) * part)); });
+    work(0, std::min(n, part));
+    for (std::thread &other : others) other.join();
+}
+
+inline bool contains(const engine_mesh &mesh, size_t triangle, const double *q)
+{
+    const uint32_t *v = mesh.triangles + 3 * triangle;
+    return engine_contains(mesh.points + 2 * size_t(v[0]), mesh.points + 2 * size_t(v[1]),
+                           mesh.points + 2 * size_t(v[2]), q);
+}
+
+} // namespace bench
+
+#endif
