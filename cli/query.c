@@ -101,7 +101,7 @@ static int make_mesh(query *q, const char *path, const mw_mesh_file *file, bool 
 {
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_mesh_options options = {.tolerant = q->settings->any};
+    mw_mesh_options options = {.tolerant = q->settings->any, .threads = q->settings->stream.common.threads};
     progress_phase("preparing", path);
     return mw_mesh_create(&arrays, &options, &q->mesh, &error) == MW_OK ? 0 : fail_defect(q, path, area, &error);
 }

@@ -176,7 +176,7 @@ static const char *fault_of_refusal(const mw_mesh *mesh, const arrays *a)
         fault = "not the mesh's own tiles";
     for (uint32_t t = 0; t < a->triangle_count && !fault; t++)
         for (int k = 0; k < 3; k++)
-            if (corners(a, t, c) && tiling.owner[a->triangles[3 * t + (uint32_t)k]] > t)
+            if (corners(a, t, c) && tiling.owner[mw__vertex_place(mesh, a->triangles[3 * t + (uint32_t)k])] > t)
                 fault = "a vertex has no owner";
     mw__tiling_release(&tiling);
     return fault;
@@ -217,11 +217,14 @@ static const char *compare(const arrays *a, counts *tally)
     const char *fault = mw_check_arrays(&view, &check, NULL) == MW_OK ? NULL : "check failed";
     if (!fault && check.embedding != expected) fault = expected ? "an embedding is refused" : "taken for an embedding";
     if (!fault) mw_check_release(&check);
-    if (!fault && mw_mesh_create(&view, NULL, &mesh, NULL) == MW_OK) {
-        fault = fault_of_mesh(mesh, a, expected, tally);
-        mw_mesh_destroy(mesh);
-    } else if (!fault && is_usable(a)) {
-        fault = "no mesh";
+    for (int layout = 1; layout <= 2 && !fault; layout++) {
+        mw_mesh_options options = {.layout = layout, .threads = 1};
+        if (mw_mesh_create(&view, &options, &mesh, NULL) == MW_OK) {
+            fault = fault_of_mesh(mesh, a, expected, tally);
+            mw_mesh_destroy(mesh);
+        } else if (is_usable(a)) {
+            fault = "no mesh";
+        }
     }
     free(scaled);
     return fault;

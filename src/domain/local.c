@@ -77,7 +77,8 @@ bool mw__find_turns(const mw_outline *outline, mw_defects *defects)
             if (turns[v] < MANY && holds_x(mesh->point, &mesh->tri[t], k)) turns[v]++;
         }
     bool done = true;
-    for (uint32_t t = 0; t < mesh->tri_count; t++)
+    for (uint32_t i = 0; i < mesh->tri_count; i++) { /* in the user's order: the first one is named */
+        uint32_t t = mw__triangle_place(mesh, i);
         for (uint32_t k = 0; k < 3 && done && !mw__is_flat(outline, t); k++) {
             uint32_t v = mesh->tri[t].v[k];
             if (turns[v] < MANY || !is_inner(outline, v)) continue;
@@ -86,6 +87,7 @@ bool mw__find_turns(const mw_outline *outline, mw_defects *defects)
             defect.vertex = v;
             done = mw__defects_add(defects, defect);
         }
+    }
     free(turns);
     return done;
 }

@@ -45,7 +45,7 @@ enum { ON_OUTLINE, ON_FLAT }; /* in o->place, until places are numbered */
 
 typedef struct spot {
     mw_point point;
-    uint32_t vertex, kind;
+    uint32_t vertex, kind; /* the vertex by the user's number */
 } spot;
 
 static int compare_spots(const void *left, const void *right)
@@ -93,10 +93,10 @@ static void number_places(mw_outline *o, const spot *spots, uint32_t count)
             for (end = i; end < count && same_place(&spots[i], &spots[end]); end++)
                 if (spots[end].kind == ON_OUTLINE) lowest = ON_OUTLINE;
             if (lowest != kind) continue;
-            for (uint32_t j = i; j < end; j++) o->place[spots[j].vertex] = next;
+            for (uint32_t j = i; j < end; j++) o->place[mw__vertex_place(o->mesh, spots[j].vertex)] = next;
             if (kind == ON_OUTLINE) {
                 o->point[next] = spots[i].point;
-                o->vertex[next] = spots[i].vertex;
+                o->vertex[next] = mw__vertex_place(o->mesh, spots[i].vertex);
             }
             next++;
         }
@@ -115,7 +115,8 @@ static bool find_places(mw_outline *o)
     bool done = spots && o->point && o->vertex;
     if (done) {
         for (uint32_t v = 0; v < o->mesh->point_count; v++)
-            if (o->place[v] != MW_NONE) spots[n++] = (spot){o->mesh->point[v], v, o->place[v]};
+            if (o->place[v] != MW_NONE)
+                spots[n++] = (spot){o->mesh->point[v], mw__users_vertex(o->mesh, v), o->place[v]};
         qsort(spots, count, sizeof *spots, compare_spots);
         number_places(o, spots, count);
     }

@@ -16,7 +16,7 @@ typedef struct mw_outline {
     uint32_t *place;      /* per vertex: number of its place, MW_NONE if neither outline nor a flat one has it */
     uint32_t place_count; /* of the outline; places that only flat triangles have are numbered above          */
     mw_point *point;      /* per place of the outline                                                         */
-    uint32_t *vertex;     /* per place of the outline: the lowest-numbered vertex there                       */
+    uint32_t *vertex;     /* per place of the outline: of the vertices there the user's lowest                 */
     uint64_t *bridge;     /* the edges of flat triangles, as pairs of places, sorted                          */
     size_t bridge_count;
 } mw_outline;
@@ -51,6 +51,13 @@ static MW_INLINE uint32_t mw__outline_from(const mw_outline *outline, uint32_t h
 static MW_INLINE uint32_t mw__outline_to(const mw_outline *outline, uint32_t half)
 {
     return outline->place[outline->mesh->tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1]];
+}
+
+/* Outline edges in the order of the user's triangles. */
+static MW_INLINE uint64_t mw__outline_rank(const mw_outline *outline, uint32_t edge)
+{
+    uint32_t half = outline->half[edge];
+    return (uint64_t)mw__users_triangle(outline->mesh, mw__link_triangle(half)) << 2 | mw__link_edge(half);
 }
 
 #endif

@@ -26,14 +26,16 @@ static void look_along(mw_region *region, const mw_cover *c, uint32_t t, uint32_
     uint32_t half = mw__link(t, k);
     uint32_t edge = region->degree == 0 ? mw__cover_outer(c, half) : mw__cover_inner(c, half);
     if (c->cell[t].link[k] == MW_NONE && region->degree == 0) region->open = true;
-    if (edge == MW_NONE || edge >= region->lowest) return;
+    if (edge == MW_NONE || mw__outline_rank(c->outline, edge) >= region->rank) return;
     if (region->degree != 0 && mw__is_fold(c->outline, c->outline->half[edge])) return;
     region->lowest = edge;
+    region->rank = mw__outline_rank(c->outline, edge);
 }
 
 static void describe(mw_regions *r, const mw_cover *c)
 {
-    for (uint32_t i = 0; i < r->count; i++) r->list[i] = (mw_region){.hole = MW_POCKET, .lowest = MW_NONE};
+    for (uint32_t i = 0; i < r->count; i++)
+        r->list[i] = (mw_region){.hole = MW_POCKET, .lowest = MW_NONE, .rank = UINT64_MAX};
     for (uint32_t t = 0; t < c->cell_count; t++) {
         if (r->of[t] == MW_NONE) continue;
         mw_region *region = &r->list[r->of[t]];
@@ -45,7 +47,7 @@ static void describe(mw_regions *r, const mw_cover *c)
 static int compare_regions(const void *left, const void *right)
 {
     const mw_region *a = *(mw_region *const *)left, *b = *(mw_region *const *)right;
-    return a->lowest < b->lowest ? -1 : a->lowest > b->lowest;
+    return a->rank < b->rank ? -1 : a->rank > b->rank;
 }
 
 static bool number_holes(mw_regions *r)

@@ -9,8 +9,9 @@ typedef struct mw_region {
     int32_t degree;  /* triangles over it                                                                      */
     bool open;       /* reaches the outside of the hull                                                        */
     uint32_t hole;   /* degree 0: its number, or MW_POCKET                                                     */
-    uint32_t lowest; /* the first outline edge beside it: its inner side for an overlap (no fold), else its
-                        outer side; MW_NONE if there is none                                                   */
+    uint32_t lowest; /* the first outline edge beside it by the user's numbers: its inner side for an overlap (no
+                        fold), else its outer side; MW_NONE if there is none                                   */
+    uint64_t rank;   /* of that edge                                                                           */
 } mw_region;
 
 typedef struct mw_regions {

@@ -28,6 +28,20 @@ static bool find_overlaps(mw_survey *s)
     return true;
 }
 
+/* Triangles and vertices by the user's numbers; of a fold, the lower triangle first. */
+static void name_as_user(const mw_mesh *mesh, mw_defect *d)
+{
+    d->triangle = mw__users_triangle(mesh, d->triangle);
+    if (d->other != MW_NONE) d->other = mw__users_triangle(mesh, d->other);
+    if (d->vertex != MW_NONE) d->vertex = mw__users_vertex(mesh, d->vertex);
+    if (d->kind != MW_DEFECT_FOLDED || d->triangle < d->other) return;
+    mw_defect same = *d;
+    d->triangle = same.other;
+    d->other = same.triangle;
+    d->edge = same.other_edge;
+    d->other_edge = same.edge;
+}
+
 static bool has_no_defect(const mw_survey *s)
 {
     for (size_t i = 0; i < s->defects.count; i++)
@@ -57,6 +71,7 @@ mw_status mw__survey_create(mw_survey *survey, const mw_mesh *mesh, mw_error *er
     survey->embedding = has_no_defect(survey);
     /* a vertex with more than one turn has an overlap beside it: a mesh without defect so far has none */
     if (!survey->embedding && !mw__find_turns(&survey->outline, &survey->defects)) return mw__fail_memory(error);
+    for (size_t i = 0; i < survey->defects.count; i++) name_as_user(mesh, &survey->defects.list[i]);
     mw__defects_sort(&survey->defects);
     return MW_OK;
 }

@@ -21,7 +21,7 @@ static bool covered(const mw_tiling *tiling, uint32_t link)
 static uint32_t users_edge(const mw_mesh *mesh, const mw_tiling *tiling, const mw_triangle *tile, uint32_t k)
 {
     if (!tiling->cut) return mw__user_edge(tile->user, k);
-    const mw_triangle *t = &mesh->tri[tile->user & MW_USER_MASK];
+    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, tile->user & MW_USER_MASK)];
     mw_point a = tiling->point[tile->v[k]], b = tiling->point[tile->v[k + 1]];
     for (uint32_t e = 0; e < 2; e++) {
         mw_point from = mesh->point[t->v[e]], to = mesh->point[t->v[e + 1]];
@@ -297,7 +297,8 @@ static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point 
 {
     uint32_t v[3], next = mw__next(e->edge);
     mw_mesh_triangle(mesh, e->triangle, v);
-    mw_border_edge whole = {mesh->point[v[e->edge]], mesh->point[v[next]], e->triangle, e->edge};
+    mw_border_edge whole = {mesh->point[mw__vertex_place(mesh, v[e->edge])],
+                            mesh->point[mw__vertex_place(mesh, v[next])], e->triangle, e->edge};
     double one = share(&whole, e->a), two = share(&whole, e->b);
     double s = fmin(fmax(share(&whole, q), fmin(one, two)), fmax(one, two));
     weight[e->edge] = 1 - s;

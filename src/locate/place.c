@@ -67,7 +67,7 @@ mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, doubl
 
 mw_location mw__place_in(const mw_mesh *mesh, uint32_t triangle, mw_point q)
 {
-    const mw_triangle *t = &mesh->tri[triangle];
+    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, triangle)];
     mw_point corner[3] = {mesh->point[t->v[0]], mesh->point[t->v[1]], mesh->point[t->v[2]]};
     double area[3];
     mw__areas(corner, q, area);

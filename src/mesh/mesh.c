@@ -1,5 +1,7 @@
 /* mesh.c - a planar mesh from arrays: copies, orientation, neighbours, fields. */
 #include "mesh/mesh.h"
+#include "base/threads.h"
+#include "mesh/layout.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -65,57 +67,98 @@ mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tole
     return MW_OK;
 }
 
-/* Store the triangle counter-clockwise; count those that were not, and those without area. */
-static void orient(mw_mesh *mesh, mw_triangle *t)
+/* Store the triangle counter-clockwise. Returns its area (twice, rounded, of the right sign) as it was given. */
+static double orient(const mw_mesh *mesh, mw_triangle *t)
 {
     mw_point a = mesh->point[t->v[0]], b = mesh->point[t->v[1]], c = mesh->point[t->v[2]];
     double area = mw__is_finite(a) && mw__is_finite(b) && mw__is_finite(c) ? mw__orient2d(a, b, c) : 0;
-    if (area == 0) mesh->flat_count++;
-    if (area >= 0) return;
+    if (area >= 0) return area;
     uint32_t v = t->v[1];
     t->v[1] = t->v[2];
     t->v[2] = v;
     t->user |= MW_FLIPPED;
-    mesh->flipped_count++;
+    return area;
 }
 
-mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, mw_error *error)
+/* All of them; count those that were clockwise, and those without area. */
+static void orient_all(mw_mesh *mesh, uint32_t threads)
 {
-    const mw_triangle *t = &tri[mw__link_triangle(extra)];
-    uint32_t e = mw__link_edge(extra);
-    return mw__fail_at(error, mw__link_triangle(extra), t->v[e],
+    enum { WORTHWHILE = 1 << 14 };
+    uint32_t flat = 0, flipped = 0;
+    int team = mw__team(threads, mesh->tri_count / WORTHWHILE + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(+ : flat, flipped)
+#endif
+    for (uint32_t t = 0; t < mesh->tri_count; t++) {
+        double area = orient(mesh, &mesh->tri[t]);
+        flat += area == 0;
+        flipped += area < 0;
+    }
+    mesh->flat_count = flat;
+    mesh->flipped_count = flipped;
+}
+
+mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to, mw_error *error)
+{
+    uint32_t user = tri[mw__link_triangle(extra)].user;
+    return mw__fail_at(error, user & MW_USER_MASK, from,
                        "triangle %" PRIu32 ": two others share its edge %" PRIu32 ", from vertex %" PRIu32
                        " to %" PRIu32,
-                       mw__link_triangle(extra), mw__user_edge(t->user, e), t->v[e], t->v[e + 1]);
+                       user & MW_USER_MASK, mw__user_edge(user, mw__link_edge(extra)), from, to);
 }
 
-static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
+static mw_status refuse_shared(const mw_mesh *mesh, uint32_t extra, mw_error *error)
+{
+    const uint32_t *v = &mesh->tri[mw__link_triangle(extra)].v[mw__link_edge(extra)];
+    return mw__fail_shared(mesh->tri, extra, mw__users_vertex(mesh, v[0]), mw__users_vertex(mesh, v[1]), error);
+}
+
+/* In the order of the arrays. */
+static mw_status copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
 {
     copy_points(mesh, arrays);
-    for (uint32_t t = 0; t < mesh->tri_count; t++) {
-        mw_status status = mw__copy_triangle(arrays, 2, mesh->tolerant, t, &mesh->tri[t], error);
-        if (status) return status;
-        orient(mesh, &mesh->tri[t]);
+    mw_status status = MW_OK;
+    for (uint32_t t = 0; t < mesh->tri_count && !status; t++)
+        status = mw__copy_triangle(arrays, 2, mesh->tolerant, t, &mesh->tri[t], error);
+    return status;
+}
+
+static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, const mw_mesh_options *options, mw_error *error)
+{
+    mw_parts parts = {0};
+    bool lay_out = !mesh->tolerant && (options->layout == 1 || (options->layout == 0 && mw__is_scattered(arrays)));
+    mw_status status =
+        lay_out ? mw__lay_out(mesh, arrays, options->threads, &parts, error) : copy_arrays(mesh, arrays, error);
+    uint32_t extra = MW_NONE;
+    if (!status) {
+        orient_all(mesh, options->threads);
+        if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, lay_out ? &parts : NULL, options->threads,
+                         &extra))
+            status = mw__fail_memory(error);
     }
-    uint32_t extra;
-    if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &extra)) return mw__fail_memory(error);
-    return extra == MW_NONE || mesh->tolerant ? MW_OK : mw__fail_shared(mesh->tri, extra, error);
+    free(parts.first);
+    if (!status && extra != MW_NONE && !mesh->tolerant) status = refuse_shared(mesh, extra, error);
+    return status;
 }
 
 mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out, mw_error *error)
 {
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");
     *out = NULL;
+    static const mw_mesh_options defaults;
+    if (!options) options = &defaults;
+    if (options->layout < 0 || options->layout > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
     mw_status status = mw__check_arguments(arrays, 2, error);
     if (status) return status;
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     if (!mesh) return mw__fail_memory(error);
-    mesh->tolerant = options && options->tolerant;
+    mesh->tolerant = options->tolerant;
     mesh->point_count = (uint32_t)arrays->point_count;
     mesh->tri_count = (uint32_t)arrays->triangle_count;
     mesh->point = mw__alloc_lines(mesh->point_count, sizeof *mesh->point);
     mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
-    status = mesh->point && mesh->tri ? fill(mesh, arrays, error) : mw__fail_memory(error);
+    status = mesh->point && mesh->tri ? fill(mesh, arrays, options, error) : mw__fail_memory(error);
     if (status)
         mw_mesh_destroy(mesh);
     else
@@ -132,6 +175,9 @@ void mw_mesh_destroy(mw_mesh *mesh)
     }
     free(mesh->field);
     free(mesh->tri);
+    free(mesh->triangle_place);
+    free(mesh->vertex_place);
+    free(mesh->users_vertex);
     free(mesh->point);
     free(mesh);
 }
@@ -148,28 +194,32 @@ uint32_t mw_mesh_triangle_count(const mw_mesh *mesh)
 
 void mw_mesh_vertex(const mw_mesh *mesh, uint32_t vertex, double point[2])
 {
-    point[0] = mesh->point[vertex].x;
-    point[1] = mesh->point[vertex].y;
+    mw_point p = mesh->point[mw__vertex_place(mesh, vertex)];
+    point[0] = p.x;
+    point[1] = p.y;
 }
 
 void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t vertices[3])
 {
-    const mw_triangle *t = &mesh->tri[triangle];
-    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(t->user, k)] = t->v[k];
+    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, triangle)];
+    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(t->user, k)] = mw__users_vertex(mesh, t->v[k]);
 }
 
 uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge, unsigned *edge)
 {
-    const mw_triangle *t = &mesh->tri[triangle];
+    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, triangle)];
     uint32_t link = t->link[mw__user_edge(t->user, local_edge)]; /* the exchange is its own inverse */
     if (link == MW_NONE) return MW_NONE;
-    uint32_t other = mw__link_triangle(link);
-    if (edge) *edge = mw__user_edge(mesh->tri[other].user, mw__link_edge(link));
-    return other;
+    uint32_t user = mesh->tri[mw__link_triangle(link)].user;
+    if (edge) *edge = mw__user_edge(user, mw__link_edge(link));
+    return user & MW_USER_MASK;
 }
 
 size_t mw_mesh_bytes(const mw_mesh *mesh)
 {
-    return sizeof *mesh + mesh->point_count * (sizeof *mesh->point + mesh->field_count * sizeof(double)) +
-           mesh->tri_count * sizeof *mesh->tri + mesh->field_count * sizeof *mesh->field;
+    size_t vertex = sizeof *mesh->point + mesh->field_count * sizeof(double), triangle = sizeof *mesh->tri;
+    if (mesh->vertex_place) vertex += sizeof *mesh->vertex_place + sizeof *mesh->users_vertex;
+    if (mesh->triangle_place) triangle += sizeof *mesh->triangle_place;
+    return sizeof *mesh + mesh->point_count * vertex + mesh->tri_count * triangle +
+           mesh->field_count * sizeof *mesh->field;
 }

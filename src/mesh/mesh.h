@@ -73,15 +73,37 @@ typedef struct mw_field {
     double *values;
 } mw_field;
 
+/* Vertices and triangles may be in another order than the user's, laid out along a curve (layout.h). Within the library they
+ * go by their places in these arrays; users know their own numbers only. */
 struct mw_mesh {
     mw_point *point;
-    mw_triangle *tri; /* tri[t].user is t, with MW_FLIPPED where it applies; flat triangles are among them */
+    mw_triangle *tri; /* tri[t].user is the user's number, with MW_FLIPPED where it applies; flat ones are among them */
+    uint32_t *triangle_place; /* per triangle by the user's number: its place; NULL: they are the same  */
+    uint32_t *vertex_place;   /* per vertex by the user's number: its place; NULL: they are the same    */
+    uint32_t *users_vertex;   /* per vertex by its place: the user's number; NULL with vertex_place     */
     uint32_t point_count, tri_count;
     uint32_t flat_count, flipped_count;
     mw_field *field;
     size_t field_count;
     bool tolerant; /* may hold triangles that are not usable: see mw_mesh_options */
 };
+
+static MW_INLINE uint32_t mw__triangle_place(const mw_mesh *mesh, uint32_t users)
+{
+    return mesh->triangle_place ? mesh->triangle_place[users] : users;
+}
+static MW_INLINE uint32_t mw__vertex_place(const mw_mesh *mesh, uint32_t users)
+{
+    return mesh->vertex_place ? mesh->vertex_place[users] : users;
+}
+static MW_INLINE uint32_t mw__users_triangle(const mw_mesh *mesh, uint32_t place)
+{
+    return mesh->tri[place].user & MW_USER_MASK;
+}
+static MW_INLINE uint32_t mw__users_vertex(const mw_mesh *mesh, uint32_t place)
+{
+    return mesh->users_vertex ? mesh->users_vertex[place] : place;
+}
 
 /* Number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
 uint32_t mw__index_at(const mw_arrays *arrays, size_t i);
@@ -94,14 +116,21 @@ mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_erro
 mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tolerant, uint32_t t, mw_triangle *tri,
                             mw_error *error);
 
-/* The error of an edge that has two triangles already, the link `extra` names it. */
-mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, mw_error *error);
+/* The error of an edge that has two triangles already; the link `extra` names it, from and to are its vertices by the
+ * user's numbers. */
+mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to, mw_error *error);
 
-/* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). An edge of more than two
- * triangles links the first two; *extra (may be NULL) is set to a link to a further one, MW_NONE if there is none.
- * Links two triangles whatever their orientation, but none that names a vertex twice. Returns false when out of
- * memory. */
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *extra);
+typedef struct mw_parts mw_parts; /* layout.h */
+
+/* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n).
+ *   parts   of a mesh that is laid out; else NULL, and one thread does it
+ *   threads 0 = as OpenMP gives
+ *   extra   set to a link to the third or a further triangle of an edge, the one of the lowest user's number; MW_NONE if
+ *           there is none. May be NULL
+ * An edge of more than two triangles links the first two. Links two triangles whatever their orientation, but none that
+ * names a vertex twice; does not write to links of edges that have one triangle. Returns false when out of memory. */
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, const mw_parts *parts, uint32_t threads,
+                 uint32_t *extra);
 
 static MW_INLINE bool mw__is_finite(mw_point p)
 {

@@ -60,12 +60,19 @@ bool mw__order_vertices(const mw_triangle *tri, const uint32_t *triangle_order, 
     return true;
 }
 
+static void name_as_user(const mw_mesh *mesh, uint32_t *triangles, uint32_t *vertices)
+{
+    for (uint32_t i = 0; triangles && i < mesh->tri_count; i++) triangles[i] = mw__users_triangle(mesh, triangles[i]);
+    for (uint32_t i = 0; vertices && i < mesh->point_count; i++) vertices[i] = mw__users_vertex(mesh, vertices[i]);
+}
+
 mw_status mw_mesh_hilbert_order(const mw_mesh *mesh, uint32_t *triangles, uint32_t *vertices, mw_error *error)
 {
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     uint32_t *order = triangles ? triangles : mw__alloc(mesh->tri_count, sizeof *order);
     bool done = order && mw__order_triangles(mesh->point, mesh->tri, mesh->tri_count, order);
     if (done && vertices) done = mw__order_vertices(mesh->tri, order, mesh->tri_count, mesh->point_count, vertices);
+    if (done) name_as_user(mesh, triangles, vertices);
     if (!triangles) free(order);
     return done ? MW_OK : mw__fail_memory(error);
 }

@@ -1,0 +1,173 @@
+/* curve.c - points in order along a Hilbert curve.
+ *
+ * Keys are parted by their upper bits first, so that each part is sorted in cache, by any thread. Where many points share
+ * a cell of the curve, they are sorted again along a curve of their own. */
+#include "mesh/curve.h"
+
+#include "base/hilbert.h"
+#include "base/threads.h"
+
+#include <stdlib.h>
+
+enum {
+    CHUNK = 1 << 16, /* points that one thread takes at a time                                         */
+    SMALL = 1 << 12, /* points of a part, about                                                        */
+    MOST_BITS = 12,  /* of the key, by which it is parted                                              */
+    LONG_RUN = 256   /* runs of equal keys longer than this are sorted again on a finer curve          */
+};
+
+typedef struct extent {
+    double low[2], high[2];
+} extent;
+
+static void widen(extent *e, mw_point p)
+{
+    if (!isfinite(p.x) || !isfinite(p.y)) return;
+    e->low[0] = fmin(e->low[0], p.x);
+    e->low[1] = fmin(e->low[1], p.y);
+    e->high[0] = fmax(e->high[0], p.x);
+    e->high[1] = fmax(e->high[1], p.y);
+}
+
+/* Where no point is finite the extent is empty, and so is the one of all keys. */
+static extent find_extent(const mw_point *points, uint32_t n, int team)
+{
+    extent all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    (void)team;
+#ifdef _OPENMP
+#pragma omp parallel num_threads(team) if (team > 1)
+#endif
+    {
+        extent mine = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+#ifdef _OPENMP
+#pragma omp for schedule(static) nowait
+#endif
+        for (uint32_t i = 0; i < n; i++) widen(&mine, points[i]);
+#ifdef _OPENMP
+#pragma omp critical(mw_extent)
+#endif
+        {
+            widen(&all, (mw_point){mine.low[0], mine.low[1]});
+            widen(&all, (mw_point){mine.high[0], mine.high[1]});
+        }
+    }
+    return all;
+}
+
+/* Sort along the curve of an extent. Recurses into crowded cells: each has at most 2^-16 of the extent, so doubles end
+ * this after some 130 levels, and in any case where all points fall into one cell. */
+static void sort_crowd(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n);
+
+static void sort_part(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n, bool again)
+{
+    mw__sort_keys(keys, scratch, n);
+    for (size_t from = 0, to; from < n; from = to) {
+        for (to = from + 1; to < n && keys[to].key == keys[from].key;) to++;
+        if (to - from > LONG_RUN && (to - from < n || again)) sort_crowd(points, keys + from, scratch, to - from);
+    }
+}
+
+static void sort_crowd(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n)
+{
+    extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (size_t i = 0; i < n; i++) widen(&e, points[keys[i].item]);
+    mw_hilbert hilbert = mw__hilbert(e.low, e.high);
+    for (size_t i = 0; i < n; i++) {
+        mw_point p = points[keys[i].item];
+        keys[i].key = mw__hilbert_key(&hilbert, p.x, p.y);
+    }
+    sort_part(points, keys, scratch, n, false);
+}
+
+typedef struct sorting {
+    const mw_point *points;
+    uint32_t n, chunks, buckets, shift;
+    int team;
+    mw_key *keys, *scratch;
+    uint32_t *first; /* per chunk and bucket: their number, then where they go */
+} sorting;
+
+/* Keys of one chunk, and how many of them go to each bucket. */
+static void make_keys(const sorting *s, const mw_hilbert *hilbert, uint32_t chunk)
+{
+    uint32_t *count = s->first + (size_t)chunk * s->buckets, end = (chunk + 1) * CHUNK;
+    for (uint32_t i = chunk * CHUNK; i < s->n && i < end; i++) {
+        uint32_t key = mw__hilbert_key(hilbert, s->points[i].x, s->points[i].y);
+        s->keys[i] = (mw_key){key, i};
+        count[key >> s->shift]++;
+    }
+}
+
+/* Bucket by bucket, chunk by chunk: so equal keys keep the order of the points. */
+static void add_up(const sorting *s)
+{
+    uint32_t sum = 0;
+    for (uint32_t b = 0; b < s->buckets; b++)
+        for (uint32_t c = 0; c < s->chunks; c++) {
+            uint32_t *first = &s->first[(size_t)c * s->buckets + b], here = *first;
+            *first = sum;
+            sum += here;
+        }
+}
+
+static void part_keys(const sorting *s, uint32_t chunk)
+{
+    uint32_t *next = s->first + (size_t)chunk * s->buckets, end = (chunk + 1) * CHUNK;
+    for (uint32_t i = chunk * CHUNK; i < s->n && i < end; i++)
+        s->scratch[next[s->keys[i].key >> s->shift]++] = s->keys[i];
+}
+
+/* The parting leaves, for the last chunk, the end of each bucket. */
+static void sort_bucket(const sorting *s, uint32_t b, uint32_t *order)
+{
+    const uint32_t *end = s->first + (size_t)(s->chunks - 1) * s->buckets;
+    uint32_t from = b > 0 ? end[b - 1] : 0;
+    sort_part(s->points, s->scratch + from, s->keys + from, end[b] - from, true);
+    for (uint32_t i = from; i < end[b]; i++) order[i] = s->scratch[i].item;
+}
+
+static void sort_all(const sorting *s, uint32_t *order)
+{
+    extent e = find_extent(s->points, s->n, s->team);
+    mw_hilbert hilbert = mw__hilbert(e.low, e.high);
+#ifdef _OPENMP
+#pragma omp parallel num_threads(s->team) if (s->team > 1)
+#endif
+    {
+#ifdef _OPENMP
+#pragma omp for schedule(static)
+#endif
+        for (uint32_t c = 0; c < s->chunks; c++) make_keys(s, &hilbert, c);
+#ifdef _OPENMP
+#pragma omp single
+#endif
+        add_up(s);
+#ifdef _OPENMP
+#pragma omp for schedule(static)
+#endif
+        for (uint32_t c = 0; c < s->chunks; c++) part_keys(s, c);
+#ifdef _OPENMP
+#pragma omp for schedule(dynamic, 8)
+#endif
+        for (uint32_t b = 0; b < s->buckets; b++) sort_bucket(s, b, order);
+    }
+}
+
+bool mw__curve_order(const mw_point *points, uint32_t n, uint32_t threads, uint32_t *order)
+{
+    sorting s = {.points = points, .n = n, .chunks = (n + CHUNK - 1) / CHUNK, .shift = 32};
+    uint32_t bits = 1;
+    while (bits < MOST_BITS && n >> bits > SMALL) bits++;
+    s.shift -= bits;
+    s.buckets = UINT32_C(1) << bits;
+    s.team = mw__team(threads, s.chunks);
+    s.keys = mw__alloc(n, sizeof *s.keys);
+    s.scratch = mw__alloc(n, sizeof *s.scratch);
+    s.first = mw__calloc((size_t)s.chunks * s.buckets, sizeof *s.first);
+    bool done = s.keys && s.scratch && s.first;
+    if (done && n > 0) sort_all(&s, order);
+    free(s.keys);
+    free(s.scratch);
+    free(s.first);
+    return done;
+}
