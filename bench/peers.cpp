@@ -16,6 +16,7 @@ const engine_code *peers_engine(engine_id id)
 #ifdef MW_PEER_BOOST
         bench::boost_engine,
 #endif
+        bench::python_engine,
     };
     for (Find find : finds)
         if (const engine_code *code = find(id)) return code;

@@ -19,6 +19,7 @@ const engine_code *cgal_engine(engine_id id);
 const engine_code *embree_engine(engine_id id);
 const engine_code *geos_engine(engine_id id);
 const engine_code *boost_engine(engine_id id);
+const engine_code *python_engine(engine_id id);
 
 // Memory in use, of libraries that do not tell how much they take.
 inline size_t heap_bytes()
