@@ -14,7 +14,7 @@ static bool find_owners(mw_tiling *tiling)
     for (uint32_t v = 0; v < tiling->point_count; v++) tiling->owner[v] = MW_NONE;
     for (uint32_t t = 0; t < tiling->tri_count; t++) {
         const mw_triangle *tri = &tiling->tri[t];
-        if (tri->user & MW_GHOST || !mw__has_area(tiling->point, tri)) continue;
+        if (tri->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tri))) continue;
         uint32_t user = tri->user & MW_USER_MASK;
         for (int k = 0; k < 3; k++)
             if (user < tiling->owner[tri->v[k]]) tiling->owner[tri->v[k]] = user;

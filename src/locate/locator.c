@@ -79,6 +79,21 @@ static mw_status make_tiling(mw_locator *locator, const mw_locator_options *opti
                : mw__tiling_create_open(locator->mesh, options->any, &locator->tiling, error);
 }
 
+/* Of the vertices that a triangle with an area has. */
+static void find_extent(const mw_tiling *tiling, double low[2], double high[2])
+{
+    low[0] = low[1] = INFINITY;
+    high[0] = high[1] = -INFINITY;
+    for (uint32_t v = 0; v < tiling->point_count; v++) {
+        if (tiling->owner[v] == MW_NONE) continue;
+        const double p[2] = {tiling->point[v].x, tiling->point[v].y};
+        for (int k = 0; k < 2; k++) {
+            if (p[k] < low[k]) low[k] = p[k];
+            if (p[k] > high[k]) high[k] = p[k];
+        }
+    }
+}
+
 static mw_status prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
     mw_tiling *tiling = &locator->tiling;
@@ -100,7 +115,7 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
         if (!mw__border_create(&locator->border, locator->mesh, tiling)) return mw__fail_memory(error);
         locator->has_border = true;
     }
-    mw__extent(tiling->point, tiling->tri, tiling->tri_count, locator->low, locator->high);
+    find_extent(tiling, locator->low, locator->high);
     choose_walks(locator);
     locator->centre = mw__start_centre(tiling, locator->low, locator->high);
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];

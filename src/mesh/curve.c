@@ -23,10 +23,10 @@ typedef struct extent {
 static void widen(extent *e, mw_point p)
 {
     if (!isfinite(p.x) || !isfinite(p.y)) return;
-    e->low[0] = fmin(e->low[0], p.x);
-    e->low[1] = fmin(e->low[1], p.y);
-    e->high[0] = fmax(e->high[0], p.x);
-    e->high[1] = fmax(e->high[1], p.y);
+    if (p.x < e->low[0]) e->low[0] = p.x;
+    if (p.y < e->low[1]) e->low[1] = p.y;
+    if (p.x > e->high[0]) e->high[0] = p.x;
+    if (p.y > e->high[1]) e->high[1] = p.y;
 }
 
 /* Where no point is finite the extent is empty, and so is the one of all keys. */
