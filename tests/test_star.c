@@ -190,6 +190,10 @@ static void test_indices_and_batches(void **state)
                 for (size_t i = 0; i < N; i++) answered += first[i].where != MW_BAD;
                 assert_int_equal(counters.queries, answered);
                 assert_true(counters.triangles_visited >= answered);
+                options.count = 0; /* then many walks are in flight */
+                memset(found, 0xff, sizeof *found * N);
+                expect_ok(mw_star_locate_batch(w.star, q, N, 0, &options, found, NULL, &error), "batch", &error);
+                assert_memory_equal(found, first, sizeof *found * N);
                 mw_star_index_destroy(index);
             }
     free(q);

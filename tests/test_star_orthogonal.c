@@ -94,7 +94,7 @@ static void expect_seam(const mw_star *star)
 {
     uint32_t marked = 0;
     for (uint32_t t = 0; t < star->tri_count; t++) {
-        const mw_triangle *facet = &star->tri[t];
+        const mw_star_facet *facet = &star->facet[t];
         double low = INFINITY, high = -INFINITY;
         for (int k = 0; k < 3; k++) {
             low = fmin(low, star->angle[2 * (size_t)facet->v[k]]);
@@ -130,8 +130,8 @@ static void test_seam_of_chords(void **state)
     }
     mw_surface surface = {.point = point, .point_count = 3};
     for (uint32_t turned = 0; turned < 2; turned++) {
-        mw_triangle facet = {.v = {0, 1 + turned, 2 - turned, 0}};
-        mw_star star = {.surface = &surface, .tri = &facet, .angle = angle, .tri_count = 1, .point_count = 3};
+        mw_star_facet facet = {.v = {0, 1 + turned, 2 - turned}};
+        mw_star star = {.surface = &surface, .facet = &facet, .angle = angle, .tri_count = 1, .point_count = 3};
         mw__star_fill_angles(&star);
         assert_int_equal(facet.user, turned ? 0 : MW_SEAM);
     }
@@ -323,6 +323,14 @@ static void test_welded(void **state)
     release_sphere(&s);
 }
 
+/* A facet as stored, by the user's number. */
+static const mw_star_facet *stored(const mw_star *star, uint32_t number)
+{
+    uint32_t t = 0;
+    while ((star->facet[t].user & MW_USER_MASK) != number) t++;
+    return &star->facet[t];
+}
+
 /* As triangles of the plane, facets of the first leg lie across the parallel of the first one's centroid, those of the second
  * across the meridian of q; and a leg ends in the first facet that reaches past its end. */
 static void test_legs(void **state)
@@ -346,21 +354,23 @@ static void test_legs(void **state)
         size_t count = mw_star_path(s.star, &cursor, q, facet, ROOM, NULL);
         size_t walked = (size_t)cursor.counters.triangles;
         assert_true(walked >= 1 && walked <= count && count <= ROOM);
+        const mw_star_facet *begun = stored(s.star, facet[0]);
         for (int k = 0; k < 3; k++) {
-            middle += angle[2 * (size_t)s.star->tri[facet[0]].v[k]] / 3;
-            height += angle[2 * (size_t)s.star->tri[facet[0]].v[k] + 1] / 3;
+            middle += angle[2 * (size_t)begun->v[k]] / 3;
+            height += angle[2 * (size_t)begun->v[k] + 1] / 3;
         }
         bool upright = false;
         for (size_t j = 0; j < walked; j++) {
+            const mw_star_facet *here = stored(s.star, facet[j]);
             double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
             for (int k = 0; k < 3; k++)
                 for (int c = 0; c < 2; c++) {
-                    double a = angle[2 * (size_t)s.star->tri[facet[j]].v[k] + (size_t)c];
+                    double a = angle[2 * (size_t)here->v[k] + (size_t)c];
                     low[c] = fmin(low[c], a);
                     high[c] = fmax(high[c], a);
                 }
             bool level = low[1] - 1e-9 <= height && height <= high[1] + 1e-9, plumb = low[0] <= phi && phi <= high[0];
-            bool seam = s.star->tri[facet[j]].user & MW_SEAM, last = j + 1 == walked, right = upright || level;
+            bool seam = here->user & MW_SEAM, last = j + 1 == walked, right = upright || level;
             if (!upright && (phi < middle ? low[0] <= phi : high[0] >= phi)) {
                 upright = true;
                 turns++;

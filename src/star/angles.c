@@ -22,7 +22,7 @@ static mw_point angles_of(const mw_star *star, uint32_t vertex)
  * their chords differ, and the orthogonal walk could not pass it either. Departure from the thesis: a facet across the
  * seam may be clockwise, too, where its vertex on the far side lies farther north, or south, than both others. So the
  * longitudes tell, too: they are less than a half turn apart in each facet else. */
-static bool is_seam(const mw_star *star, const mw_triangle *t)
+static bool is_seam(const mw_star *star, const mw_star_facet *t)
 {
     mw_point a = angles_of(star, t->v[0]), b = angles_of(star, t->v[1]), c = angles_of(star, t->v[2]);
     double span = fmax(a.x, fmax(b.x, c.x)) - fmin(a.x, fmin(b.x, c.x));
@@ -37,5 +37,5 @@ void mw__star_fill_angles(mw_star *star)
         mw__star_angles(d, &star->angle[2 * (size_t)v], &star->angle[2 * (size_t)v + 1]);
     }
     for (uint32_t t = 0; t < star->tri_count; t++)
-        if (is_seam(star, &star->tri[t])) star->tri[t].user |= MW_SEAM;
+        if (is_seam(star, &star->facet[t])) star->facet[t].user |= MW_SEAM;
 }

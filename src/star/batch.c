@@ -1,7 +1,8 @@
-/* batch.c - many queries: one after the other within the chunk of a thread. */
+/* batch.c - many queries: within the chunk of a thread many walks are in flight. */
 #include "base/batch.h"
 #include "base/random.h"
 #include "star/locate.h"
+#include "star/place.h"
 
 typedef struct batch {
     mw_batch queries;
@@ -10,45 +11,116 @@ typedef struct batch {
     bool chained;          /* each query begins where the one before it in its chunk ended */
 } batch;
 
+/* --- one after the other ------------------------------------------------------------------------------------------ */
+
+static const double *point_of(const mw_batch *queries, uint32_t item)
+{
+    return queries->points + item * queries->stride;
+}
+
+static uint32_t item_of(const mw_batch *queries, uint32_t i)
+{
+    return queries->order ? queries->order[i].item : i;
+}
+
+static void answer_in_turn(const batch *b, uint32_t first, uint32_t end, mw_counters *counters)
+{
+    uint32_t last = MW_NONE;
+    for (uint32_t i = first; i < end; i++) {
+        uint32_t item = item_of(&b->queries, i), none = MW_NONE;
+        uint64_t random = mw__random_seed(b->queries.seed, item);
+        mw__surface_enter(b->star->surface);
+        b->queries.locations[item] = mw__star_answer(b->star, &b->cursor, point_of(&b->queries, item),
+                                                     b->chained ? &last : &none, &random, counters, NULL);
+        mw__surface_leave(b->star->surface);
+    }
+}
+
+/* --- many in flight ----------------------------------------------------------------------------------------------- */
+
+/* Each lane answers a part of the chunk, one query after the other. */
+typedef struct feed {
+    mw_star_feed base;
+    const batch *b;
+    uint32_t next[MW_STAR_LANES], end[MW_STAR_LANES], item[MW_STAR_LANES], last[MW_STAR_LANES];
+} feed;
+
+static void prefetch(const mw_batch *queries, uint32_t item)
+{
+    const char *point = (const char *)point_of(queries, item), *location = (const char *)&queries->locations[item];
+    __builtin_prefetch(point);
+    __builtin_prefetch(point + 2 * sizeof(double));
+    __builtin_prefetch(location, 1);
+    __builtin_prefetch(location + sizeof(mw_location) - 1, 1);
+}
+
+static bool deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *walk, mw_star_verdict verdict)
+{
+    feed *f = (feed *)base; /* its first member */
+    const batch *b = f->b;
+    if (verdict != MW_STAR_GO) {
+        b->queries.locations[f->item[lane]] = mw__star_end(&b->cursor, walk, verdict);
+        if (b->chained) f->last[lane] = walk->t;
+    }
+    while (f->next[lane] < f->end[lane]) {
+        uint32_t item = f->item[lane] = item_of(&b->queries, f->next[lane]++);
+        if (f->next[lane] < f->end[lane]) prefetch(&b->queries, item_of(&b->queries, f->next[lane]));
+        const double *point = point_of(&b->queries, item);
+        if (MW_LIKELY(mw__star_answerable(b->star, point))) {
+            uint64_t random = mw__random_seed(b->queries.seed, item);
+            mw__star_begin(walk, b->star, &b->cursor, point, f->last[lane], random, NULL);
+            return true;
+        }
+        b->queries.locations[item] = mw__star_nowhere();
+    }
+    return false;
+}
+
+static void answer_in_flight(const batch *b, uint32_t first, uint32_t count, uint32_t lanes)
+{
+    feed f = {.base = {deliver}, .b = b};
+    for (uint32_t i = 0; i < lanes; i++) {
+        f.next[i] = first + (uint32_t)((uint64_t)count * i / lanes);
+        f.end[i] = first + (uint32_t)((uint64_t)count * (i + 1) / lanes);
+        f.last[i] = MW_NONE;
+    }
+    mw__star_kernels_of(&b->cursor)->ring(&f.base, lanes);
+}
+
+/* --- a chunk ------------------------------------------------------------------------------------------------------ */
+
+/* A part of a chunk is not so short that to find its first facet, which the part before it knows, would cost much. */
+#define LEAST_PART 128
+
+/* In parts, which are the same where each query is counted, or passes a gate, and so comes after the one before. */
 static mw_counters answer(const mw_batch *queries, uint32_t first, uint32_t count)
 {
     const batch *b = (const batch *)queries; /* its first member */
     mw_counters counters = {0};
-    uint32_t last = MW_NONE;
-    for (uint32_t i = first; i < first + count; i++) {
-        uint32_t item = queries->order ? queries->order[i].item : i, none = MW_NONE;
-        uint64_t random = mw__random_seed(queries->seed, item);
-        mw__surface_enter(b->star->surface);
-        queries->locations[item] = mw__star_answer(b->star, &b->cursor, queries->points + item * queries->stride,
-                                                   b->chained ? &last : &none, &random, &counters, NULL);
-        mw__surface_leave(b->star->surface);
+    uint32_t parts = count / LEAST_PART < MW_STAR_LANES ? count / LEAST_PART : MW_STAR_LANES;
+    if (parts > 1 && !b->cursor.count && !b->star->surface->gate) {
+        answer_in_flight(b, first, count, parts);
+        return counters;
     }
+    if (parts == 0) parts = 1;
+    for (uint64_t i = 0; i < parts; i++)
+        answer_in_turn(b, first + (uint32_t)(count * i / parts), first + (uint32_t)(count * (i + 1) / parts),
+                       &counters);
     return counters;
 }
 
-/* The direction of a query on the regular octahedron, its lower half folded out: a square from -1 to 1. */
-static void unfold(const mw_star *star, const double q[3], double *x, double *y)
-{
-    double d[3], sum = 0;
-    for (int k = 0; k < 3; k++) {
-        d[k] = q[k] / 2 - star->centre[k] / 2;
-        sum += fabs(d[k]);
-    }
-    double u = d[0] / sum, v = d[1] / sum;
-    bool below = d[2] < 0;
-    *x = below ? copysign(1 - fabs(v), u) : u;
-    *y = below ? copysign(1 - fabs(u), v) : v;
-}
+/* --- order -------------------------------------------------------------------------------------------------------- */
 
-/* Along a Hilbert curve of that square. */
+/* Along a Hilbert curve over the sphere, the same as that of the facets. */
 static void sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
 {
     static const double low[2] = {-1, -1}, high[2] = {1, 1};
     const mw_star *star = ((const batch *)queries)->star;
     mw_hilbert hilbert = mw__hilbert(low, high);
     for (size_t i = 0; i < n; i++) {
-        double x, y;
-        unfold(star, queries->points + i * queries->stride, &x, &y);
+        double d[3], x, y;
+        for (int k = 0; k < 3; k++) d[k] = queries->points[i * queries->stride + (size_t)k] / 2 - star->centre[k] / 2;
+        mw__star_unfold(d, &x, &y);
         keys[i] = (mw_key){mw__hilbert_key(&hilbert, x, y), (uint32_t)i};
     }
     mw__sort_keys(keys, scratch, n);

@@ -13,15 +13,34 @@ static const mw_star_kernels *const kernels[MW_STAR_WALK_COUNT] = {
 
 /* --- walks -------------------------------------------------------------------------------------------------------- */
 
-static mw_star_walk begin(const mw_star *star, const double q[3], uint64_t random, mw_star_work *work)
+bool mw__star_beyond(const mw_star *star, const mw_star_facet *facet, uint32_t e, const double q[3])
 {
-    mw_star_walk walk = {.star = star, .point = star->surface->point, .tri = star->tri, .random = random, .work = work};
+    const double *c = star->centre, d[3] = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
+    const double *a = mw__surface_point(star->surface, facet->v[e]);
+    return mw__star_turn(a, mw__surface_point(star->surface, facet->v[mw__next(e)]), q, d, c) < 0;
+}
+
+/* Squares of such lengths, and what counts of their parts, are normal doubles. */
+#define SHORT 0x1p-200
+#define LONG 0x1p200
+
+/* In place: what a walk remembers is too long to be handed about. */
+static void begin(mw_star_walk *walk, const mw_star *star, const double q[3], uint64_t random, mw_star_work *work)
+{
+    double d[3], square = 0;
+    walk->star = star;
+    walk->point = star->surface->point;
+    walk->facet = star->facet;
+    walk->random = random;
+    walk->work = work;
     for (int k = 0; k < 3; k++) {
-        walk.c[k] = star->centre[k];
-        walk.q[k] = q[k];
-        walk.d[k] = q[k] - star->centre[k];
+        walk->c[k] = star->centre[k];
+        walk->q[k] = q[k];
+        walk->d[k] = d[k] = q[k] - star->centre[k];
+        square += d[k] * d[k];
     }
-    return walk;
+    double scale = square > SHORT * SHORT && square < LONG * LONG ? 1 / sqrt(square) : 0;
+    for (int k = 0; k < 3; k++) walk->f[k] = (float)(scale * d[k]);
 }
 
 /* Let the walk begin in facet t, or go on there with another kernel, in a stage of its own. */
@@ -35,17 +54,10 @@ static void enter(mw_star_walk *walk, uint32_t t, uint32_t stage, uint32_t fuel)
     if (walk->work) walk->work->triangles[stage]++;
 }
 
-/* About 45 times the square root of the number of facets is far above the length of any walk on a Delaunay sphere of
- * spread points; a constant for small ones. Who needs more cycles, or nearly. */
-static uint32_t fuel(const mw_star *star)
-{
-    return (uint32_t)(4096 + 45 * sqrt(star->tri_count));
-}
-
 /* Of a facet in pieces each counts. */
 static void record(mw_star_trace *trace, const mw_star_walk *walk)
 {
-    if (trace->count++ < trace->capacity) trace->facet[trace->count - 1] = walk->tri[walk->t].user & MW_USER_MASK;
+    if (trace->count++ < trace->capacity) trace->facet[trace->count - 1] = walk->facet[walk->t].user & MW_USER_MASK;
 }
 
 /* Step by step, for those who want to see each facet; else at full speed. */
@@ -68,17 +80,12 @@ static void go_straight(mw_star_walk *walk, mw_star_trace *trace)
     run(walk, &mw__star_straight, trace);
 }
 
-/* To the facet that the ray meets, from facet t; what a cheap walk leaves is ended by `finish`. Returns true if another
- * walk had to end what these could not. */
-static bool walk_to(mw_star_walk *walk, const mw_star_kernels *kernel, const mw_star_kernels *finish, uint32_t t,
-                    mw_star_trace *trace)
+/* From where a walk ended to the facet that the ray meets: what a cheap one leaves is ended by `finish`. Returns true if
+ * another walk had to end what these could not. */
+static bool go_on(mw_star_walk *walk, mw_star_verdict verdict, const mw_star_kernels *finish, mw_star_trace *trace)
 {
-    enter(walk, t, MW_STAR_STAGE_WALK, kernel == &mw__star_straight ? UINT32_MAX : fuel(walk->star));
-    if (walk->work) walk->work->visited++;
-    if (trace) record(trace, walk);
-    mw_star_verdict verdict = run(walk, kernel, trace);
     if (verdict == MW_STAR_CLOSE) {
-        enter(walk, walk->t, MW_STAR_STAGE_FINAL, fuel(walk->star));
+        enter(walk, walk->t, MW_STAR_STAGE_FINAL, walk->star->fuel);
         verdict = run(walk, finish, trace);
     }
     if (MW_LIKELY(verdict == MW_STAR_FOUND)) return false;
@@ -91,7 +98,7 @@ static bool walk_to(mw_star_walk *walk, const mw_star_kernels *kernel, const mw_
 /* The ray meets facet t: the lowest-numbered of those that it meets. */
 static uint32_t owner(const mw_star *star, uint32_t t, const double area[3])
 {
-    const mw_triangle *facet = &star->tri[t];
+    const mw_star_facet *facet = &star->facet[t];
     uint32_t zeros = 0, on = 0, at = 0, own = facet->user & MW_USER_MASK;
     for (uint32_t k = 0; k < 3; k++)
         if (area[k] == 0) {
@@ -102,7 +109,7 @@ static uint32_t owner(const mw_star *star, uint32_t t, const double area[3])
         }
     if (MW_LIKELY(zeros == 0)) return own;
     if (zeros == 2) return star->owner[facet->v[at]];
-    uint32_t across = star->tri[mw__link_triangle(facet->link[on])].user & MW_USER_MASK;
+    uint32_t across = star->facet[mw__link_triangle(facet->link[on])].user & MW_USER_MASK;
     return across < own ? across : own;
 }
 
@@ -110,11 +117,10 @@ static uint32_t owner(const mw_star *star, uint32_t t, const double area[3])
 static mw_location settle(const mw_star *star, uint32_t t, const double q[3])
 {
     double area[3];
-    mw__star_areas(star, &star->tri[t], q, area);
+    mw__star_areas(star, star->facet[t].v, q, area);
     uint32_t number = owner(star, t, area);
-    const mw_triangle *given = &star->surface->tri[number], *stored = &star->tri[t];
-    bool same = given->v[0] == stored->v[0] && given->v[1] == stored->v[1] && given->v[2] == stored->v[2];
-    if (!same) mw__star_areas(star, given, q, area); /* another one, or turned round */
+    if (MW_UNLIKELY(number != star->facet[t].user)) /* another one, or with marks */
+        mw__star_areas(star, star->surface->tri[number].v, q, area);
     return mw__star_place(star, number, q, area);
 }
 
@@ -146,20 +152,41 @@ static bool is_centre(const mw_star *star, const double q[3])
     return q[0] == c[0] && q[1] == c[1] && q[2] == c[2];
 }
 
-/* Is q a point that a ray goes through, and the star what it was? */
-static bool answerable(const mw_star *star, const double q[3])
+bool mw__star_answerable(const mw_star *star, const double q[3])
 {
     return star->ready && star->version == star->surface->version && mw__is_finite3(q) && !is_centre(star, q);
+}
+
+const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor)
+{
+    return kernels[cursor->walk];
+}
+
+void mw__star_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor, const double q[3],
+                    uint32_t last, uint64_t random, mw_star_work *work)
+{
+    begin(walk, star, q, random, work);
+    uint32_t t = mw__star_start(star, cursor, last, walk);
+    enter(walk, t, MW_STAR_STAGE_WALK, cursor->walk == MW_STAR_WALK_STRAIGHT ? UINT32_MAX : star->fuel);
+    if (work) work->visited++;
+}
+
+mw_location mw__star_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict)
+{
+    go_on(walk, verdict, kernels[cursor->finish], NULL);
+    return settle(walk->star, walk->t, walk->q);
 }
 
 mw_location mw__star_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3], uint32_t *last,
                             uint64_t *random, mw_counters *counters, mw_star_trace *trace)
 {
-    if (MW_UNLIKELY(!answerable(star, point))) return mw__star_nowhere();
+    if (MW_UNLIKELY(!mw__star_answerable(star, point))) return mw__star_nowhere();
     mw_star_work work = {0};
-    mw_star_walk walk = begin(star, point, *random, cursor->count || trace ? &work : NULL);
-    uint32_t t = mw__star_start(star, cursor, *last, &walk);
-    bool handed_over = walk_to(&walk, kernels[cursor->walk], kernels[cursor->finish], t, trace);
+    mw_star_walk walk;
+    mw__star_begin(&walk, star, cursor, point, *last, *random, cursor->count || trace ? &work : NULL);
+    if (trace) record(trace, &walk);
+    mw_star_verdict verdict = run(&walk, kernels[cursor->walk], trace);
+    bool handed_over = go_on(&walk, verdict, kernels[cursor->finish], trace);
     mw_location location = settle(star, walk.t, point);
     if (cursor->count) count(counters, &work, handed_over);
     *last = walk.t;
@@ -172,7 +199,9 @@ uint32_t mw__star_facet(const mw_star *star, const double d[3], uint32_t t)
     double q[3];
     for (int k = 0; k < 3; k++) q[k] = star->centre[k] + star->reach * d[k];
     if (!mw__is_finite3(q) || is_centre(star, q)) return t; /* at the rim of the range of doubles: any facet will do */
-    mw_star_walk walk = begin(star, q, 0, NULL);
-    walk_to(&walk, &mw__star_stochastic, NULL, t, NULL);
+    mw_star_walk walk;
+    begin(&walk, star, q, 0, NULL);
+    enter(&walk, t, MW_STAR_STAGE_WALK, star->fuel);
+    go_on(&walk, run(&walk, &mw__star_stochastic, NULL), NULL, NULL);
     return walk.t;
 }

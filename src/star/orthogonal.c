@@ -28,12 +28,12 @@ enum { FOLLOW = 1, UPRIGHT = 2, WEST = 4, NORTH = 8 }; /* marks in the phase */
 
 static MW_INLINE double longitude(const mw_star_walk *w, uint32_t k)
 {
-    return w->star->angle[2 * (size_t)w->tri[w->t].v[k]];
+    return w->star->angle[2 * (size_t)w->facet[w->t].v[k]];
 }
 
 static MW_INLINE double polar_angle(const mw_star_walk *w, uint32_t k)
 {
-    return w->star->angle[2 * (size_t)w->tri[w->t].v[k] + 1];
+    return w->star->angle[2 * (size_t)w->facet[w->t].v[k] + 1];
 }
 
 static MW_INLINE void count_comparison(mw_star_walk *w, mw_star_policy P)
@@ -61,7 +61,7 @@ static MW_INLINE bool is_left(const mw_star_walk *w, uint32_t k)
 static MW_INLINE bool ends(mw_star_walk *w, uint32_t s, mw_star_policy P)
 {
     count_comparison(w, P);
-    return past(w, s) >= 0 || w->tri[w->t].user & MW_SEAM;
+    return past(w, s) >= 0 || w->facet[w->t].user & MW_SEAM;
 }
 
 /* The edge over which the line leaves the facet: it runs from right to left. MW_STAR_NO_EDGE: the line misses it. */

@@ -1,9 +1,9 @@
 /* place.c - the answer about a ray in a facet that it meets. */
 #include "star/place.h"
 
-static const double *corner(const mw_star *star, const mw_triangle *facet, uint32_t k)
+static const double *corner(const mw_star *star, const uint32_t v[3], uint32_t k)
 {
-    return mw__surface_point(star->surface, facet->v[k]);
+    return mw__surface_point(star->surface, v[k]);
 }
 
 /* What areas may be off by, all told, of their sum. */
@@ -12,6 +12,12 @@ static const double *corner(const mw_star *star, const mw_triangle *facet, uint3
 static double norm(const double v[3])
 {
     return fabs(v[0]) + fabs(v[1]) + fabs(v[2]);
+}
+
+/* Of numbers: no NaN, for which fmax would be called. */
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
 }
 
 /* Determinants of corners that lie far from the centre, but near each other, lose what these have in common. It can
@@ -25,9 +31,9 @@ static double shear(double w[3][3], const double d[3], double area[3])
     double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], long_norm = 0, short_norm = 0;
     for (uint32_t k = 0; k < 3; k++) {
         double t = (w[k][0] * d[0] + w[k][1] * d[1] + w[k][2] * d[2]) / square;
-        long_norm = fmax(long_norm, norm(w[k]) + fabs(t) * norm(d));
+        long_norm = larger(long_norm, norm(w[k]) + fabs(t) * norm(d));
         for (int i = 0; i < 3; i++) w[k][i] -= t * d[i];
-        short_norm = fmax(short_norm, norm(w[k]));
+        short_norm = larger(short_norm, norm(w[k]));
     }
     for (uint32_t k = 0; k < 3; k++) {
         const double *a = w[mw__next(k)], *b = w[mw__prev(k)];
@@ -37,38 +43,38 @@ static double shear(double w[3][3], const double d[3], double area[3])
     return 0x1p-48 * long_norm * short_norm * norm(d);
 }
 
-/* Areas whose signs are known not to be 0. Returns whether they are off by little. */
-static bool refine(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+/* The areas, with what corners have in common taken off. Returns whether they are surely not 0, and off by little. */
+static bool refine(const mw_star *star, const uint32_t v[3], const double q[3], double area[3])
 {
     const double *c = star->centre, d[3] = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
     double w[3][3];
     for (uint32_t k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++) w[k][i] = corner(star, facet, k)[i] - c[i];
+        for (int i = 0; i < 3; i++) w[k][i] = corner(star, v, k)[i] - c[i];
     double off = shear(w, d, area), sum = area[0] + area[1] + area[2];
     bool positive = area[0] > off && area[1] > off && area[2] > off;
     return positive && off > 0x1p-900 && 3 * off < AREA_ERROR * sum;
 }
 
-void mw__star_areas(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+void mw__star_areas(const mw_star *star, const uint32_t v[3], const double q[3], double area[3])
 {
     const double *c = star->centre;
+    if (MW_LIKELY(refine(star, v, q, area))) return;
     double sum = 0, off = 0;
     bool sure = true;
     for (uint32_t k = 0; k < 3; k++) {
         double bound;
-        area[k] =
-            mw__orient3d_rounded(corner(star, facet, mw__next(k)), corner(star, facet, mw__prev(k)), q, c, &bound);
+        area[k] = mw__orient3d_rounded(corner(star, v, mw__next(k)), corner(star, v, mw__prev(k)), q, c, &bound);
         sure = sure && fabs(area[k]) > bound;
         sum += area[k];
         off += bound;
     }
-    if (MW_LIKELY(sure && (off < AREA_ERROR * fabs(sum) || refine(star, facet, q, area)))) return;
+    if (sure && off < AREA_ERROR * fabs(sum)) return;
     for (uint32_t k = 0; k < 3; k++)
-        area[k] = mw__orient3d_exact(corner(star, facet, mw__next(k)), corner(star, facet, mw__prev(k)), q, c);
+        area[k] = mw__orient3d_exact(corner(star, v, mw__next(k)), corner(star, v, mw__prev(k)), q, c);
 }
 
 /* Beyond the range of doubles: the determinants of facet and ray made about 1 each. What was exactly 0 stays so. */
-static void rescale(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3])
+static void rescale(const mw_star *star, const uint32_t facet[3], const double q[3], double area[3])
 {
     const double *c = star->centre;
     double v[4][3], large[2] = {star->reach, 0}, most[2] = {0, 0}; /* of the facet, of the ray */
@@ -98,7 +104,7 @@ mw_location mw__star_place(const mw_star *star, uint32_t number, const double q[
 {
     double sum = area[0] + area[1] + area[2];
     if (MW_UNLIKELY(!(fabs(sum) > 0x1p-900 && fabs(sum) < 0x1p900))) {
-        rescale(star, &star->surface->tri[number], q, area);
+        rescale(star, star->surface->tri[number].v, q, area);
         sum = area[0] + area[1] + area[2];
     }
     mw_location location = {.triangle = number, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};

@@ -4,9 +4,9 @@
 
 #include "star/star.h"
 
-/* The determinants of the edges of a facet that the ray meets, area[k] of that opposite to corner k: exactly 0 where
+/* The determinants of the edges of a facet, with vertices v, that the ray meets, area[k] of that opposite to corner k: exactly 0 where
  * they are 0, off by less than 2^-36 of their sum, all of one sign. */
-void mw__star_areas(const mw_star *star, const mw_triangle *facet, const double q[3], double area[3]);
+void mw__star_areas(const mw_star *star, const uint32_t v[3], const double q[3], double area[3]);
 
 /* The location in a facet of the user's that the ray meets; area as above, of the facet as the user gave it
  * (overwritten). */

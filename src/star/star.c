@@ -64,12 +64,10 @@ static uint32_t find_any(const mw_star *star)
     return star->owner[v];
 }
 
-/* Decide, and fill in all that depends on coordinates and links. */
-static mw_status prepare(mw_star *star, mw_error *error)
+/* Decide, and bring star->tri to what is laid out. */
+static mw_status decide(mw_star *star, mw_error *error)
 {
-    static const double front[3] = {1, 0, 0};
     mw_defects defects = {0};
-    star->ready = false;
     star->place = star->surface->place;
     memcpy(star->tri, star->surface->tri, star->tri_count * sizeof *star->tri);
     mw_status status = mw__star_kernel(star, &defects) ? MW_OK : mw__fail_memory(error);
@@ -83,22 +81,41 @@ static mw_status prepare(mw_star *star, mw_error *error)
         mw__star_remove_flats(star);
     }
     fill_owners(star);
-    uint32_t any = find_any(star);
-    replace_voids(star, any);
+    replace_voids(star, find_any(star));
+    return mw__star_lay_out(star) ? MW_OK : mw__fail_memory(error);
+}
+
+/* Fill in all that depends on coordinates and links. */
+static mw_status prepare(mw_star *star, mw_error *error)
+{
+    static const double front[3] = {1, 0, 0};
+    star->ready = false;
+    star->tri = mw__alloc(star->tri_count, sizeof *star->tri);
+    mw_status status = star->tri ? decide(star, error) : mw__fail_memory(error);
+    free(star->tri);
+    star->tri = NULL;
+    if (status) return status;
     star->reach = measure_reach(star);
-    star->front = mw__star_facet(star, front, any);
+    star->front = mw__star_facet(star, front, 0);
     if (star->angle) mw__star_fill_angles(star);
     star->version = star->surface->version;
     star->ready = true;
     return MW_OK;
 }
 
+/* About 45 times the square root of the number of facets is far above the length of any walk on a Delaunay sphere of
+ * spread points; a constant for small ones. Who needs more cycles, or nearly. */
+static uint32_t fuel(uint32_t facets)
+{
+    return (uint32_t)(4096 + 45 * sqrt(facets));
+}
+
 static bool allocate(mw_star *star, bool angles)
 {
-    star->tri = mw__alloc_lines(star->tri_count, sizeof *star->tri);
+    star->facet = mw__alloc_lines(star->tri_count, sizeof *star->facet);
     star->owner = mw__alloc(star->point_count, sizeof *star->owner);
     if (angles) star->angle = mw__alloc_lines(star->point_count, 2 * sizeof *star->angle);
-    return star->tri && star->owner && (star->angle || !angles);
+    return star->facet && star->owner && (star->angle || !angles);
 }
 
 mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options, mw_star **out, mw_error *error)
@@ -114,6 +131,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     star->surface = surface;
     star->tri_count = surface->tri_count;
     star->point_count = surface->point_count;
+    star->fuel = fuel(surface->tri_count);
     memcpy(star->centre, options->centre, sizeof star->centre);
     mw_status status = allocate(star, options->angles) ? prepare(star, error) : mw__fail_memory(error);
     if (status)
@@ -132,7 +150,7 @@ mw_status mw_star_update(mw_star *star, mw_error *error)
 void mw_star_destroy(mw_star *star)
 {
     if (!star) return;
-    free(star->tri);
+    free(star->facet);
     free(star->own_place);
     free(star->owner);
     free(star->angle);
@@ -144,8 +162,8 @@ void mw_star_describe(const mw_star *star, mw_star_info *info)
     size_t places = star->own_place ? star->point_count * sizeof *star->own_place : 0;
     size_t angles = star->angle ? star->point_count * 2 * sizeof *star->angle : 0;
     *info = (mw_star_info){
-        .bytes = sizeof *star + star->tri_count * sizeof *star->tri + star->point_count * sizeof *star->owner + angles +
-                 places,
+        .bytes = sizeof *star + star->tri_count * sizeof *star->facet + star->point_count * sizeof *star->owner +
+                 angles + places,
         .angle_bytes = angles,
         .flat_facets = star->tri_count - star->area_count,
         .centre = {star->centre[0], star->centre[1], star->centre[2]},

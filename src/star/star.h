@@ -16,9 +16,25 @@
  * outside. */
 #define MW_SEAM MW_GHOST
 
+/* In `user` of a facet: its vertices are not those of the user's facet of that number, or in another order. */
+#define MW_RECAST (UINT32_C(1) << 31)
+
+/* A facet as walks read it: one line of a cache. Links as in mesh.h. */
+typedef struct mw_star_facet {
+    float normal[3][3]; /* of the plane through edge k and the centre, to the inside of the cone: see MW_STAR_SURE */
+    uint32_t v[3], link[3];
+    uint32_t user; /* the user's number, and marks; where flat facets were flipped away, several have the same */
+} mw_star_facet;
+
+/* With n a normal above and f the direction of a ray, both of length 1 and rounded to floats, |n . f| beyond this is sure
+ * of its sign. n is off by 2^-26, as layout.c sees to, and f by 2^-50, both by 2^-24 for the rounding; so n . f by 2.3 2^-24,
+ * and its evaluation, the sum of |n_k f_k| being 1 at most, by 3.1 2^-24. */
+#define MW_STAR_SURE 0x1p-21f
+
 struct mw_star {
     const mw_surface *surface;
-    mw_triangle *tri;      /* `user` is the user's number; where flat facets were flipped away, several have the same */
+    mw_triangle *tri;      /* while it is prepared: the facets in the user's order, oriented; else NULL */
+    mw_star_facet *facet;  /* in the order of layout.c */
     const uint32_t *place; /* per vertex the lowest at its place: the surface's, or its own; NULL: no two are at one */
     uint32_t *own_place;
     uint32_t *owner; /* per vertex the lowest facet that the ray through it meets; MW_NONE: of no facet */
@@ -28,6 +44,7 @@ struct mw_star {
     uint32_t tri_count, point_count;
     uint32_t area_count; /* facets of the user's with an area */
     uint32_t front;      /* the facet at phi = 0, theta = pi/2 */
+    uint32_t fuel;       /* steps of a walk that need not end */
     uint64_t version;    /* of the surface that all this holds for */
     bool ready;          /* it is star-shaped, as far as known */
 };
@@ -60,8 +77,9 @@ typedef struct mw_star_work {
 typedef struct mw_star_walk {
     const mw_star *star;
     const double *point;
-    const mw_triangle *tri;
+    const mw_star_facet *facet;
     double c[3], q[3], d[3]; /* centre, the point looked for, and q - c as rounded                             */
+    float f[3];              /* d made 1 long, as floats; 0 where that is out of their range                   */
     uint32_t t, e;           /* current facet, and its edge by which it was entered; MW_STAR_NO_EDGE at first  */
     uint32_t p;              /* straight: the vertex where the great circle to q begins                        */
     uint32_t phase;          /* of the walks that have some; 0 at first                                        */
@@ -73,14 +91,37 @@ typedef struct mw_star_walk {
     mw_star_work *work; /* of counting kernels; else NULL                                                 */
 } mw_star_walk;
 
-/* The kernel of a walk, by [count]: from its t to its end. */
+/* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict MW_STAR_GO: there is
+ * none yet) and puts the next one in its place; false: no more for this lane. */
+typedef struct mw_star_feed {
+    bool (*deliver)(struct mw_star_feed *feed, uint32_t lane, mw_star_walk *walk, mw_star_verdict verdict);
+} mw_star_feed;
+
+#define MW_STAR_LANES 16
+
+/* The kernels of a walk. */
 typedef struct mw_star_kernels {
-    mw_star_verdict (*run[2])(mw_star_walk *walk);
-    mw_star_verdict (*step)(mw_star_walk *walk); /* one step, counting: for those who look at each facet */
+    mw_star_verdict (*run[2])(mw_star_walk *walk);         /* by [count]: one walk, from its t to its end */
+    void (*ring)(mw_star_feed *feed, uint32_t lane_count); /* up to MW_STAR_LANES walks in turn           */
+    mw_star_verdict (*step)(mw_star_walk *walk);           /* one step, counting: for those who look at each facet */
 } mw_star_kernels;
 
 #define MW_STAR_WALK_ENTRY(id, symbol, name, source, help) extern const mw_star_kernels mw__star_##symbol;
 #include <meshwalk/star_walks.def>
+
+/* --- layout.c ----------------------------------------------------------------------------------------------------- */
+
+/* The direction d, not zero, on the regular octahedron, whose lower half is folded out: a square from -1 to 1. */
+static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
+{
+    double sum = fabs(d[0]) + fabs(d[1]) + fabs(d[2]), u = d[0] / sum, v = d[1] / sum;
+    bool below = d[2] < 0;
+    *x = below ? copysign(1 - fabs(v), u) : u;
+    *y = below ? copysign(1 - fabs(u), v) : v;
+}
+
+/* Fill in star->facet from star->tri. Returns false when out of memory. */
+bool mw__star_lay_out(mw_star *star);
 
 /* --- start.c, grid.c, octahedron.c -------------------------------------------------------------------------------- */
 

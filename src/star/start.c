@@ -6,7 +6,7 @@
  * guide may be. */
 static double nearness(const mw_star *star, const double d[3], uint32_t t)
 {
-    const double *p = mw__surface_point(star->surface, star->tri[t].v[0]);
+    const double *p = mw__surface_point(star->surface, star->facet[t].v[0]);
     double x = p[0] - star->centre[0], y = p[1] - star->centre[1], z = p[2] - star->centre[2];
     return (d[0] * x + d[1] * y + d[2] * z) / sqrt(x * x + y * y + z * z);
 }

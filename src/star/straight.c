@@ -49,7 +49,7 @@ static mw_star_verdict aim(mw_star_walk *w, mw_star_policy P)
         if (same_way(w->c, star_corner(w, k), w->q)) return MW_STAR_FOUND;
         k++;
     }
-    w->p = w->tri[w->t].v[k];
+    w->p = w->facet[w->t].v[k];
     uint32_t next = mw__next(k), prev = mw__prev(k);
     if (side(w, star_corner(w, next), P) > 0) { /* a is left of the arc: turn right, over the edge pa */
         w->phase = TURN_RIGHT;

@@ -6,7 +6,7 @@
 
 /* Always a literal where a kernel is stamped; the compiler deletes what is off. */
 typedef struct mw_star_policy {
-    bool count;
+    bool count, lanes;
 } mw_star_policy;
 
 /* det(a - c, b - c, q - c), with d = q - c as rounded: > 0 where q lies to the left of the great circle from a to b,
@@ -25,15 +25,18 @@ static MW_INLINE double mw__star_turn(const double a[3], const double b[3], cons
     return -mw__orient3d_exact(a, b, q, c);
 }
 
+/* Does the ray through q lie strictly beyond edge e of a facet? For where floats are not sure, which is rare: locate.c. */
+bool mw__star_beyond(const mw_star *star, const mw_star_facet *facet, uint32_t e, const double q[3]);
+
 static MW_INLINE const double *star_vertex(const mw_star_walk *w, uint32_t v)
 {
     return w->point + 3 * (size_t)v;
 }
 
-/* Corner k of the current facet, 0 to 3; and the one off edge e. */
+/* Corner k of the current facet; and the one off edge e. */
 static MW_INLINE const double *star_corner(const mw_star_walk *w, uint32_t k)
 {
-    return star_vertex(w, w->tri[w->t].v[k]);
+    return star_vertex(w, w->facet[w->t].v[k]);
 }
 static MW_INLINE const double *star_apex(const mw_star_walk *w, uint32_t e)
 {
@@ -50,19 +53,45 @@ static MW_INLINE double turn(mw_star_walk *w, const double a[3], const double b[
 /* Of edge e: < 0 where the ray lies strictly beyond it. */
 static MW_INLINE double edge_turn(mw_star_walk *w, uint32_t e, mw_star_policy P)
 {
-    return turn(w, star_corner(w, e), star_corner(w, e + 1), P);
+    return turn(w, star_corner(w, e), star_corner(w, mw__next(e)), P);
 }
 
-/* Does the ray lie strictly beyond edge e, so that its great circle parts it from the facet? */
+/* Does the ray lie strictly beyond edge e, so that its great circle parts it from the facet? Sign-exact. */
 static MW_INLINE bool beyond(mw_star_walk *w, uint32_t e, mw_star_policy P)
 {
-    return edge_turn(w, e, P) < 0;
+    if (P.count) w->work->orient[w->stage]++;
+    const mw_star_facet *facet = &w->facet[w->t];
+    const float *n = facet->normal[e];
+    float side = n[0] * w->f[0] + n[1] * w->f[1] + n[2] * w->f[2];
+    if (MW_LIKELY(fabsf(side) > MW_STAR_SURE)) return side < 0;
+    double q[3] = {w->q[0], w->q[1], w->q[2]}; /* by value: a walk whose address is known leaves the registers */
+    return mw__star_beyond(w->star, facet, e, q);
+}
+
+/* Bit k: the ray lies strictly beyond edge k. Not counted. Never beyond the edge just crossed, which is exact on either
+ * side of it. */
+static MW_INLINE uint32_t edges_beyond(mw_star_walk *w)
+{
+    const mw_star_facet *facet = &w->facet[w->t];
+    float side[3], least = INFINITY;
+    for (uint32_t k = 0; k < 3; k++) {
+        const float *n = facet->normal[k];
+        side[k] = n[0] * w->f[0] + n[1] * w->f[1] + n[2] * w->f[2];
+        least = fabsf(side[k]) < least ? fabsf(side[k]) : least;
+    }
+    uint32_t beyond = 0;
+    for (uint32_t k = 0; k < 3; k++) beyond |= (uint32_t)(side[k] < 0) << k;
+    if (MW_LIKELY(least > MW_STAR_SURE)) return beyond;
+    beyond = 0;
+    double q[3] = {w->q[0], w->q[1], w->q[2]};
+    for (uint32_t k = 0; k < 3; k++) beyond |= (uint32_t)mw__star_beyond(w->star, facet, k, q) << k;
+    return beyond;
 }
 
 /* Go to the facet across edge e: there is one. Reads nothing of it. */
 static MW_INLINE mw_star_verdict cross(mw_star_walk *w, uint32_t e, mw_star_policy P)
 {
-    uint32_t link = w->tri[w->t].link[e];
+    uint32_t link = w->facet[w->t].link[e];
     w->t = mw__link_triangle(link);
     w->e = mw__link_edge(link);
     if (P.count) {
@@ -78,11 +107,17 @@ static MW_INLINE mw_star_verdict leave(mw_star_walk *w, uint32_t e, mw_star_poli
     return beyond(w, e, P) ? cross(w, e, P) : MW_STAR_FOUND;
 }
 
-/* Leave through `first`, or else `second`; otherwise the ray is here. */
+/* Leave through `first`, or else `second`; otherwise the ray is here. Many walks in flight hide the time of a second
+ * test, but not a jump that the processor guessed wrong. */
 static MW_INLINE mw_star_verdict leave_either(mw_star_walk *w, uint32_t first, uint32_t second, mw_star_policy P)
 {
-    if (beyond(w, first, P)) return cross(w, first, P);
-    return leave(w, second, P);
+    if (!P.lanes) {
+        if (beyond(w, first, P)) return cross(w, first, P);
+        return leave(w, second, P);
+    }
+    bool one = beyond(w, first, P), two = beyond(w, second, P);
+    if (!(one | two)) return MW_STAR_FOUND;
+    return cross(w, one ? first : second, P);
 }
 
 static MW_INLINE mw_star_verdict mw__star_drive(mw_star_walk *walk,
@@ -101,20 +136,56 @@ static MW_INLINE mw_star_verdict mw__star_drive(mw_star_walk *walk,
     return verdict;
 }
 
+/* Many walks in flight: while one waits for memory the others go on. After a step the line of the new facet is fetched, and
+ * after the last one the vertices, which the conclusion reads: it is drawn a lap later. */
+static MW_INLINE void mw__star_drive_ring(mw_star_feed *feed, uint32_t lane_count,
+                                          mw_star_verdict (*step)(mw_star_walk *walk, mw_star_policy P),
+                                          mw_star_policy P)
+{
+    mw_star_walk lane[MW_STAR_LANES];
+    mw_star_verdict verdict[MW_STAR_LANES];
+    uint32_t name[MW_STAR_LANES], alive = 0;
+    for (uint32_t i = 0; i < lane_count; i++)
+        if (feed->deliver(feed, i, &lane[alive], MW_STAR_GO)) {
+            verdict[alive] = MW_STAR_GO;
+            name[alive++] = i;
+        }
+    for (uint32_t i = 0; alive; i = i + 1 < alive ? i + 1 : 0) {
+        while (i < alive && verdict[i] != MW_STAR_GO && !feed->deliver(feed, name[i], &lane[i], verdict[i])) {
+            alive--;
+            lane[i] = lane[alive];
+            name[i] = name[alive];
+            verdict[i] = verdict[alive];
+        }
+        if (i >= alive) continue;
+        mw_star_walk *w = &lane[i];
+        verdict[i] = MW_LIKELY(w->fuel > 0) ? step(w, P) : MW_STAR_DRY;
+        w->fuel--;
+        const mw_star_facet *facet = &w->facet[w->t];
+        __builtin_prefetch(facet);
+        if (verdict[i] == MW_STAR_GO) continue;
+        for (uint32_t k = 0; k < 3; k++) __builtin_prefetch(star_vertex(w, facet->v[k]));
+    }
+}
+
 /* The kernels of a walk from NAME_step, with literal policies. */
 #define MW_STAR_STAMP(name)                                                                                            \
     static mw_star_verdict name##_run(mw_star_walk *walk)                                                              \
     {                                                                                                                  \
-        return mw__star_drive(walk, name##_step, (mw_star_policy){false});                                             \
+        return mw__star_drive(walk, name##_step, (mw_star_policy){false, false});                                      \
     }                                                                                                                  \
     static mw_star_verdict name##_run_count(mw_star_walk *walk)                                                        \
     {                                                                                                                  \
-        return mw__star_drive(walk, name##_step, (mw_star_policy){true});                                              \
+        return mw__star_drive(walk, name##_step, (mw_star_policy){true, false});                                       \
+    }                                                                                                                  \
+    static void name##_ring(mw_star_feed *feed, uint32_t lane_count)                                                   \
+    {                                                                                                                  \
+        mw__star_drive_ring(feed, lane_count, name##_step, (mw_star_policy){false, true});                             \
     }                                                                                                                  \
     static mw_star_verdict name##_step_count(mw_star_walk *walk)                                                       \
     {                                                                                                                  \
-        return name##_step(walk, (mw_star_policy){true});                                                              \
+        return name##_step(walk, (mw_star_policy){true, false});                                                       \
     }                                                                                                                  \
-    const mw_star_kernels mw__star_##name = {{name##_run, name##_run_count}, name##_step_count};
+    const mw_star_kernels mw__star_##name = {{name##_run, name##_run_count}, name##_ring, name##_step_count};
 
 #endif
