@@ -136,7 +136,7 @@ static int constrain(const triangulate_settings *s, const char *points, work *w)
                                   .polygon = c->polygon,
                                   .holes = c->holes,
                                   .hole_count = c->hole_count};
-    mw_constrain_options options = {.keep = keep_of(s, w), .split = s->split};
+    mw_constrain_options options = {.keep = keep_of(s, w), .split = s->split, .threads = s->common.threads};
     w->duplicate_of = malloc((count + 1) * sizeof *w->duplicate_of);
     w->constrained.cross[0] = w->constrained.cross[1] = MW_NONE;
     if (!w->duplicate_of) return fail_memory();
@@ -176,7 +176,7 @@ static int triangulate(const triangulate_settings *s, const char *path, work *w)
     mw_error error;
     mw_mesh *mesh;
     const mw_mesh_file *file = &w->vertices.file;
-    mw_kind_options options = {.limit = s->limit};
+    mw_kind_options options = {.limit = s->limit, .threads = s->common.threads};
     progress_phase("triangulating", path);
     if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
                        &mesh, &error) != MW_OK)

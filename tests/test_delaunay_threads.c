@@ -49,13 +49,13 @@ static void expect_same(const made *a, const made *b, uint32_t n)
     assert_int_equal(a->report.triangles_visited, b->report.triangles_visited);
 }
 
-/* On one thread, and the same on others. */
+/* On one thread, and the same on others: some fewer than patches, some more. */
 static mw_triangulation_report triangulate(const mw_point *points, uint32_t n, uint32_t patch)
 {
     made one = make(points, n, patch, 1);
     if (one.status != MW_OK) fail_msg("%s", one.error.message);
     check_mesh(&one.mesh, one.duplicate_of);
-    for (uint32_t threads = 2; threads <= 4; threads++) {
+    for (uint32_t threads = 2; threads <= 3; threads++) {
         made more = make(points, n, patch, threads);
         expect_same(&one, &more, n);
         release(&more);
@@ -71,7 +71,7 @@ static void test_sets(void **state)
     static const uint32_t patches[] = {1, 3, 60, 1000};
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
         for (size_t k = 0; k < sizeof patches / sizeof *patches; k++) {
-            uint32_t n = sets[i].largest < 3000 ? sets[i].largest : 3000;
+            uint32_t n = sets[i].largest < 1500 ? sets[i].largest : 1500;
             mw_point *points = malloc(n * sizeof *points);
             fill(&sets[i], 23, points, n);
             mw_triangulation_report report = triangulate(points, n, patches[k]);
@@ -101,11 +101,124 @@ static void test_small_sets(void **state)
     }
 }
 
+/* Points on the lines that part patches, each twice or so: the borders of the cells of a curve through 0..64 are integers. */
+static void test_cuts(void **state)
+{
+    (void)state;
+    enum { WIDTH = 65, N = 2 * WIDTH * WIDTH };
+    mw_point *points = malloc(N * sizeof *points);
+    uint64_t random = 11;
+    for (uint32_t i = 0; i < N; i++)
+        points[i] = (mw_point){mw__random_below(&random, WIDTH), mw__random_below(&random, WIDTH)};
+    points[0] = (mw_point){0, 0};
+    points[1] = (mw_point){WIDTH - 1, WIDTH - 1};
+    for (uint32_t patch = 1; patch < N; patch *= 5) triangulate(points, N, patch);
+    for (uint32_t i = 0; i < N; i++)
+        points[i].y = 32 + (i % 2 ? 0 : points[i].y / 1024); /* near the line between halves */
+    triangulate(points, N, 100);
+    free(points);
+}
+
+/* A crowd in one cell of the curve, far from the rest. */
+static void test_crowd(void **state)
+{
+    (void)state;
+    enum { N = 5000 };
+    mw_point *points = malloc(N * sizeof *points);
+    uint64_t random = 7;
+    for (uint32_t i = 0; i < N; i++) {
+        double scale = i % 10 ? 0x1p-40 : 1;
+        points[i] = (mw_point){scale * unit(&random), scale * unit(&random)};
+    }
+    triangulate(points, N, 200);
+    for (uint32_t i = 0; i < N; i++) points[i] = i < 3 ? (mw_point){i, i * i} : (mw_point){1.5, 0.25}; /* twins */
+    mw_triangulation_report report = triangulate(points, N, 200);
+    assert_int_equal(report.duplicates, N - 4);
+    free(points);
+}
+
+/* Patches as large as they are by default. */
+static void test_many(void **state)
+{
+    (void)state;
+    enum { N = 60000 };
+    mw_point *points = malloc(N * sizeof *points);
+    fill(&sets[0], 29, points, N);
+    triangulate(points, N, 0);
+    points[N - 1].x = points[40000].y = NAN;
+    for (uint32_t threads = 1; threads < 4; threads++) {
+        made bad = make(points, N, 0, threads);
+        assert_int_equal(bad.status, MW_ERROR_INPUT);
+        assert_int_equal(bad.error.vertex, 40000);
+        release(&bad);
+    }
+    free(points);
+}
+
+/* The calls with options: as the call without. */
+static void test_options(void **state)
+{
+    (void)state;
+    enum { N = 40000 };
+    mw_point *points = malloc(N * sizeof *points);
+    mw_mesh *mesh[3];
+    fill(&sets[0], 31, points, N);
+    const mw_delaunay_options two = {.threads = 2};
+    const mw_kind_options three = {.threads = 3};
+    assert_int_equal(mw_delaunay(&points->x, N, 2, NULL, NULL, &mesh[0], NULL), MW_OK);
+    assert_int_equal(mw_delaunay_with(&two, &points->x, N, 2, NULL, NULL, &mesh[1], NULL), MW_OK);
+    assert_int_equal(mw_triangulate(MW_DELAUNAY, &points->x, N, 2, &three, NULL, NULL, &mesh[2], NULL), MW_OK);
+    for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh[0]); t++) {
+        uint32_t v[3][3];
+        for (int i = 0; i < 3; i++) mw_mesh_triangle(mesh[i], t, v[i]);
+        assert_memory_equal(v[0], v[1], sizeof v[0]);
+        assert_memory_equal(v[0], v[2], sizeof v[0]);
+    }
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(mw_mesh_triangle_count(mesh[i]), mw_mesh_triangle_count(mesh[0]));
+        mw_mesh_destroy(mesh[i]);
+    }
+    free(points);
+}
+
+/* Whichever allocation fails, the call says so and leaves nothing behind (the leak checker looks on). */
+static void test_memory_failures(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    mw_point *points = malloc(N * sizeof *points);
+    fill(&sets[0], 5, points, N);
+    for (long allowed = 0;; allowed++) {
+        mw_triangle *tri = (mw_triangle *)1;
+        uint32_t tri_count;
+        mw_error error;
+        const mw_delaunay_setup setup = {.threads = 2, .patch = 1000};
+        allocations_left = allowed;
+        mw_status status = mw__delaunay_set_up(points, N, &setup, NULL, NULL, &tri, &tri_count, &error);
+        bool failed = allocations_left < 0;
+        allocations_left = -1;
+        if (status == MW_OK) {
+            assert_false(failed);
+            assert_true(allowed > 7);
+            free(tri);
+            break;
+        }
+        assert_int_equal(status, MW_ERROR_MEMORY);
+        assert_null(tri);
+    }
+    free(points);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sets),
         cmocka_unit_test(test_small_sets),
+        cmocka_unit_test(test_cuts),
+        cmocka_unit_test(test_crowd),
+        cmocka_unit_test(test_many),
+        cmocka_unit_test(test_options),
+        cmocka_unit_test(test_memory_failures),
     };
     return cmocka_run_group_tests_name("delaunay in threads", tests, NULL, NULL);
 }

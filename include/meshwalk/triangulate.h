@@ -1,9 +1,10 @@
 /* triangulate.h - triangulations of points, with and without constraints.
  *
  * Delaunay: points are inserted one by one, in random rounds along a Hilbert curve [Amenta, Choi, Rote 2003], each by a
- * walk from the one before, a split and flips [Lawson 1977]. Exact: the result is a Delaunay triangulation of the given
+ * walk from the one before, a split and flips [Lawson 1977]. Many points are parted into patches that grow by themselves, on
+ * several threads, and are merged [Guibas, Stolfi 1985]. Exact: the result is a Delaunay triangulation of the given
  * doubles, whatever their position. Where more than three points lie on an empty circle there are several, and the order
- * of the points decides which one is made. */
+ * of the points decides which one is made, not the number of threads. */
 #ifndef MESHWALK_TRIANGULATE_H
 #define MESHWALK_TRIANGULATE_H
 
@@ -29,10 +30,21 @@ typedef struct mw_triangulation_report {
  *                 numbered along a Hilbert curve
  * MW_ERROR_INPUT: fewer than three different points, all points on one line, or a coordinate that is not finite (the
  * error names the point as its vertex). MW_ERROR_ARGUMENT: NULL, or a stride of 1; MW_ERROR_LIMIT: over 2^29 points;
- * MW_ERROR_MEMORY: about 135 bytes per point are needed on the way, 80 of them for the mesh. The expected number of
- * triangles made is O(n log n) wherever the points lie; time is about linear. One thread; thread-safe. */
+ * MW_ERROR_MEMORY: about 150 bytes per point are needed on the way, 80 of them for the mesh. The expected number of
+ * triangles made is O(n log n) wherever the points lie; time is about linear. As many
+ * threads as OpenMP gives; the result is the same for any number. Thread-safe. */
 MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
                              mw_triangulation_report *report, mw_mesh **out, mw_error *error);
+
+typedef struct mw_delaunay_options {
+    uint32_t threads; /* 0 = what OpenMP gives */
+    uint32_t reserved[7];
+} mw_delaunay_options;
+
+/* The same with options, NULL = all zero. */
+MW_API mw_status mw_delaunay_with(const mw_delaunay_options *options, const double *points, size_t n, size_t stride,
+                                  uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out,
+                                  mw_error *error);
 
 /* --- other kinds of triangulation -------------------------------------------------------------------------------- */
 
@@ -67,7 +79,8 @@ typedef struct mw_kind_report {
  * to so many points; either however long it takes, and whatever memory. */
 typedef struct mw_kind_options {
     uint32_t limit;
-    uint32_t reserved[7];
+    uint32_t threads; /* for the Delaunay triangulation that each kind begins with; 0 = what OpenMP gives */
+    uint32_t reserved[6];
 } mw_kind_options;
 
 /* A triangulation of any kind; arguments as for mw_delaunay, options NULL = all zero, report NULL or filled on success.
@@ -81,8 +94,8 @@ typedef struct mw_kind_options {
  *   MW_MIN_MAX_ANGLE  Angles are compared exactly. Always a local optimum, and above the limit that only: no exchange of a
  *                     diagonal makes the largest angle of its quadrilateral smaller; if `optimal`, the largest of all is the least
  *                     possible. About 10 us per spread point; the exchanges up to the local optimum have no bound on time.
- * Errors as for mw_delaunay (duplicate_of is unspecified then), and MW_ERROR_ARGUMENT for an unknown kind. One thread;
- * thread-safe. docs/guarantees.md tells what is optimal, and what makes it slow. */
+ * Errors as for mw_delaunay (duplicate_of is unspecified then), and MW_ERROR_ARGUMENT for an unknown kind. After
+ * the Delaunay triangulation one thread; thread-safe. docs/guarantees.md tells what is optimal, and what makes it slow. */
 MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,
                                 const mw_kind_options *options, uint32_t *duplicate_of, mw_kind_report *report,
                                 mw_mesh **out, mw_error *error);
@@ -116,7 +129,8 @@ typedef enum mw_keep {
 typedef struct mw_constrain_options {
     mw_keep keep;
     int split; /* 1: where segments cross, put a vertex there, rounded, and split them; 0: an error                */
-    uint32_t reserved[6];
+    uint32_t threads; /* for the Delaunay triangulation of the points; 0 = what OpenMP gives                       */
+    uint32_t reserved[5];
 } mw_constrain_options;
 
 typedef struct mw_constrain_report {
@@ -153,8 +167,8 @@ MW_API void mw_pieces_release(mw_pieces *pieces); /* NULL and empty ones are all
  * the point as its vertex); nothing left to keep. MW_ERROR_ARGUMENT: NULL for an array that should have members, or for out; a
  * stride of 1; an unknown `keep`; a segment that names no point; a place of a hole that is not finite. MW_ERROR_LIMIT: over 2^29
  * points, those made by options.split counted (k segments may cross in k^2 / 2 places), or 2^32 - 2 segments. MW_ERROR_MEMORY. Each
- * segment walks along itself: time in proportion to the triangles it crosses, and little more (docs/guarantees.md). One
- * thread; thread-safe. */
+ * segment walks along itself: time in proportion to the triangles it crosses, and little more (docs/guarantees.md).
+ * After the Delaunay triangulation one thread; thread-safe. */
 MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
                                          uint32_t *duplicate_of, mw_constrain_report *report, mw_pieces *pieces,
                                          mw_mesh **out, mw_error *error);

@@ -159,7 +159,8 @@ static mw_status make(mw_constrained_making *m, bool all, mw_triangulation_repor
     if (m->stretches.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
     m->twin = mw__alloc(n, sizeof *m->twin);
     if (!m->twin) return mw__fail_memory(error);
-    mw_status status = mw__delaunay_triangles(m->point, n, m->twin, report, &m->tri, &m->tri_count, error);
+    const mw_delaunay_setup setup = {.threads = m->threads};
+    mw_status status = mw__delaunay_set_up(m->point, n, &setup, m->twin, report, &m->tri, &m->tri_count, error);
     if (status) return status;
     if (!mw__constrained_create(&m->net, m->point, n, m->tri, m->tri_count)) return mw__fail_memory(error);
     for (size_t i = 0; i < m->stretches.count; i++) {
@@ -364,7 +365,7 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_co
     if (!options) options = &defaults;
     mw_status status = check_arguments(constraints, options->keep, error);
     if (status) return status;
-    mw_constrained_making m = {.given = constraints};
+    mw_constrained_making m = {.given = constraints, .threads = options->threads};
     status = build(&m, options, duplicate_of, report, pieces, out, error);
     release(&m);
     if (status && pieces) mw_pieces_release(pieces);

@@ -26,7 +26,8 @@ typedef struct mw_run {
 
 typedef struct mw_constrained_making {
     const mw_constraints *given;
-    mw_point *point; /* the caller's, then those made where segments cross */
+    uint32_t threads; /* of the Delaunay triangulation of the points */
+    mw_point *point;  /* the caller's, then those made where segments cross */
     size_t point_count;
     uint32_t *twin;   /* per point: the lowest-numbered one at its place, MW_NONE if it is that itself */
     mw_triangle *tri; /* of the points, with the stretches */

@@ -123,20 +123,15 @@ static void copy_points(delaunay *d, const mw_key *keys)
     }
 }
 
+/* The keys lie where the facets will grow. */
 static bool order(delaunay *d)
 {
     mw_ground *g = &d->ground;
-    mw_key *keys = mw__alloc_lines(2 * (size_t)g->n, sizeof *keys);
-    g->order = mw__alloc_lines(g->n, sizeof *g->order);
-    g->point = mw__alloc_lines(g->n, sizeof *g->point);
-    bool done = keys && g->order && g->point;
-    if (done) done = mw__hilbert_order(d->given, g->n, &d->extent, d->setup.threads, keys, keys + g->n);
-    if (done) {
-        copy_points(d, keys);
-        done = mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
-    }
-    free(keys);
-    return done;
+    _Static_assert(sizeof(mw_key) <= sizeof(mw_facet), "the facets have room for the keys");
+    mw_key *keys = (mw_key *)g->facet, *scratch = keys + g->n;
+    if (!mw__hilbert_order(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
+    copy_points(d, keys);
+    return mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
 }
 
 static mw_status prepare(delaunay *d, mw_error *error)
@@ -148,10 +143,12 @@ static mw_status prepare(delaunay *d, mw_error *error)
     if (status != MW_OK) return status;
     g->width = d->extent.high[0] - d->extent.low[0];
     g->height = d->extent.high[1] - d->extent.low[1];
-    if (!order(d)) return mw__fail_memory(error);
+    g->order = mw__alloc_lines(g->n, sizeof *g->order);
+    g->point = mw__alloc_lines(g->n, sizeof *g->point);
     g->sequence = mw__alloc_lines(g->n, sizeof *g->sequence);
     g->facet = mw__alloc_lines(2 * (size_t)g->n, sizeof *g->facet);
-    return g->sequence && g->facet ? MW_OK : mw__fail_memory(error);
+    bool done = g->order && g->point && g->sequence && g->facet && order(d);
+    return done ? MW_OK : mw__fail_memory(error);
 }
 
 static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
@@ -201,9 +198,20 @@ mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *d
     return mw__delaunay_set_up(points, n, &alone, duplicate_of, report, tri, tri_count, error);
 }
 
-mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
-                      mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+static void read_points(const double *from, size_t stride, mw_point *to, uint32_t n, uint32_t threads)
 {
+    int team = mw__team(threads, n / CHUNK + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(team) if (team > 1)
+#endif
+    for (int64_t i = 0; i < (int64_t)n; i++) to[i] = (mw_point){from[(size_t)i * stride], from[(size_t)i * stride + 1]};
+}
+
+mw_status mw_delaunay_with(const mw_delaunay_options *options, const double *points, size_t n, size_t stride,
+                           uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+{
+    const mw_delaunay_setup setup = {.threads = options ? options->threads : 0};
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
     if (!stride) stride = 2;
@@ -215,13 +223,19 @@ mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *d
     mw_status status = mesh && mesh->point ? MW_OK : mw__fail_memory(error);
     if (status == MW_OK) {
         mesh->point_count = (uint32_t)n;
-        for (size_t i = 0; i < n; i++) mesh->point[i] = (mw_point){points[i * stride], points[i * stride + 1]};
-        status = mw__delaunay_triangles(mesh->point, mesh->point_count, duplicate_of, report, &mesh->tri,
-                                        &mesh->tri_count, error);
+        read_points(points, stride, mesh->point, mesh->point_count, setup.threads);
+        status = mw__delaunay_set_up(mesh->point, mesh->point_count, &setup, duplicate_of, report, &mesh->tri,
+                                     &mesh->tri_count, error);
     }
     if (status == MW_OK)
         *out = mesh;
     else
         mw_mesh_destroy(mesh);
     return status;
+}
+
+mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
+                      mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+{
+    return mw_delaunay_with(NULL, points, n, stride, duplicate_of, report, out, error);
 }

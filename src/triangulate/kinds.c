@@ -119,9 +119,11 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
     if ((unsigned)kind >= MW_KIND_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of triangulation");
+    if (!options) options = &defaults;
+    const mw_delaunay_options delaunay = {.threads = options->threads};
     mw_mesh *mesh;
-    mw_status status = mw_delaunay(points, n, stride, duplicate_of, &made.delaunay, &mesh, error);
-    if (status == MW_OK) status = convert(kind, mesh, options ? options : &defaults, &made, error);
+    mw_status status = mw_delaunay_with(&delaunay, points, n, stride, duplicate_of, &made.delaunay, &mesh, error);
+    if (status == MW_OK) status = convert(kind, mesh, options, &made, error);
     if (status == MW_OK) {
         *out = mesh;
         if (report) *report = made;
