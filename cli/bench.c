@@ -12,11 +12,12 @@
 static const struct {
     const char *name;
     int (*run)(const bench_settings *s, const char *table);
+    bool contest; /* of engines, in rounds */
 } measurements[] = {
-    {"paper", bench_paper},
-    {"near-vertices", bench_near},
-    {"peers", bench_peers},
-    {"scale", bench_scale},
+    {"paper", bench_paper, false},
+    {"near-vertices", bench_near, false},
+    {"peers", bench_peers, true},
+    {"scale", bench_scale, true},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 
@@ -105,12 +106,22 @@ int bench_sizes(const char *list, size_list *sizes)
     return bench_each_word(list, take_size, sizes);
 }
 
+static int run_measurement(size_t i, const bench_settings *s, const char *table)
+{
+    if (!measurements[i].contest && (s->engines || s->tasks || s->rounds)) {
+        complain("bench %s: --engines, --tasks and --rounds are for 'bench peers' and 'bench scale'",
+                 measurements[i].name);
+        return END_USAGE;
+    }
+    return measurements[i].run(s, table);
+}
+
 static int run(const void *settings, const char *const *operands)
 {
     const char *what = operands[0];
     spelling s = spelling_of(what);
     for (size_t i = 0; i < MEASUREMENTS; i++) {
-        if (strcmp(measurements[i].name, what) == 0) return measurements[i].run(settings, operands[1]);
+        if (strcmp(measurements[i].name, what) == 0) return run_measurement(i, settings, operands[1]);
         spelling_try(&s, measurements[i].name);
     }
     spelling_complain(&s, "measurement", "");

@@ -4,6 +4,7 @@
 #include "dataset_file.h"
 #include "files.h"
 #include "message.h"
+#include "plot.h"
 #include "spelling.h"
 
 #include <stdlib.h>
@@ -130,8 +131,39 @@ static int check_file(const char *path, void *self)
 
 static int check_settings(const bench_settings *s, const defaults *d)
 {
-    if (s->enclose == ENCLOSE_AUTO && !s->no_times) return 0;
-    complain("bench %s takes times of sets as they are: leave out --enclose and --no-times", d->name);
+    if (s->enclose != ENCLOSE_AUTO || s->no_times) {
+        complain("bench %s takes times of sets as they are: leave out --enclose and --no-times", d->name);
+        return END_USAGE;
+    }
+    if (s->plot && d == &beside_peers) {
+        complain("bench peers draws nothing: --plot is for 'meshwalk bench scale'");
+        return END_USAGE;
+    }
+    return options_limit("rounds", s->rounds, 1000, NULL);
+}
+
+/* A plot is over sizes. */
+static int check_plot(const run *r)
+{
+    const bench_settings *s = r->settings;
+    if (!s->plot) return 0;
+    if (s->data || r->sizes.count < 2) {
+        complain("bench scale: a plot wants made sets of two sizes or more");
+        return END_USAGE;
+    }
+    if (files_same_output(s->common.output, s->plot)) {
+        complain("%s: the figures and the plot want files of their own", s->plot);
+        return END_USAGE;
+    }
+    int end = plot_check(s->plot);
+    return end ? end : files_try_output(s->plot, NULL);
+}
+
+static int check_plan(const contest_plan *plan)
+{
+    for (engine_id id = 0; id < ENGINES; id++)
+        if (plan->engines >> id & 1 && engines[id].tasks & plan->tasks) return 0;
+    complain("none of these engines takes any of these tasks");
     return END_USAGE;
 }
 
@@ -147,11 +179,12 @@ static int take_settings(run *r, const defaults *d, const char *sets)
         .threads = s->common.threads ? s->common.threads : 1,
     };
     int end = check_settings(s, d);
-    if (end == 0) end = options_limit("rounds", s->rounds, 1000, NULL);
     if (end == 0 && s->sizes) end = bench_sizes(s->sizes, &r->sizes);
     if (end == 0 && s->engines) end = engines_named(s->engines, &r->plan.engines);
     if (end == 0 && s->tasks) end = engines_tasks_named(s->tasks, &r->plan.tasks);
     if (end == 0) end = s->data ? bench_each_word(s->data, check_file, r) : bench_each_word(sets, check_set, NULL);
+    if (end == 0) end = check_plan(&r->plan);
+    if (end == 0) end = check_plot(r);
     return end ? end : files_try_output(s->common.output, NULL);
 }
 
@@ -171,6 +204,7 @@ static int run_all(const bench_settings *s, const char *set, const defaults *d)
     if (end) return end;
     leave_out_missing(&r);
     end = s->data ? bench_each_word(s->data, run_file, &r) : bench_each_word(sets, run_set, &r);
+    if (end == 0 && s->plot) end = contest_plot(&r.table, s->plot);
     if (end == 0) {
         text t = {0};
         contest_print(&r.table, &r.plan, s->format, &t);

@@ -56,11 +56,24 @@ static void drop(built *b)
     b->self = NULL;
 }
 
+/* Whose it is: the library of the first engine that has it. */
+static engine_library library_of(const contest *c, const built *b)
+{
+    for (size_t k = 0; k < c->count; k++)
+        if (c->contestants[k].code->structure == b->structure) return engines[c->contestants[k].id].library;
+    return LIBRARY_MESHWALK;
+}
+
 static void build(const contest *c, built *b)
 {
+    if (!engines_have_room(library_of(c, b), c->ground->mesh.point_count)) {
+        b->failed = true;
+        return;
+    }
     b->seconds = b->structure->build(&c->ground->mesh, b->threads, &b->self);
     b->failed = !b->self;
     b->bytes = b->self ? (double)b->structure->bytes(b->self) : NAN;
+    if (b->failed) complain("%s: %s cannot take it", c->ground->name, b->structure->version());
 }
 
 /* What a contestant needs, built if it is not. */
@@ -138,12 +151,17 @@ static int judge(const contest *c, const built *b, contestant *e)
 
 /* --- rounds ------------------------------------------------------------------------------------------------------ */
 
-static int fail_engine(const contest *c, contestant *e)
+/* Of ours that is the end, a peer goes on without. */
+static int leave_out(contestant *e)
 {
     e->out = true;
-    complain("%s: %s has failed%s", c->ground->name, engines[e->id].name,
-             engines[e->id].library == LIBRARY_MESHWALK ? "" : ", and is left out");
     return engines[e->id].library == LIBRARY_MESHWALK ? END_INTERNAL : 0;
+}
+
+static int fail_engine(const contest *c, contestant *e)
+{
+    complain("%s: %s has failed", c->ground->name, engines[e->id].name);
+    return leave_out(e);
 }
 
 /* One run. `build_time` and `run_time` are set to seconds. */
@@ -157,7 +175,7 @@ static int run_once(contest *c, contestant *e, size_t queries, double *build_tim
         return *build_time >= 0 ? 0 : fail_engine(c, e);
     }
     built *b = built_for(c, e);
-    if (!b->self) return fail_engine(c, e);
+    if (!b->self) return leave_out(e);
     *build_time = b->seconds;
     *run_time = 0;
     e->bytes = b->bytes;

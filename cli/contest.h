@@ -35,4 +35,7 @@ void contest_release(contest_table *table);
 /* Print the rows in a format of bench.h. */
 void contest_print(const contest_table *table, const contest_plan *plan, int format, text *t);
 
+/* Draw the rows of a table that is not empty. Returns 0 or an exit code after a complaint. */
+int contest_plot(const contest_table *table, const char *path);
+
 #endif

@@ -30,7 +30,7 @@ static void destroy(void *self)
     free(o);
 }
 
-static bool make(own *o, const engine_mesh *m, bool grid)
+static bool make(own *o, const engine_mesh *m, unsigned threads, bool grid)
 {
     mw_arrays arrays = {
         .points = m->points,
@@ -38,17 +38,18 @@ static bool make(own *o, const engine_mesh *m, bool grid)
         .triangles = m->triangles,
         .triangle_count = m->triangle_count,
     };
-    return mw_mesh_create(&arrays, NULL, &o->mesh, NULL) == MW_OK &&
+    mw_mesh_options options = {.threads = threads};
+    return mw_mesh_create(&arrays, &options, &o->mesh, NULL) == MW_OK &&
            mw_locator_create(o->mesh, NULL, &o->locator, NULL) == MW_OK &&
            (!grid || mw_index_create(o->locator, MW_START_GRID, NULL, &o->index, NULL) == MW_OK);
 }
 
-static double build_own(const engine_mesh *m, bool grid, void **self)
+static double build_own(const engine_mesh *m, unsigned threads, bool grid, void **self)
 {
     own *o = calloc(1, sizeof *o);
     *self = o;
     double clock = tally_clock();
-    if (o && make(o, m, grid)) return tally_clock() - clock;
+    if (o && make(o, m, threads, grid)) return tally_clock() - clock;
     destroy(o);
     *self = NULL;
     return ENGINE_FAILED;
@@ -56,13 +57,11 @@ static double build_own(const engine_mesh *m, bool grid, void **self)
 
 static double build(const engine_mesh *m, unsigned threads, void **self)
 {
-    (void)threads;
-    return build_own(m, false, self);
+    return build_own(m, threads, false, self);
 }
 static double build_grid(const engine_mesh *m, unsigned threads, void **self)
 {
-    (void)threads;
-    return build_own(m, true, self);
+    return build_own(m, threads, true, self);
 }
 
 static size_t bytes(const void *self)
@@ -129,9 +128,9 @@ static double locate_last(void *self, const double *queries, size_t n, unsigned 
 static double triangulate(const double *points, size_t n, unsigned threads, size_t *size)
 {
     mw_mesh *mesh;
-    (void)threads;
+    mw_delaunay_options options = {.threads = threads};
     double clock = tally_clock();
-    if (mw_delaunay(points, n, 2, NULL, NULL, &mesh, NULL) != MW_OK) return ENGINE_FAILED;
+    if (mw_delaunay_with(&options, points, n, 2, NULL, NULL, &mesh, NULL) != MW_OK) return ENGINE_FAILED;
     double seconds = tally_clock() - clock;
     *size = mw_mesh_bytes(mesh);
     mw_mesh_destroy(mesh);

@@ -2,6 +2,7 @@
 #include "bench.h"
 #include "message.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const engine engines[ENGINES] = {
@@ -12,14 +13,15 @@ const engine engines[ENGINES] = {
 static const struct {
     const char *name, *package; /* in Debian; it is wanted when the program is built, but of Python's when it runs */
     bool python;
+    size_t bytes; /* per vertex that building takes, about; 0: not to be asked */
 } libraries[LIBRARIES] = {
-    [LIBRARY_MESHWALK] = {"meshwalk", NULL, false},
-    [LIBRARY_CGAL] = {"CGAL", "libcgal-dev", false},
-    [LIBRARY_EMBREE] = {"Embree 3", "libembree-dev", false},
-    [LIBRARY_GEOS] = {"GEOS", "libgeos-dev", false},
-    [LIBRARY_BOOST] = {"Boost", "libboost-dev", false},
-    [LIBRARY_SCIPY] = {"SciPy", "python3-scipy", true},
-    [LIBRARY_MATPLOTLIB] = {"matplotlib", "python3-matplotlib", true},
+    [LIBRARY_MESHWALK] = {"meshwalk", NULL, false, 0},
+    [LIBRARY_CGAL] = {"CGAL", "libcgal-dev", false, 250},
+    [LIBRARY_EMBREE] = {"Embree 3", "libembree-dev", false, 500},
+    [LIBRARY_GEOS] = {"GEOS", "libgeos-dev", false, 300},
+    [LIBRARY_BOOST] = {"Boost", "libboost-dev", false, 300},
+    [LIBRARY_SCIPY] = {"SciPy", "python3-scipy", true, 1500},
+    [LIBRARY_MATPLOTLIB] = {"matplotlib", "python3-matplotlib", true, 2500},
 };
 
 const char *engines_task(engine_task task)
@@ -108,6 +110,27 @@ int engines_named(const char *list, uint32_t *set)
             end = END_USAGE;
         }
     return end;
+}
+
+/* Bytes that the system can give without taking them from others; 0: it does not tell. */
+static double available(void)
+{
+    char line[256];
+    double kilobytes = 0;
+    FILE *info = fopen("/proc/meminfo", "r");
+    while (info && fgets(line, sizeof line, info))
+        if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) break;
+    if (info) fclose(info);
+    return 1024 * kilobytes;
+}
+
+bool engines_have_room(engine_library library, size_t vertices)
+{
+    double wanted = (double)libraries[library].bytes * (double)vertices, there = available();
+    if (wanted <= there || there == 0) return true;
+    complain("%s wants about %.0f GB for %zu vertices, and there are %.0f", libraries[library].name, wanted / 1e9,
+             vertices, there / 1e9);
+    return false;
 }
 
 /* --- what there is ----------------------------------------------------------------------------------------------- */

@@ -27,6 +27,9 @@ const engine_code *engine_own(engine_id id);
 int engines_named(const char *list, uint32_t *set);
 int engines_tasks_named(const char *list, uint32_t *set);
 
+/* Is there memory for a library to take so many vertices? Complains. Ours may always try. */
+bool engines_have_room(engine_library library, size_t vertices);
+
 /* Say on standard error which of these libraries are missing, and how to get them. */
 void engines_missing(uint32_t set);
 
