@@ -48,7 +48,7 @@ _meshwalk_names() {
             case $1 in
                 star) echo 'auto random sample front last sorted grid nonuniform-grid octahedron' ;;
                 probe) echo 'auto last sample random' ;;
-                *) echo 'auto random sample centre last sorted grid two-level-grid layers' ;;
+                *) echo 'auto random sample centre last sorted grid two-level-grid layers curve' ;;
             esac
             ;;
         --arithmetic) echo 'exact double' ;;

@@ -68,7 +68,10 @@ const option query_options[] = {
      "triangles",
      NULL},
     {"cells", 0, OPTION_COUNT, offsetof(query_settings, cells), "N",
-     "--start grid, two-level-grid: about N cells, of the first level (default: 0, by the number of vertices)", NULL},
+     "--start grid, two-level-grid: about N cells, of the first level; curve: N samples (default: 0, by the size of "
+     "the "
+     "mesh)",
+     NULL},
     {"layers", 0, OPTION_COUNT, offsetof(query_settings, layers), "N",
      "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
     {"tolerance", 0, OPTION_LENGTH, offsetof(query_settings, tolerance), "D",

@@ -116,7 +116,7 @@ MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info
 /* For a mesh taken with options.any although it is no embedding: which promise is void, as a text; else NULL. */
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);
 
-/* What some starts build beside the mesh: a grid, or layers. It is only a guide to the first triangle, so it may serve any
+/* What some starts build beside the mesh: a grid, layers, or a sample along a curve. It is only a guide to the first triangle, so it may serve any
  * locator whatever its mesh, as one made after the mesh was edited: answers stay exact, walks get longer. Const while it
  * is queried. */
 typedef struct mw_index mw_index;
@@ -128,7 +128,7 @@ typedef enum mw_descent { MW_DESCENT_AUTO = 0, MW_DESCENT_NEAREST, MW_DESCENT_CO
 /* All zero = choose. */
 typedef struct mw_index_options {
     uint32_t cells;  /* MW_START_GRID: about so many cells, MW_START_TWO_LEVEL_GRID: of its first level; at most 2^30;
-                        0 = one for two vertices                                                                 */
+                        0 = one for two vertices. MW_START_CURVE: triangles that are sampled; 0 = one of 32      */
     uint32_t layers; /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
     double ratio;    /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
     mw_descent descent; /* MW_START_LAYERS: the vertex to go down at                                             */
@@ -138,7 +138,8 @@ typedef struct mw_index_options {
 
 #define MW_MAX_LAYERS 8
 
-/* Build the index of a start that needs one: MW_START_GRID, MW_START_TWO_LEVEL_GRID or MW_START_LAYERS.
+/* Build the index of a start that needs one: MW_START_GRID, MW_START_TWO_LEVEL_GRID, MW_START_LAYERS or
+ * MW_START_CURVE.
  *   options  NULL = all zero
  *   out      owned by the caller (mw_index_destroy); keeps nothing of the locator; NULL on failure
  * MW_ERROR_ARGUMENT for another start or options out of range; MW_ERROR_LIMIT for more cells than 2^30;
@@ -151,8 +152,8 @@ typedef struct mw_index_info {
     mw_start_kind start;
     size_t bytes;                     /* all its memory                                        */
     double seconds;                   /* it took to build                                      */
-    uint32_t cells;                   /* of a grid, those of both levels                       */
-    uint32_t layers;                  /* the mesh itself counted; 0 for a grid                 */
+    uint32_t cells;                   /* of a grid, those of both levels; of a curve, samples  */
+    uint32_t layers;                  /* the mesh itself counted; else 0                       */
     uint32_t vertices[MW_MAX_LAYERS]; /* of each layer, the mesh first                         */
 } mw_index_info;
 MW_API void mw_index_describe(const mw_index *index, mw_index_info *info);
@@ -251,7 +252,8 @@ MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double 
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
  *   counters  NULL or filled with the sum over the batch (options->count)
- * MW_START_AUTO means MW_START_SORTED for 64 queries and more. MW_START_LAST and _SORTED: each thread takes 16,384
+ * MW_START_AUTO means, for 64 queries and more, MW_START_CURVE with an index of its own where the triangles lie along a
+ * Hilbert curve in memory, else MW_START_SORTED. MW_START_LAST and _SORTED: each thread takes 16,384
  * queries at a time, in `lanes` runs; the first query of a run begins as with MW_START_SAMPLE, each other where the one
  * before it ended.
  * MW_ERROR_ARGUMENT as mw_cursor_init; MW_ERROR_MEMORY (then locations is unspecified). */

@@ -4,6 +4,9 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#if __has_include(<sys/mman.h>)
+#include <sys/mman.h>
+#endif
 
 const char *mw_status_text(mw_status status)
 {
@@ -62,12 +65,25 @@ void *mw__alloc(size_t count, size_t size)
     return mw__realloc(NULL, count, size);
 }
 
+static void *alloc_aligned(size_t alignment, size_t bytes)
+{
+    if (bytes > SIZE_MAX - alignment) return NULL;
+    return aligned_alloc(alignment, (bytes / alignment + 1) * alignment);
+}
+
+/* Queries come to any place of an array: with pages of 4 KiB nearly every miss of the cache is one of the table of pages,
+ * too. So where an array fills some, large pages are asked for; a system that has none to give need not hear. */
 void *mw__alloc_lines(size_t count, size_t size)
 {
-    enum { LINE = 64 };
+    enum { LINE = 64, PAGE = 1 << 21, PAGES = 2 };
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX - LINE) return NULL;
-    return aligned_alloc(LINE, (bytes / LINE + 1) * LINE);
+    if (__builtin_mul_overflow(count, size, &bytes)) return NULL;
+    if (bytes < (size_t)PAGES * PAGE) return alloc_aligned(LINE, bytes);
+    void *lines = alloc_aligned(PAGE, bytes);
+#ifdef MADV_HUGEPAGE
+    if (lines) (void)madvise(lines, bytes, MADV_HUGEPAGE);
+#endif
+    return lines;
 }
 
 void *mw__calloc(size_t count, size_t size)

@@ -1,10 +1,11 @@
-/* batch.c - many queries: lanes of walks in flight within the chunk of a thread.
+/* batch.c - many queries: lanes of walks in flight within the chunk of a thread. Plain ones take the fast way (flight.c).
  *
  * Answers are exact and therefore the same for any threads, lanes and order. The counters too do not depend on the
  * threads: chunks have a fixed size, and the random numbers of a query come from its own number (base/batch.c). */
 #include "base/batch.h"
 #include "base/random.h"
-#include "locate/locator.h"
+#include "locate/flight.h"
+#include "locate/index.h"
 #include "start/start.h"
 
 enum { CACHE = 1 << 20 }; /* bytes of tiles and points that second-level caches commonly hold */
@@ -15,6 +16,7 @@ typedef struct batch {
     mw_cursor cursor; /* resolved options */
     uint32_t lanes;
     bool chained; /* each query begins where the one before it in its lane ended */
+    bool plain;   /* flight.c answers them                                       */
 } batch;
 
 /* The queries of one chunk, shared out to the lanes: lane i answers from next[i] to before end[i]. */
@@ -75,6 +77,10 @@ static bool deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verd
 static mw_counters answer(const mw_batch *queries, uint32_t first, uint32_t count)
 {
     const batch *b = (const batch *)queries; /* its first member */
+    if (b->plain) {
+        mw__fly(&(mw_flight){queries, b->locator, &b->cursor, b->chained}, first, count, b->lanes);
+        return (mw_counters){0};
+    }
     chunk c;
     c.feed.deliver = deliver;
     c.batch = b;
@@ -104,12 +110,54 @@ static void sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratc
     mw__sort_queries(queries->points, n, queries->stride, locator->low, locator->high, keys, scratch);
 }
 
-/* Walks in flight hide the time that memory takes. A chained query stays near the one before it, in cache already. */
-static uint32_t choose_lanes(const mw_locator *locator, const mw_query_options *options, bool chained)
+/* Walks in flight hide the time that memory takes. A chained query stays near the one before it, in cache already; side by
+ * side several go faster even so. */
+static uint32_t choose_lanes(const batch *b, uint32_t asked)
 {
-    if (options->lanes) return options->lanes < MW_MAX_LANES ? options->lanes : MW_MAX_LANES;
-    size_t bytes = locator->tiling.tri_count * sizeof(mw_triangle) + locator->tiling.point_count * sizeof(mw_point);
-    return chained || bytes < CACHE ? 1 : 32;
+    if (asked) return asked < MW_MAX_LANES ? asked : MW_MAX_LANES;
+    const mw_tiling *tiling = &b->locator->tiling;
+    size_t bytes = tiling->tri_count * sizeof(mw_triangle) + tiling->point_count * sizeof(mw_point);
+    if (b->chained) return b->plain ? 8 : 1;
+    return bytes < CACHE ? b->plain ? 16 : 1 : 32;
+}
+
+/* May flight.c answer? It takes the way of the remembering walk, exactly; a walk that was not asked for by name may begin with
+ * a few of its steps, too. */
+static bool is_plain(const batch *b, const mw_query_options *options)
+{
+    const mw_tiling *tiling = &b->locator->tiling;
+    if (b->cursor.count || b->cursor.arithmetic != MW_EXACT || tiling->open || tiling->cut) return false;
+    if (options->lanes && options->lanes < MW_FLIGHT_WIDTH) return false;
+    return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && b->cursor.start != MW_START_AUTO;
+}
+
+/* How queries begin where nothing is said: on tiles that lie along a Hilbert curve, by a sample of them, no more than there are
+ * queries; else sorted; few where the one before ended, or at the nearest of a sample. */
+static mw_status choose_start(batch *b, size_t n, mw_index *index, mw_error *error)
+{
+    if (b->cursor.start != MW_START_AUTO || n < MW_SORT_WORTHWHILE) return MW_OK;
+    const mw_tiling *tiling = &b->locator->tiling;
+    b->cursor.start = MW_START_SORTED;
+    if (tiling->open) return MW_OK;
+    uint32_t samples = n < tiling->tri_count / MW_CURVE_STRIDE ? (uint32_t)n : 0;
+    if (!mw__curve_create(&index->curve, tiling, b->locator->low, b->locator->high, samples))
+        return mw__fail_memory(error);
+    if (index->curve.regular) {
+        b->cursor.start = index->start = MW_START_CURVE;
+        b->cursor.index = index;
+    }
+    return MW_OK;
+}
+
+static mw_status run(batch *b, size_t n, const mw_query_options *options, mw_counters *counters, mw_error *error)
+{
+    mw_start_kind start = (mw_start_kind)b->cursor.start;
+    b->chained = start == MW_START_SORTED || start == MW_START_LAST || start == MW_START_AUTO;
+    b->plain = is_plain(b, options);
+    b->lanes = choose_lanes(b, options->lanes);
+    if (b->plain) b->lanes -= b->lanes % MW_FLIGHT_WIDTH;
+    b->queries.sort = start == MW_START_SORTED ? sort : NULL;
+    return mw__batch_run(&b->queries, n, options->threads, counters, error);
 }
 
 mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,
@@ -128,10 +176,9 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
     if (status) return status;
     if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
     if (b.queries.stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
-    if (b.cursor.start == MW_START_AUTO && n >= MW_SORT_WORTHWHILE) b.cursor.start = MW_START_SORTED;
-    bool sorted = b.cursor.start == MW_START_SORTED;
-    b.chained = sorted || b.cursor.start == MW_START_LAST || b.cursor.start == MW_START_AUTO;
-    b.lanes = choose_lanes(locator, options, b.chained);
-    b.queries.sort = sorted ? sort : NULL;
-    return mw__batch_run(&b.queries, n, options->threads, counters, error);
+    mw_index own = {.start = MW_START_AUTO};
+    status = choose_start(&b, n, &own, error);
+    if (!status) status = run(&b, n, options, counters, error);
+    mw__curve_release(&own.curve);
+    return status;
 }

@@ -25,6 +25,7 @@ static mw_status build(mw_index *index, const mw_locator *locator, const mw_inde
     case MW_START_TWO_LEVEL_GRID:
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, options->cells);
         break;
+    case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, options->cells); break;
     case MW_START_LAYERS: return build_layers(&index->layers, tiling, options, error);
     default: break;
     }
@@ -58,6 +59,7 @@ void mw_index_destroy(mw_index *index)
     switch (index->start) {
     case MW_START_GRID: mw__grid_release(&index->grid); break;
     case MW_START_TWO_LEVEL_GRID: mw__two_level_grid_release(&index->two_level_grid); break;
+    case MW_START_CURVE: mw__curve_release(&index->curve); break;
     case MW_START_LAYERS: mw__layers_release(&index->layers); break;
     default: break;
     }
@@ -76,6 +78,10 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
         info->bytes += mw__two_level_grid_bytes(&index->two_level_grid);
         info->cells = mw__lattice_cells(&index->two_level_grid.lattice) + index->two_level_grid.fine_count;
         break;
+    case MW_START_CURVE:
+        info->bytes += mw__curve_bytes(&index->curve);
+        info->cells = index->curve.count - 2; /* the ends are no tiles */
+        break;
     case MW_START_LAYERS:
         info->bytes += mw__layers_bytes(&index->layers);
         info->layers = index->layers.count;
@@ -85,6 +91,12 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
     }
 }
 
+/* A tile of this tiling, where the index is of another. */
+static MW_INLINE uint32_t within(const mw_tiling *tiling, uint32_t t)
+{
+    return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
+}
+
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
 {
     const mw_index *index = cursor->index;
@@ -92,6 +104,7 @@ uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_po
     switch (index->start) {
     case MW_START_GRID: t = mw__grid_first(&index->grid, q); break;
     case MW_START_TWO_LEVEL_GRID: t = mw__two_level_grid_first(&index->two_level_grid, q); break;
+    case MW_START_CURVE: t = mw__curve_first(&index->curve, q); break;
     case MW_START_LAYERS: {
         mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish, cursor->arithmetic == MW_EXACT,
                              cursor->count};
@@ -100,5 +113,44 @@ uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_po
     }
     default: break;
     }
-    return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count; /* of another mesh */
+    return within(tiling, t);
+}
+
+static void grid_first_many(const mw_grid *grid, const mw_point *q, uint32_t n, uint32_t *t)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        t[i] = mw__lattice_cell(&grid->lattice, q[i]);
+        __builtin_prefetch(&grid->tile[t[i]]);
+    }
+    for (uint32_t i = 0; i < n; i++) t[i] = grid->tile[t[i]];
+}
+
+static void two_level_grid_first_many(const mw_two_level_grid *grid, const mw_point *q, uint32_t n, uint32_t *t)
+{
+    for (uint32_t i = 0; i < n; i++) __builtin_prefetch(&grid->coarse[mw__lattice_cell(&grid->lattice, q[i])]);
+    for (uint32_t i = 0; i < n; i++) t[i] = mw__two_level_grid_first(grid, q[i]);
+}
+
+static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t n, uint32_t *t)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        t[i] = mw__hilbert_key(&curve->hilbert, q[i].x, q[i].y);
+        __builtin_prefetch(&curve->from[t[i] >> curve->shift]);
+    }
+    for (uint32_t i = 0; i < n; i++) __builtin_prefetch(&curve->sample[curve->from[t[i] >> curve->shift] - 1]);
+    for (uint32_t i = 0; i < n; i++) t[i] = mw__curve_at(curve, t[i]);
+}
+
+void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q, uint32_t n, uint32_t *t)
+{
+    switch (index->start) {
+    case MW_START_GRID: grid_first_many(&index->grid, q, n, t); break;
+    case MW_START_TWO_LEVEL_GRID: two_level_grid_first_many(&index->two_level_grid, q, n, t); break;
+    case MW_START_CURVE: curve_first_many(&index->curve, q, n, t); break;
+    default: break;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        t[i] = within(tiling, t[i]);
+        __builtin_prefetch(&tiling->tri[t[i]]);
+    }
 }

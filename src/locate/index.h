@@ -2,6 +2,7 @@
 #ifndef MW_SRC_INDEX_H
 #define MW_SRC_INDEX_H
 
+#include "start/curve.h"
 #include "start/grid.h"
 #include "start/layers.h"
 #include "start/two_level_grid.h"
@@ -16,11 +17,17 @@ struct mw_index {
         mw_grid grid;
         mw_two_level_grid two_level_grid;
         mw_layers layers;
+        mw_curve curve;
     };
 };
 
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking
  * through the index did is added to *work, if the cursor counts. */
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work);
+
+#define MW_INDEX_MANY 64
+
+/* The first tiles for n points, at most MW_INDEX_MANY. The look-ups wait for memory together, not one after the other. Not for layers. */
+void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q, uint32_t n, uint32_t *t);
 
 #endif

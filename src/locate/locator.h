@@ -32,6 +32,9 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
 mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
                    mw_work *work);
 
+uint32_t mw__first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
+                        mw_work *work);
+
 /* A location that names no triangle. */
 static MW_INLINE mw_location mw__nowhere(mw_where where)
 {

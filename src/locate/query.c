@@ -161,6 +161,7 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
     case MW_START_LAYERS:
+    case MW_START_CURVE:
     case MW_START_LAST:
     case MW_START_SORTED:
     case MW_START_COUNT: break;
@@ -168,13 +169,19 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     return last;
 }
 
+uint32_t mw__first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
+                        mw_work *work)
+{
+    return cursor->index ? mw__index_first(&locator->tiling, cursor, q, random, work)
+                         : first_tile(locator, cursor, last, q, random);
+}
+
 static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
                      mw_work *work)
 {
     const mw_tiling *tiling = &locator->tiling;
     if (cursor->count) *work = (mw_work){0};
-    uint32_t t =
-        cursor->index ? mw__index_first(tiling, cursor, q, random, work) : first_tile(locator, cursor, last, q, random);
+    uint32_t t = mw__first_tile(locator, cursor, last, q, random, work);
     mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
     if (MW_UNLIKELY(tiling->open)) mw__pieces_begin(locator, &walk);
     return walk;

@@ -22,7 +22,7 @@ bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2]
 {
     grid->lattice = mw__lattice(low, high, cells ? cells : mw__lattice_choose(tiling));
     cells = mw__lattice_cells(&grid->lattice);
-    grid->tile = mw__alloc(cells, sizeof *grid->tile);
+    grid->tile = mw__alloc_lines(cells, sizeof *grid->tile);
     uint32_t *queue = mw__alloc(cells, sizeof *queue), *tile = mw__tile_of_vertices(tiling);
     bool done = grid->tile && queue && tile;
     if (done) {

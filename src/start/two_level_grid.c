@@ -37,7 +37,7 @@ static bool find_crowded(mw_two_level_grid *grid, yard *y)
     uint32_t cells = mw__lattice_cells(&grid->lattice);
     y->tile = mw__tile_of_vertices(y->tiling);
     y->vertices = mw__calloc(cells, sizeof *y->vertices);
-    grid->coarse = mw__alloc(cells, sizeof *grid->coarse);
+    grid->coarse = mw__alloc_lines(cells, sizeof *grid->coarse);
     if (!y->tile || !y->vertices || !grid->coarse) return false;
     for (uint32_t v = 0; v < y->tiling->point_count; v++)
         if (y->tile[v] != MW_NONE) y->vertices[coarse_cell(grid, y, v)]++;
@@ -77,7 +77,7 @@ static bool lay_out(mw_two_level_grid *grid, const yard *y)
         grid->grid[i] = (mw_fine_grid){mw__lattice(extent, high, y->vertices[c]), grid->fine_count};
         grid->fine_count += mw__lattice_cells(&grid->grid[i].lattice);
     }
-    grid->fine = mw__alloc(grid->fine_count, sizeof *grid->fine);
+    grid->fine = mw__alloc_lines(grid->fine_count, sizeof *grid->fine);
     return grid->fine != NULL;
 }
 

@@ -1,0 +1,75 @@
+/* curve.c - tiles that lie in memory along a Hilbert curve are their own index: where q lies on the curve tells about
+ * where its tile lies.
+ *
+ * Of every few tiles one is sampled, with the key of its middle. Between the two samples round the key of q the place of its
+ * tile is estimated by the rule of three. Samples lie as dense as the tiles, so any distribution of vertices will do. What is near
+ * on the curve is near in the plane; a walk is a few tiles longer than from a fine grid, but what it looks up is small enough
+ * for a cache. Of tiles in any other order the sample before q is taken.
+ *
+ * Keys are looked up by their upper bits first: as many buckets as samples, or up to twice as many. */
+#include "start/curve.h"
+
+#include <stdlib.h>
+
+static uint32_t key_of(const mw_curve *curve, const mw_tiling *tiling, uint32_t t)
+{
+    const mw_triangle *tile = &tiling->tri[t];
+    mw_point a = tiling->point[tile->v[0]], b = tiling->point[tile->v[1]], c = tiling->point[tile->v[2]];
+    return mw__hilbert_key(&curve->hilbert, a.x / 3 + b.x / 3 + c.x / 3, a.y / 3 + b.y / 3 + c.y / 3);
+}
+
+static uint32_t buckets(const mw_curve *curve)
+{
+    return UINT32_C(1) << (32 - curve->shift);
+}
+
+/* Put all tiles of the sample, every `stride`-th, between the two ends of the curve. */
+static void take_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch)
+{
+    uint32_t n = curve->count - 2, follow = 0;
+    mw_key *sample = curve->sample + 1;
+    for (uint32_t i = 0; i < n; i++) sample[i] = (mw_key){key_of(curve, tiling, i * stride), i * stride};
+    mw__sort_keys(sample, scratch, n);
+    sample[-1] = (mw_key){0, sample[0].item};
+    sample[n] = (mw_key){UINT32_MAX, sample[n - 1].item};
+    for (uint32_t i = 1; i < n; i++) follow += sample[i].item - sample[i - 1].item <= curve->near;
+    curve->regular = follow >= n - n / 8 - 1;
+}
+
+static void fill_buckets(mw_curve *curve)
+{
+    for (uint32_t b = 0, i = 0; b <= buckets(curve); b++) {
+        while (i < curve->count - 1 && curve->sample[i].key < (uint64_t)b << curve->shift) i++;
+        curve->from[b] = i > 0 ? i : 1;
+    }
+}
+
+bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2], const double high[2],
+                      uint32_t samples)
+{
+    uint32_t stride = samples ? (tiling->tri_count - 1) / samples + 1 : MW_CURVE_STRIDE;
+    uint32_t n = (tiling->tri_count - 1) / stride + 1, bits = 1;
+    while (UINT32_C(1) << bits < n) bits++;
+    *curve = (mw_curve){.hilbert = mw__hilbert(low, high), .count = n + 2, .shift = 32 - bits, .near = 4 * stride};
+    curve->sample = mw__alloc_lines(curve->count, sizeof *curve->sample);
+    curve->from = mw__alloc_lines((size_t)buckets(curve) + 1, sizeof *curve->from);
+    mw_key *scratch = mw__alloc_lines(n, sizeof *scratch);
+    bool done = curve->sample && curve->from && scratch;
+    if (done) {
+        take_sample(curve, tiling, stride, scratch);
+        fill_buckets(curve);
+    }
+    free(scratch);
+    return done;
+}
+
+void mw__curve_release(mw_curve *curve)
+{
+    free(curve->sample);
+    free(curve->from);
+}
+
+size_t mw__curve_bytes(const mw_curve *curve)
+{
+    return curve->count * sizeof *curve->sample + ((size_t)buckets(curve) + 1) * sizeof *curve->from;
+}

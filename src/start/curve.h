@@ -1,0 +1,46 @@
+/* curve.h - first tiles by the order in which the tiles lie in memory. Private. */
+#ifndef MW_SRC_CURVE_H
+#define MW_SRC_CURVE_H
+
+#include "base/hilbert.h"
+#include "domain/tiling.h"
+
+typedef struct mw_curve {
+    mw_hilbert hilbert;
+    mw_key
+        *sample; /* tiles by their keys, ascending; the first has key 0, the last, which is no query's, the largest */
+    uint32_t *from; /* from[b]: how many samples have keys below b << shift, at least 1 */
+    uint32_t count, shift;
+    uint32_t near; /* so many tiles at most lie between samples that are neighbours on the curve and in memory */
+    bool regular;  /* nearly all neighbours on the curve are such */
+} mw_curve;
+
+/* Sample about `samples` tiles (0: MW_CURVE_STRIDE) of a tiling with the extent low..high. Returns false when out of
+ * memory. */
+#define MW_CURVE_STRIDE 32 /* one of so many tiles */
+bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2], const double high[2],
+                      uint32_t samples);
+void mw__curve_release(mw_curve *curve);
+size_t mw__curve_bytes(const mw_curve *curve);
+
+/* The first tile for q whose key is given. */
+static MW_INLINE uint32_t mw__curve_at(const mw_curve *curve, uint32_t key)
+{
+    uint32_t bucket = key >> curve->shift;
+    const mw_key *s = &curve->sample[curve->from[bucket] - 1]; /* not behind q */
+    for (uint32_t n = curve->from[bucket + 1] - curve->from[bucket]; n > 0;) {
+        uint32_t half = (n + 1) / 2;
+        s = s[half].key <= key ? s + half : s;
+        n -= half;
+    }
+    uint32_t tiles = s[1].item - s[0].item; /* a huge number where the next one comes before in memory */
+    if (MW_UNLIKELY(tiles > curve->near)) return s->item;
+    return s->item + (uint32_t)((uint64_t)tiles * (key - s->key) / ((uint64_t)(s[1].key - s->key) + 1));
+}
+
+static MW_INLINE uint32_t mw__curve_first(const mw_curve *curve, mw_point q)
+{
+    return mw__curve_at(curve, mw__hilbert_key(&curve->hilbert, q.x, q.y));
+}
+
+#endif
