@@ -7,7 +7,9 @@
 #include "base/threads.h"
 #include "triangulate/delaunay_harvest.h"
 
+#include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     PATCH = 1 << 14, /* points that with their facets fill a second-level cache, twice at most */
@@ -57,12 +59,44 @@ static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw
     return i;
 }
 
-static mw_status find_extent(delaunay *d, mw_error *error)
+enum { NO_LATTICE = INT_MIN, LATTICE_BITS = 40 };
+
+/* The exponent of the last bit of a finite number that is 1. INT_MAX for 0; NO_LATTICE for a number of more bits than the
+ * coordinates of a lattice have in practice. */
+static int last_bit(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    int exponent = (int)(bits >> (DBL_MANT_DIG - 1) & 0x7ff);
+    uint64_t fraction = bits & ((UINT64_C(1) << (DBL_MANT_DIG - 1)) - 1);
+    if (exponent > 0) fraction |= UINT64_C(1) << (DBL_MANT_DIG - 1);
+    if (fraction == 0) return INT_MAX;
+    int zeros = __builtin_ctzll(fraction);
+    if (zeros < DBL_MANT_DIG - LATTICE_BITS) return NO_LATTICE;
+    return (exponent > 0 ? exponent : 1) + DBL_MIN_EXP - 1 - DBL_MANT_DIG + zeros;
+}
+
+/* The exponent of the largest power of two that the coordinates of points from..to - 1 are multiples of. For most that are
+ * none the first tells. */
+static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
+{
+    int lattice = INT_MAX;
+    for (uint32_t i = from; i < to && lattice != NO_LATTICE; i++) {
+        int x = last_bit(points[i].x), y = last_bit(points[i].y);
+        if (x < lattice) lattice = x;
+        if (y < lattice) lattice = y;
+    }
+    return lattice;
+}
+
+/* What there is to know of the points before they are sorted: extent and lattice. */
+static mw_status survey(delaunay *d, mw_error *error)
 {
     uint32_t n = d->ground.n, bad = n;
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
     int team = mw__team(d->setup.threads, chunks);
     (void)team; /* unused without OpenMP */
+    int lattice = INT_MAX;
     d->extent = (mw_extent){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(team) if (team > 1)
@@ -71,15 +105,21 @@ static mw_status find_extent(delaunay *d, mw_error *error)
         mw_extent mine;
         uint32_t from = (uint32_t)(i * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
         uint32_t stop = extent_of(d->given, from, to, &mine);
+        int my_lattice = lattice_of(d->given, from, stop);
 #ifdef _OPENMP
 #pragma omp critical(mw_extent)
 #endif
         {
             extend(&d->extent, &mine);
+            if (my_lattice < lattice) lattice = my_lattice;
             if (stop < to && stop < bad) bad = stop;
         }
     }
-    return bad < n ? mw__fail_at(error, -1, bad, "point %u is not finite", bad) : MW_OK;
+    if (bad < n) return mw__fail_at(error, -1, bad, "point %u is not finite", bad);
+    d->ground.width = d->extent.high[0] - d->extent.low[0];
+    d->ground.height = d->extent.high[1] - d->extent.low[1];
+    d->ground.unit = lattice == NO_LATTICE || lattice == INT_MAX ? 0 : ldexp(1, lattice);
+    return MW_OK;
 }
 
 static bool equal(mw_point a, mw_point b)
@@ -139,10 +179,8 @@ static mw_status prepare(delaunay *d, mw_error *error)
     mw_ground *g = &d->ground;
     if (g->n < 3) return mw__fail(error, MW_ERROR_INPUT, "fewer than three points: %u", g->n);
     if (g->n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
-    mw_status status = find_extent(d, error);
+    mw_status status = survey(d, error);
     if (status != MW_OK) return status;
-    g->width = d->extent.high[0] - d->extent.low[0];
-    g->height = d->extent.high[1] - d->extent.low[1];
     g->order = mw__alloc_lines(g->n, sizeof *g->order);
     g->point = mw__alloc_lines(g->n, sizeof *g->point);
     g->sequence = mw__alloc_lines(g->n, sizeof *g->sequence);

@@ -60,12 +60,20 @@ static __attribute__((noinline)) bool in_circle_exact(const mw_growth *g, uint32
  * of the two lengths, so at most the mean of the two lifts, and the sum of lift times permanent at most ab + bc + ca of
  * the lifts. These are off by less than 8u, u = 2^-53; 11u instead of 10u covers that and the rounding of the bound. */
 #define CIRCLE_ERROR (11.0 * 0x1p-53)
+
+/* On a lattice, such as that of integers, many points lie on one circle, and no bound decides. But where all coordinates
+ * are multiples of u and the lifts add up to S < 2^26 u^2, a product of lift and minor is a multiple of u^4, and all of
+ * them together are at most ab + bc + ca <= S^2 / 3 < 2^52 u^4 for lifts a, b, c: nothing is rounded. The same goes for
+ * the two products of the orientation test. The powers of u must not under- or overflow. */
+#define LATTICE_LIFTS 0x1p26
+#define LATTICE_LEAST 0x1p-250
+#define LATTICE_MOST 0x1p230
 static MW_INLINE bool in_circle(const mw_growth *g, const sight *a, const sight *b, const sight *c, mw_point q)
 {
     double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
                  c->lift * (a->x * b->y - a->y * b->x);
     double bound = CIRCLE_ERROR * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + g->underflow;
-    if (MW_LIKELY(fabs(det) > bound)) return det > 0;
+    if (MW_LIKELY(fabs(det) > bound) || a->lift + b->lift + c->lift < g->lattice) return det > 0;
     return in_circle_exact(g, a->vertex, b->vertex, c->vertex, q);
 }
 
@@ -73,7 +81,7 @@ static MW_INLINE bool in_circle(const mw_growth *g, const sight *a, const sight 
 static MW_INLINE bool beyond(const mw_growth *g, const sight *a, const sight *b, mw_point q)
 {
     double left = a->x * b->y, right = a->y * b->x, det = left - right;
-    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det < 0;
+    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right)) || a->lift + b->lift < g->lattice) return det < 0;
     return mw__orient2d_exact(g->point[a->vertex], g->point[b->vertex], q) < 0;
 }
 
@@ -176,10 +184,11 @@ static MW_INLINE void flip_round(mw_growth *g, uint32_t first, sight a, sight b,
     }
 }
 
-void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double height)
+void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double height, double unit)
 {
     g->infinity = point_count;
-    g->far = 2 * (width * width + height * height);
+    g->lattice = unit >= LATTICE_LEAST && unit <= LATTICE_MOST ? LATTICE_LIFTS * unit * unit : 0;
+    g->far = fmax(2 * (width * width + height * height), g->lattice); /* so no ghost passes for a part of the lattice */
     /* 12 * 2^-1075 times the sum of the lifts (see mw__incircle), which is below 3 far, or times 1 */
     g->underflow = 0x1p-1069 * fmax(g->far, 1);
 }

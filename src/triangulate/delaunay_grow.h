@@ -19,6 +19,7 @@ typedef struct mw_growth {
     uint32_t last;     /* where the next walk begins                                                              */
     double far;        /* lift of the vertex at infinity, see delaunay_grow.c                                     */
     double underflow;  /* what underflow can add to the error of the circle test, at most                         */
+    double lattice;    /* squares of distances whose sum is below this: rounding is exact, see delaunay_grow.c    */
     uint64_t visited;  /* facets visited by walks                                                                 */
 } mw_growth;
 
@@ -27,8 +28,9 @@ static MW_INLINE bool mw__is_ghost(const mw_growth *g, const mw_facet *f)
     return f->v[0] == g->infinity || f->v[1] == g->infinity || f->v[2] == g->infinity;
 }
 
-/* Fills in what depends on the points alone. No two coordinates differ by more than width and height. */
-void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double height);
+/* Fills in what depends on the points alone. No two coordinates differ by more than width and height; all are multiples of
+ * unit, a power of two, or 0 for want of one. */
+void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double height, double unit);
 
 /* Begin with the triangle of three vertices that do not lie on one line: four facets, from number facet_count on. */
 void mw__grow_begin(mw_growth *g, const uint32_t first[3]);

@@ -125,7 +125,7 @@ static uint32_t insert(const mw_ground *ground, mw_growth *g, const uint32_t *se
 static mw_growth growth_of(const mw_ground *ground, uint32_t last, uint32_t facets)
 {
     mw_growth g = {.point = ground->point, .facet = ground->facet, .facet_count = facets, .last = last};
-    mw__grow_prepare(&g, ground->n, ground->width, ground->height);
+    mw__grow_prepare(&g, ground->n, ground->width, ground->height, ground->unit);
     return g;
 }
 

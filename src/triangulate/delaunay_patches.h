@@ -33,7 +33,7 @@ typedef struct mw_ground {
     uint32_t *sequence; /* scratch, one for each place */
     mw_facet *facet;    /* two for each place; those that remain unused are ghosts of nothing but infinity */
     uint32_t n;
-    double width, height;
+    double width, height, unit; /* as for mw__grow_prepare */
 } mw_ground;
 
 /* Grow and merge all patches, on so many threads, 0 as OpenMP gives. Where all points lie on one line no facet is made, and
