@@ -51,7 +51,7 @@ static uint32_t by_force(const mw_mesh *mesh, const double q[2])
 }
 
 /* The triangulation less some of its triangles, in the input's order of corners. */
-static mw_mesh *damaged(input *in, const mw_mesh *whole)
+static mw_mesh *damaged(input *in, const mw_mesh *whole, int layout)
 {
     uint32_t n = mw_mesh_triangle_count(whole), points = mw_mesh_vertex_count(whole), kept = 0;
     uint32_t triangles[6 * MOST];
@@ -66,7 +66,7 @@ static mw_mesh *damaged(input *in, const mw_mesh *whole)
     }
     mw_arrays arrays = {.points = xy, .point_count = points, .triangles = triangles, .triangle_count = kept};
     mw_mesh *mesh;
-    if (mw_mesh_create(&arrays, NULL, &mesh, NULL)) abort();
+    if (mw_mesh_create(&arrays, &(mw_mesh_options){.layout = layout}, &mesh, NULL)) abort();
     return mesh;
 }
 
@@ -115,8 +115,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t i = 0; i < 2 * n; i++) points[i] = (coordinate(&in, 0) + offset) * scale;
     mw_mesh *whole;
     if (mw_delaunay(points, n, 2, NULL, NULL, &whole, NULL)) return 0; /* all on one line */
-    mw_mesh *mesh = damaged(&in, whole);
-    mw_locator_options prepare = {.layout = 1 + (next(&in) & 1)};
+    int layout = 1 + (next(&in) & 1);
+    mw_mesh *mesh = damaged(&in, whole, layout);
+    mw_locator_options prepare = {0};
     mw_locator *locator, *open;
     if (mw_locator_create(mesh, &prepare, &locator, NULL)) abort(); /* a part of an embedding is one */
     prepare.fill = 2;
@@ -126,7 +127,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         mw_index_create(locator, (mw_start_kind)start, NULL, &index[start], NULL);
     for (int i = 0; i < 8; i++) {
         const double q[2] = {(coordinate(&in, 1) + offset) * scale, (coordinate(&in, 1) + offset) * scale};
-        query(mesh, locator, index, q, prepare.layout);
+        query(mesh, locator, index, q, layout);
         query_open(open, locator, q);
     }
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) mw_index_destroy(index[start]);

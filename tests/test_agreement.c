@@ -59,13 +59,13 @@ static void expect_same(const mw_location *a, const mw_location *b, size_t n, co
                      mw_where_name((mw_where)b[i].where), a[i].triangle, mw_where_name((mw_where)a[i].where));
 }
 
-static void try_combinations(const mw_mesh *mesh, const double *q, size_t n, const mw_location *want)
+static void try_combinations(const arrays *a, const double *q, size_t n, const mw_location *want)
 {
     mw_location *at = malloc(n * sizeof *at);
     for (int layout = 1; layout <= 2; layout++) {
         mw_locator *locator;
-        mw_locator_options prepare = {.layout = layout};
-        assert_int_equal(mw_locator_create(mesh, &prepare, &locator, NULL), MW_OK);
+        mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){.layout = layout});
+        assert_int_equal(mw_locator_create(mesh, NULL, &locator, NULL), MW_OK);
         mw_index *index[MW_START_COUNT];
         starts_open(locator, index);
         for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
@@ -84,6 +84,7 @@ static void try_combinations(const mw_mesh *mesh, const double *q, size_t n, con
             }
         starts_close(index);
         mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
     }
     free(at);
 }
@@ -104,7 +105,7 @@ static void agree(arrays *a, uint64_t *random)
     mw_location *want = malloc(n * sizeof *want);
     for (size_t i = 0; i < n; i++) want[i] = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
     for (size_t i = 0; i < n; i += 13) assert_int_equal(want[i].triangle, by_force(a, q + 2 * i));
-    try_combinations(mesh, q, n, want);
+    try_combinations(a, q, n, want);
     free(want);
     free(q);
     mw_locator_destroy(locator);

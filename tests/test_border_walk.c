@@ -15,9 +15,9 @@
 
 enum { OPEN = 2, FILLED = 1 };
 
-static mw_locator *locator_of(const mw_mesh *mesh, int fill, int layout)
+static mw_locator *locator_of(const mw_mesh *mesh, int fill)
 {
-    return mesh_locator(mesh, (mw_locator_options){.fill = fill, .layout = layout});
+    return mesh_locator(mesh, (mw_locator_options){.fill = fill});
 }
 
 static bool same(const mw_location *a, const mw_location *b)
@@ -46,7 +46,7 @@ static bool is_refused(const arrays *a)
 /* Answers in the filled mesh; of the first `exact` queries compared with brute force. */
 static mw_location *expect(const arrays *a, const mw_mesh *mesh, const double *q, size_t n, size_t exact)
 {
-    mw_locator *filled = locator_of(mesh, FILLED, 0);
+    mw_locator *filled = locator_of(mesh, FILLED);
     mw_location *want = malloc(n * sizeof *want);
     assert_int_equal(mw_locate_batch(filled, q, n, 2, NULL, want, NULL, NULL), MW_OK);
     for (size_t i = 0; i < n && i < exact; i++) {
@@ -79,10 +79,11 @@ static void try_batch(const mw_locator *open, const mw_query_options *options, c
 }
 
 /* All starts and both arithmetics, single and in batches, in both layouts. */
-static void try_open(const mw_mesh *mesh, const double *q, const mw_location *want, size_t n, uint64_t *random)
+static void try_open(const arrays *a, const double *q, const mw_location *want, size_t n, uint64_t *random)
 {
     for (int layout = 1; layout <= 2; layout++) {
-        mw_locator *open = locator_of(mesh, OPEN, layout);
+        mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){.layout = layout});
+        mw_locator *open = locator_of(mesh, OPEN);
         mw_index *index[MW_START_COUNT];
         starts_open(open, index);
         for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)
@@ -102,6 +103,7 @@ static void try_open(const mw_mesh *mesh, const double *q, const mw_location *wa
             }
         starts_close(index);
         mw_locator_destroy(open);
+        mw_mesh_destroy(mesh);
     }
 }
 
@@ -111,7 +113,7 @@ static void try_mesh(const arrays *a, size_t queries, size_t exact, uint64_t *ra
     double *q = nasty_queries(a, queries, &n, random);
     mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
     mw_location *want = expect(a, mesh, q, n, exact);
-    try_open(mesh, q, want, n, random);
+    try_open(a, q, want, n, random);
     free(want);
     mw_mesh_destroy(mesh);
     free(q);
@@ -332,7 +334,7 @@ static void test_options(void **state)
     uint64_t random = 27;
     arrays a = nested(3);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN, 2), *filled = locator_of(mesh, FILLED, 2);
+    mw_locator *open = locator_of(mesh, OPEN), *filled = locator_of(mesh, FILLED);
     mw_locator_info info;
     mw_locator_describe(open, &info);
     assert_int_equal(info.open, 1);
@@ -374,7 +376,7 @@ static void test_options(void **state)
 
     a = grid_mesh(4, 0, &random); /* convex: there is nothing to fill */
     mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    open = locator_of(mesh, OPEN, 2);
+    open = locator_of(mesh, OPEN);
     mw_locator_describe(open, &info);
     assert_int_equal(info.open, 0);
     mw_locator_destroy(open);
@@ -392,7 +394,7 @@ static void test_counters(void **state)
     punch(&a, 0.15, &random);
     scramble(&a, 1, &random);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN, 0);
+    mw_locator *open = locator_of(mesh, OPEN);
     double *q = malloc(2 * N * sizeof *q);
     mw_location *at = malloc(N * sizeof *at);
     for (int i = 0; i < 2 * N; i++) q[i] = 64 * random_unit(&random) - 2;
@@ -442,7 +444,7 @@ static arrays cells_mesh(const char *const *row, uint32_t rows, uint32_t columns
 static void longest(const arrays *a, const double *q, size_t n, double most[2])
 {
     mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN, 2);
+    mw_locator *open = locator_of(mesh, OPEN);
     mw_mesh_info info;
     assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
     mw_query_options options = {.start = MW_START_LAST, .count = 1};
@@ -514,7 +516,7 @@ static void test_long_ways(void **state)
     double q[2 * N];
     arrays a = band(POINTS, long_spiral);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN, 2);
+    mw_locator *open = locator_of(mesh, OPEN);
     mw_mesh_info info;
     assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
     for (int i = 0; i < 2 * N; i++) q[i] = 800 * random_unit(&random) - 400;
@@ -548,7 +550,7 @@ static void test_short_ways(void **state)
     transform(&pieces, 0.5, 0, 0);
     for (int i = 0; i < 2; i++) {
         mw_mesh *mesh = arrays_mesh(i == 0 ? &pieces : &convex, (mw_mesh_options){0});
-        mw_locator *open = locator_of(mesh, OPEN, 0);
+        mw_locator *open = locator_of(mesh, OPEN);
         mw_query_options options = {.walk = MW_WALK_BORDER, .start = MW_START_RANDOM, .count = 1};
         mw_cursor cursor;
         assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
@@ -576,7 +578,7 @@ static void test_centre(void **state)
         punch(&a, 0.1, &random);
         scramble(&a, 0, &random);
         mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-        mw_locator *open = locator_of(mesh, OPEN, 0);
+        mw_locator *open = locator_of(mesh, OPEN);
         mw_query_options options = {.start = MW_START_CENTRE, .count = 1};
         mw_cursor cursor;
         assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);

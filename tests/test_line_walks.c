@@ -22,7 +22,7 @@ typedef struct field {
 /* A mesh whose tiles have the numbers of its triangles. */
 static field field_of(mw_mesh *mesh)
 {
-    return (field){.mesh = mesh, .locator = mesh_locator(mesh, (mw_locator_options){.layout = 2})};
+    return (field){.mesh = mesh, .locator = mesh_locator(mesh, (mw_locator_options){0})};
 }
 
 static field field_of_arrays(const arrays *a)

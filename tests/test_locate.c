@@ -12,20 +12,20 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-static mw_mesh *mesh_of(const arrays *a)
+static mw_mesh *mesh_of(const arrays *a, int layout)
 {
     mw_arrays view = arrays_view(a);
     mw_mesh *mesh;
     mw_error error;
-    if (mw_mesh_create(&view, NULL, &mesh, &error)) fail_msg("mesh: %s", error.message);
+    if (mw_mesh_create(&view, &(mw_mesh_options){.layout = layout}, &mesh, &error)) fail_msg("mesh: %s", error.message);
     return mesh;
 }
 
-static mw_locator *locator_of(const mw_mesh *mesh, int layout, int border)
+static mw_locator *locator_of(const mw_mesh *mesh, int border)
 {
     mw_locator *locator;
     mw_error error;
-    mw_locator_options options = {.layout = layout, .border = border};
+    mw_locator_options options = {.border = border};
     if (mw_locator_create(mesh, &options, &locator, &error)) fail_msg("locator: %s", error.message);
     return locator;
 }
@@ -100,9 +100,9 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
     double *q = nasty_queries(a, queries, &n, random);
     oracle_answer *want = malloc(n * sizeof *want);
     for (size_t i = 0; i < n; i++) want[i] = oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
-    mw_mesh *mesh = mesh_of(a);
     for (int layout = 1; layout <= 2; layout++) {
-        mw_locator *locator = locator_of(mesh, layout, 0);
+        mw_mesh *mesh = mesh_of(a, layout);
+        mw_locator *locator = locator_of(mesh, 0);
         mw_index *index[MW_START_COUNT];
         starts_open(locator, index);
         for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
@@ -124,8 +124,8 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
                 }
         starts_close(index);
         mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
     }
-    mw_mesh_destroy(mesh);
     free(want);
     free(q);
 }
@@ -201,8 +201,8 @@ static void test_celestial_trap(void **state)
     (void)state;
     uint64_t random = 6;
     arrays a = trap_mesh();
-    mw_mesh *mesh = mesh_of(&a);
-    mw_locator *locator = locator_of(mesh, 2, 0);
+    mw_mesh *mesh = mesh_of(&a, 0);
+    mw_locator *locator = locator_of(mesh, 0);
     mw_query_options options = {.walk = MW_WALK_CELESTIAL, .start = MW_START_LAST, .count = 1};
     const double q[2] = {.551665, .106155};
     for (uint32_t start = 0; start < a.triangle_count; start++) {
@@ -225,8 +225,8 @@ static void test_bad_points(void **state)
     (void)state;
     uint64_t random = 7;
     arrays a = grid_mesh(3, 0, &random);
-    mw_mesh *mesh = mesh_of(&a);
-    mw_locator *locator = locator_of(mesh, 0, 0);
+    mw_mesh *mesh = mesh_of(&a, 0);
+    mw_locator *locator = locator_of(mesh, 0);
     const double q[] = {NAN, 1, 1, INFINITY, -INFINITY, NAN, 1.5, 1.5, 1e308, -1e308, 5e-324, 5e-324, -5e-324, 1};
     mw_location at[7];
     mw_index *index[MW_START_COUNT];
@@ -372,7 +372,7 @@ static void test_no_handover_outside(void **state)
     arrays a = grid_mesh(20, 0.6, &random);
     mw_mesh *mesh;
     assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, &mesh, NULL), MW_OK);
-    mw_locator *locator = locator_of(mesh, 0, 0);
+    mw_locator *locator = locator_of(mesh, 0);
     for (int i = 0; i < N; i++) {
         q[2 * i] = 200 * random_unit(&random) - 90;
         q[2 * i + 1] = i % 2 ? -10 - 50 * random_unit(&random) : 30 + 50 * random_unit(&random);
@@ -396,8 +396,8 @@ static void test_determinism(void **state)
     uint64_t random = 8;
     arrays a = grid_mesh(150, 0.4, &random);
     scramble(&a, 1, &random);
-    mw_mesh *mesh = mesh_of(&a);
-    mw_locator *locator = locator_of(mesh, 0, 0);
+    mw_mesh *mesh = mesh_of(&a, 0);
+    mw_locator *locator = locator_of(mesh, 0);
     enum { N = 100000 };
     double *q = malloc(2 * N * sizeof *q);
     for (int i = 0; i < 2 * N; i++) q[i] = 160 * random_unit(&random) - 5;

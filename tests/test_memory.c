@@ -46,7 +46,6 @@ static mw_status tile_job(const mw_arrays *view, mw_error *error)
     mw_mesh *mesh = make(view, &status, error);
     mw_tiling tiling = {0};
     if (!status) status = mw__tiling_create(mesh, true, &tiling, error);
-    if (!status) status = mw__tiling_order(&tiling, error);
     mw__tiling_release(&tiling);
     mw_mesh_destroy(mesh);
     return status;
@@ -58,8 +57,7 @@ static mw_status locator_job(const mw_arrays *view, mw_error *error)
     mw_mesh *mesh = make(view, &status, error);
     mw_locator *locator = NULL;
     if (!status)
-        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .border = 1, .layout = 1, .areas = 1},
-                                   &locator, error);
+        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .border = 1, .areas = 1}, &locator, error);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return status;
@@ -70,8 +68,7 @@ static mw_status open_job(const mw_arrays *view, mw_error *error)
     mw_status status;
     mw_mesh *mesh = make(view, &status, error);
     mw_locator *locator = NULL;
-    if (!status)
-        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .layout = 1, .fill = 2}, &locator, error);
+    if (!status) status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .fill = 2}, &locator, error);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return status;

@@ -28,8 +28,7 @@ static field field_of(arrays a)
     mw_arrays view = arrays_view(&a);
     mw_error error;
     if (mw_mesh_create(&view, NULL, &f.mesh, &error)) fail_msg("mesh: %s", error.message);
-    mw_locator_options keep = {.layout = 2};
-    if (mw_locator_create(f.mesh, &keep, &f.locator, &error)) fail_msg("locator: %s", error.message);
+    if (mw_locator_create(f.mesh, NULL, &f.locator, &error)) fail_msg("locator: %s", error.message);
     return f;
 }
 

@@ -66,7 +66,7 @@ static int make_world(void **state)
     for (size_t i = 0; i < POINTS; i++) memcpy(w.query + 20 * i, points + 2 * i, 2 * sizeof(double));
     free(points);
     w.value = random_numbers(POINTS, 0, 100, 3);
-    mw_locator_options options = {.border = 1, .layout = 1};
+    mw_locator_options options = {.border = 1};
     assert_int_equal(mw_locator_create(w.mesh, &options, &w.locator, NULL), MW_OK);
     starts_open(w.locator, w.index);
     w.answer = malloc(QUERIES * sizeof *w.answer);
@@ -165,7 +165,7 @@ static void *locators(void *argument)
 {
     const job *j = argument;
     const world *w = j->world;
-    mw_locator_options options = {.border = j->number % 2 == 0, .layout = (int)(j->number % 3)};
+    mw_locator_options options = {.border = j->number % 2 == 0};
     for (int i = 0; i < 3; i++) {
         mw_locator *locator;
         mw_cursor cursor;

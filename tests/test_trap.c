@@ -229,7 +229,7 @@ static mw_counters locate_all(const trap_data *trap, mw_walk_kind walk, mw_arith
     enum { ROUNDS = 20 };
     mw_locator *locator;
     mw_cursor cursor;
-    mw_locator_options how = {.areas = areas, .layout = 2};
+    mw_locator_options how = {.areas = areas};
     mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = arithmetic, .count = 1};
     assert_int_equal(mw_locator_create(trap->mesh, &how, &locator, NULL), MW_OK);
     assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);

@@ -314,7 +314,7 @@ static void test_sure_by_stored_areas(void **state)
         arrays_triangle(&m, left ? 2 : 0, left ? 0 : 2, 1);
         arrays_triangle(&m, left ? 0 : 3, left ? 3 : 0, 1);
         mw_mesh *mesh = arrays_mesh(&m, (mw_mesh_options){0});
-        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1, .layout = 2});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1});
         for (int k = 0; k < 4; k++) {
             double q[2] = {nextafter(v[0], k % 2 ? b[0] : v[0]), nextafter(v[1], k / 2 ? b[1] : v[1])};
             expect_sure(&mw__direct_stored, &locator->tiling, 1, q, &crossed);

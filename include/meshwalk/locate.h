@@ -78,11 +78,10 @@ typedef struct mw_locator mw_locator;
 typedef struct mw_locator_options {
     int any;    /* 1: take also a mesh that is no embedding; see mw_locator_void_promise                      */
     int border; /* 1: build the index that nearest-border queries and a tolerance need                        */
-    int layout; /* 0: decide; 1: lay triangles out along a Hilbert curve (a copy); 2: keep the mesh's order   */
     int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
     int fill; /* pockets and holes of an embedding that is not convex: 1: filled with ghost triangles, so that every walk
                    can cross them; 2: left open, only MW_WALK_BORDER (and AUTO) walks there; 0: 1, unless `queries` is few */
-    uint32_t reserved[3];
+    uint32_t reserved[4];
     uint64_t queries; /* with `fill` 0: about so many are to come; few do not pay for what filling takes. 0 = many */
 } mw_locator_options;
 
@@ -104,8 +103,7 @@ typedef struct mw_locator_info {
     size_t area_bytes;        /* of it, the stored areas                           */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;      /* 1: walks run on an own copy of triangles and points: with ghosts, without flat triangles, or in
-                      Hilbert order */
+    int copied;      /* 1: walks run on an own copy of triangles and points: with ghosts, or without flat triangles */
     int embedding;   /* 0: only with options.any                          */
     int open;        /* 1: not convex, and pockets and holes are not filled                  */
     uint32_t pieces; /* parts that share no place (equal coordinates are one); only where open, else 1 */

@@ -1,8 +1,7 @@
-/* tiling.c - the tiling a mesh needs: its own arrays, or completed ones; and its layout in memory. */
+/* tiling.c - the tiling a mesh needs: its own arrays, or completed ones. */
 #include "domain/tiling.h"
 
 #include "domain/complete.h"
-#include "mesh/order.h"
 
 #include <stdlib.h>
 
@@ -142,71 +141,6 @@ size_t mw__tiling_bytes(const mw_tiling *tiling)
     return bytes;
 }
 
-/* place[order[i]] = i */
-static void invert(const uint32_t *order, uint32_t n, uint32_t *place)
-{
-    for (uint32_t i = 0; i < n; i++) place[order[i]] = i;
-}
-
-static uint32_t renumber_half(uint32_t half, const uint32_t *triangle_place)
-{
-    return mw__link(triangle_place[mw__link_triangle(half)], mw__link_edge(half));
-}
-
-static void renumber(mw_triangle *t, const uint32_t *triangle_place, const uint32_t *vertex_place)
-{
-    for (int k = 0; k < 4; k++) t->v[k] = vertex_place[t->v[k]];
-    for (int k = 0; k < 3; k++)
-        if (t->link[k] != MW_NONE) t->link[k] = renumber_half(t->link[k], triangle_place);
-}
-
-/* The four permutations of a new layout, and the arrays laid out by them. */
-typedef struct layout {
-    uint32_t *triangle_order, *triangle_place, *vertex_order, *vertex_place;
-    mw_point *point;
-    mw_triangle *tri;
-    uint32_t *owner;
-} layout;
-
-static bool reserve(layout *to, const mw_tiling *from)
-{
-    to->triangle_order = mw__alloc(from->tri_count, sizeof *to->triangle_order);
-    to->triangle_place = mw__alloc(from->tri_count, sizeof *to->triangle_place);
-    to->vertex_order = mw__alloc(from->point_count, sizeof *to->vertex_order);
-    to->vertex_place = mw__alloc(from->point_count, sizeof *to->vertex_place);
-    to->point = mw__alloc_lines(from->point_count, sizeof *to->point);
-    to->tri = mw__alloc_lines(from->tri_count, sizeof *to->tri);
-    to->owner = mw__alloc(from->point_count, sizeof *to->owner);
-    return to->triangle_order && to->triangle_place && to->vertex_order && to->vertex_place && to->point && to->tri &&
-           to->owner;
-}
-
-static bool order_all(layout *to, const mw_tiling *from)
-{
-    if (!mw__order_triangles(from->point, from->tri, from->tri_count, to->triangle_order) ||
-        !mw__order_vertices(from->tri, to->triangle_order, from->tri_count, from->point_count, to->vertex_order))
-        return false;
-    invert(to->triangle_order, from->tri_count, to->triangle_place);
-    invert(to->vertex_order, from->point_count, to->vertex_place);
-    return true;
-}
-
-static void fill(layout *to, const mw_tiling *from)
-{
-    for (uint32_t i = 0; i < from->rim_count; i++) {
-        from->rim[i].half = renumber_half(from->rim[i].half, to->triangle_place);
-        from->rim[i].next = renumber_half(from->rim[i].next, to->triangle_place);
-    }
-    for (uint32_t i = 0; i < from->tri_count; i++) {
-        to->tri[i] = from->tri[to->triangle_order[i]];
-        renumber(&to->tri[i], to->triangle_place, to->vertex_place);
-    }
-    for (uint32_t i = 0; i < from->point_count; i++) {
-        to->point[i] = from->point[to->vertex_order[i]];
-        to->owner[i] = from->owner[to->vertex_order[i]];
-    }
-}
-
 static double double_area(mw_point a, mw_point b, mw_point c)
 {
     double bound, area = mw__orient2d_rounded(a, b, c, &bound);
@@ -224,28 +158,4 @@ mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error)
         tiling->area[t] = double_area(p[v[0]], p[v[1]], p[v[2]]);
     }
     return MW_OK;
-}
-
-mw_status mw__tiling_order(mw_tiling *tiling, mw_error *error)
-{
-    layout to = {0};
-    bool done = reserve(&to, tiling) && order_all(&to, tiling);
-    if (done) {
-        fill(&to, tiling);
-        release_arrays(tiling);
-        free(tiling->owner);
-        tiling->point = to.point;
-        tiling->tri = to.tri;
-        tiling->owner = to.owner;
-        tiling->borrowed = false;
-    } else {
-        free(to.point);
-        free(to.tri);
-        free(to.owner);
-    }
-    free(to.triangle_order);
-    free(to.triangle_place);
-    free(to.vertex_order);
-    free(to.vertex_place);
-    return done ? MW_OK : mw__fail_memory(error);
 }

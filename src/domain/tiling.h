@@ -40,19 +40,15 @@ typedef struct mw_tiling {
 mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
 /* The same, left open; to be finished. Where the mesh fills its hull there is no difference. */
 mw_status mw__tiling_create_open(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
-/* When the tiles have their final order: find the loops and pieces of an open tiling. MW_ERROR_MEMORY. */
+/* Find the loops and pieces of an open tiling. MW_ERROR_MEMORY. */
 mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error);
 void mw__tiling_release(mw_tiling *tiling);
 size_t mw__tiling_bytes(const mw_tiling *tiling);      /* what it owns           */
 size_t mw__tiling_copy_bytes(const mw_tiling *tiling); /* of it, tiles and points */
 
 /* Compute the areas: rounded, thin tiles included, with a relative error below MW_AREA_ERROR or, among the subnormal
- * numbers, an absolute one below the smallest normal number; infinite above the doubles. MW_ERROR_MEMORY. Not before
- * the tiles have their final order. */
+ * numbers, an absolute one below the smallest normal number; infinite above the doubles. MW_ERROR_MEMORY. */
 #define MW_AREA_ERROR 0x1p-43
 mw_status mw__tiling_areas(mw_tiling *tiling, mw_error *error);
-
-/* Lay out tiles and vertices along a Hilbert curve; a borrowed tiling becomes a copy. */
-mw_status mw__tiling_order(mw_tiling *tiling, mw_error *error);
 
 #endif

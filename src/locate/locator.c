@@ -7,23 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Share of links, of a few tiles spread over the array, that lead far away in memory. Walking a mesh whose neighbours lie
- * apart costs a cache miss a step; laid out along a Hilbert curve few links lead farther than this. */
-static bool scattered(const mw_tiling *tiling)
-{
-    enum { SMALL = 1 << 14, PROBES = 4096, FAR = 4096 };
-    if (tiling->tri_count < SMALL) return false; /* fits the cache in any order */
-    uint32_t links = 0, far = 0, stride = tiling->tri_count / PROBES + 1;
-    for (uint32_t t = 0; t < tiling->tri_count; t += stride)
-        for (int k = 0; k < 3; k++) {
-            if (tiling->tri[t].link[k] == MW_NONE) continue;
-            uint32_t other = mw__link_triangle(tiling->tri[t].link[k]);
-            links++;
-            far += (other > t ? other - t : t - other) > FAR;
-        }
-    return far > links / 4;
-}
-
 /* Does the vertex across the link lie in the tile's circle? Rounded. */
 static bool fails_circle(const mw_tiling *tiling, const mw_triangle *tile, uint32_t link)
 {
@@ -99,8 +82,7 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
     mw_tiling *tiling = &locator->tiling;
     mw_status status = make_tiling(locator, options, error);
     if (status) return status;
-    if (options->layout == 1 || (options->layout == 0 && scattered(tiling))) status = mw__tiling_order(tiling, error);
-    if (status == MW_OK) status = mw__tiling_finish(tiling, error);
+    status = mw__tiling_finish(tiling, error);
     if (status == MW_OK && options->areas) status = mw__tiling_areas(tiling, error);
     if (status) return status;
     if (!tiling->embedding) {
@@ -131,7 +113,6 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     *out = NULL;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
-    if (options->layout < 0 || options->layout > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
     if (options->fill < 0 || options->fill > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
