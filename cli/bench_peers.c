@@ -17,10 +17,6 @@ typedef struct defaults {
     uint32_t engines, tasks;
 } defaults;
 
-#define OWN_ENGINES                                                                                                    \
-    (1u << ENGINE_OWN | 1u << ENGINE_OWN_SINGLE | 1u << ENGINE_OWN_GRID | 1u << ENGINE_OWN_GRID_SINGLE |               \
-     1u << ENGINE_OWN_LAST)
-
 static const defaults beside_peers = {
     .name = "peers",
     .sets = "uniform,clusters,gaussian,rectangle,slivers",

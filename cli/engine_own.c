@@ -30,7 +30,7 @@ static void destroy(void *self)
     free(o);
 }
 
-static bool make(own *o, const engine_mesh *m, unsigned threads, bool grid)
+static bool make(own *o, const engine_mesh *m, unsigned threads, mw_start_kind start)
 {
     mw_arrays arrays = {
         .points = m->points,
@@ -41,15 +41,15 @@ static bool make(own *o, const engine_mesh *m, unsigned threads, bool grid)
     mw_mesh_options options = {.threads = threads};
     return mw_mesh_create(&arrays, &options, &o->mesh, NULL) == MW_OK &&
            mw_locator_create(o->mesh, NULL, &o->locator, NULL) == MW_OK &&
-           (!grid || mw_index_create(o->locator, MW_START_GRID, NULL, &o->index, NULL) == MW_OK);
+           (!mw_start_has_index(start) || mw_index_create(o->locator, start, NULL, &o->index, NULL) == MW_OK);
 }
 
-static double build_own(const engine_mesh *m, unsigned threads, bool grid, void **self)
+static double build_own(const engine_mesh *m, unsigned threads, mw_start_kind start, void **self)
 {
     own *o = calloc(1, sizeof *o);
     *self = o;
     double clock = tally_clock();
-    if (o && make(o, m, threads, grid)) return tally_clock() - clock;
+    if (o && make(o, m, threads, start)) return tally_clock() - clock;
     destroy(o);
     *self = NULL;
     return ENGINE_FAILED;
@@ -57,11 +57,19 @@ static double build_own(const engine_mesh *m, unsigned threads, bool grid, void 
 
 static double build(const engine_mesh *m, unsigned threads, void **self)
 {
-    return build_own(m, threads, false, self);
+    return build_own(m, threads, MW_START_AUTO, self);
 }
 static double build_grid(const engine_mesh *m, unsigned threads, void **self)
 {
-    return build_own(m, threads, true, self);
+    return build_own(m, threads, MW_START_GRID, self);
+}
+static double build_two_levels(const engine_mesh *m, unsigned threads, void **self)
+{
+    return build_own(m, threads, MW_START_TWO_LEVEL_GRID, self);
+}
+static double build_curve(const engine_mesh *m, unsigned threads, void **self)
+{
+    return build_own(m, threads, MW_START_CURVE, self);
 }
 
 static size_t bytes(const void *self)
@@ -141,9 +149,17 @@ const engine_code *engine_own(engine_id id)
 {
     static const engine_structure plain = {version, build, bytes, NULL, destroy};
     static const engine_structure grid = {version, build_grid, bytes, NULL, destroy};
+    static const engine_structure two_levels = {version, build_two_levels, bytes, NULL, destroy};
+    static const engine_structure curve = {version, build_curve, bytes, NULL, destroy};
     static const engine_code codes[] = {
-        [ENGINE_OWN] = {&plain, locate_batch, triangulate}, [ENGINE_OWN_SINGLE] = {&plain, locate_single, NULL},
-        [ENGINE_OWN_GRID] = {&grid, locate_batch, NULL},    [ENGINE_OWN_GRID_SINGLE] = {&grid, locate_single, NULL},
+        [ENGINE_OWN] = {&plain, locate_batch, triangulate},
+        [ENGINE_OWN_SINGLE] = {&plain, locate_single, NULL},
+        [ENGINE_OWN_GRID] = {&grid, locate_batch, NULL},
+        [ENGINE_OWN_GRID_SINGLE] = {&grid, locate_single, NULL},
+        [ENGINE_OWN_TWO_LEVELS] = {&two_levels, locate_batch, NULL},
+        [ENGINE_OWN_TWO_LEVELS_SINGLE] = {&two_levels, locate_single, NULL},
+        [ENGINE_OWN_CURVE] = {&curve, locate_batch, NULL},
+        [ENGINE_OWN_CURVE_SINGLE] = {&curve, locate_single, NULL},
         [ENGINE_OWN_LAST] = {&plain, locate_last, NULL},
     };
     return engines[id].library == LIBRARY_MESHWALK ? &codes[id] : NULL;
