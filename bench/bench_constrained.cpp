@@ -155,8 +155,10 @@ double run_ours(const Scene &s, size_t &triangles)
     given.segment_count = s.segments.size() / 2;
     mw_mesh *mesh;
     mw_error error;
+    mw_constrain_options one_thread = {};
+    one_thread.threads = 1;
     Stopwatch watch;
-    if (mw_constrained_delaunay(&given, nullptr, nullptr, nullptr, nullptr, &mesh, &error) != MW_OK)
+    if (mw_constrained_delaunay(&given, &one_thread, nullptr, nullptr, nullptr, &mesh, &error) != MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     triangles = mw_mesh_triangle_count(mesh);
@@ -180,8 +182,11 @@ double run_plain(const Scene &s)
 {
     mw_mesh *mesh;
     mw_error error;
+    mw_delaunay_options one_thread = {};
+    one_thread.threads = 1;
     Stopwatch watch;
-    if (mw_delaunay(s.points.data(), s.points.size() / 2, 2, nullptr, nullptr, &mesh, &error) != MW_OK)
+    if (mw_delaunay_with(&one_thread, s.points.data(), s.points.size() / 2, 2, nullptr, nullptr, &mesh, &error) !=
+        MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     mw_mesh_destroy(mesh);
