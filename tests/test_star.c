@@ -203,6 +203,30 @@ static void test_indices_and_batches(void **state)
     release_polyhedron(&p);
 }
 
+/* A batch of few queries walks little, wherever in memory facets were given. */
+static void test_short_walks(void **state)
+{
+    (void)state;
+    uint64_t seed = 31;
+    polyhedron p = lattice_octahedron(6);
+    shuffle_triangles(&p, &seed);
+    world w = make_world(&p, (mw_surface_options){0}, (mw_star_options){0});
+    enum { N = 3000 };
+    double q[3 * N];
+    mw_location location[N];
+    for (size_t i = 0; i < 3 * N; i++) q[i] = random_unit(&seed) - 0.5;
+    for (uint32_t n = N / 8; n <= N; n *= 2) {
+        mw_star_query_options options = {.count = 1};
+        mw_counters counters;
+        assert_true(n < p.triangles);
+        expect_ok(mw_star_locate_batch(w.star, q, n, 0, &options, location, &counters, NULL), "batch", NULL);
+        assert_int_equal(counters.queries, n);
+        assert_true(counters.triangles_visited < 4 * n);
+    }
+    release_world(&w);
+    release_polyhedron(&p);
+}
+
 /* A path begins at the first facet, crosses edges, and ends where the ray is; it is as long as the counters say. */
 static void test_paths(void **state)
 {
@@ -580,6 +604,7 @@ int main(void)
         cmocka_unit_test(test_facets_without_area),
         cmocka_unit_test(test_welded),
         cmocka_unit_test(test_indices_and_batches),
+        cmocka_unit_test(test_short_walks),
         cmocka_unit_test(test_paths),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_turned_facet),

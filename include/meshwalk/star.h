@@ -151,7 +151,8 @@ typedef struct mw_star_cursor {
 
 /* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown walk or start, a finish that is neither stochastic nor
  * forgetful, a start without its index, an index of another start, the orthogonal walk on a star without angles.
- * MW_STAR_START_SORTED means MW_STAR_START_LAST in single queries. */
+ * MW_STAR_START_SORTED means MW_STAR_START_LAST in single queries; in a batch of more queries than facets each begins
+ * at the facet of the one before, in one of fewer where the curve leads. */
 MW_API mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const mw_star_query_options *options,
                                      mw_error *error);
 

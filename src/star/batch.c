@@ -8,7 +8,8 @@ typedef struct batch {
     mw_batch queries;
     const mw_star *star;
     mw_star_cursor cursor; /* resolved options */
-    bool chained;          /* each query begins where the one before it in its chunk ended */
+    bool chained;          /* each query begins where the one before it in its part ended */
+    bool guided;           /* or, if that is farther, where its key on the curve leads    */
 } batch;
 
 /* --- one after the other ------------------------------------------------------------------------------------------ */
@@ -23,16 +24,24 @@ static uint32_t item_of(const mw_batch *queries, uint32_t i)
     return queries->order ? queries->order[i].item : i;
 }
 
+/* Where the i-th query begins that ought to begin at the facet before it, `last`. */
+static uint32_t near_facet(const batch *b, uint32_t i, uint32_t last)
+{
+    return b->guided ? mw__star_by_curve(b->star, b->queries.order[i].key) : last;
+}
+
 static void answer_in_turn(const batch *b, uint32_t first, uint32_t end, mw_counters *counters)
 {
     uint32_t last = MW_NONE;
     for (uint32_t i = first; i < end; i++) {
-        uint32_t item = item_of(&b->queries, i), none = MW_NONE;
+        uint32_t item = item_of(&b->queries, i);
         uint64_t random = mw__random_seed(b->queries.seed, item);
         mw__surface_enter(b->star->surface);
-        b->queries.locations[item] = mw__star_answer(b->star, &b->cursor, point_of(&b->queries, item),
-                                                     b->chained ? &last : &none, &random, counters, NULL);
+        uint32_t begin = near_facet(b, i, last);
+        b->queries.locations[item] =
+            mw__star_answer(b->star, &b->cursor, point_of(&b->queries, item), &begin, &random, counters, NULL);
         mw__surface_leave(b->star->surface);
+        if (b->chained) last = begin;
     }
 }
 
@@ -59,16 +68,16 @@ static bool deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *walk, mw_st
     feed *f = (feed *)base; /* its first member */
     const batch *b = f->b;
     if (verdict != MW_STAR_GO) {
-        b->queries.locations[f->item[lane]] = mw__star_end(&b->cursor, walk, verdict);
+        mw__star_end(&b->cursor, walk, verdict, &b->queries.locations[f->item[lane]]);
         if (b->chained) f->last[lane] = walk->t;
     }
     while (f->next[lane] < f->end[lane]) {
-        uint32_t item = f->item[lane] = item_of(&b->queries, f->next[lane]++);
+        uint32_t i = f->next[lane]++, item = f->item[lane] = item_of(&b->queries, i);
         if (f->next[lane] < f->end[lane]) prefetch(&b->queries, item_of(&b->queries, f->next[lane]));
         const double *point = point_of(&b->queries, item);
         if (MW_LIKELY(mw__star_answerable(b->star, point))) {
             uint64_t random = mw__random_seed(b->queries.seed, item);
-            mw__star_begin(walk, b->star, &b->cursor, point, f->last[lane], random, NULL);
+            mw__star_begin(walk, b->star, &b->cursor, point, near_facet(b, i, f->last[lane]), random, NULL);
             return true;
         }
         b->queries.locations[item] = mw__star_nowhere();
@@ -145,6 +154,7 @@ mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t
     if (b.cursor.start == MW_STAR_START_AUTO && n >= MW_SORT_WORTHWHILE) b.cursor.start = MW_STAR_START_SORTED;
     bool sorted = b.cursor.start == MW_STAR_START_SORTED;
     b.chained = sorted || b.cursor.start == MW_STAR_START_LAST || b.cursor.start == MW_STAR_START_AUTO;
+    b.guided = sorted && n < star->tri_count;
     b.queries.sort = sorted ? sort : NULL;
     return mw__batch_run(&b.queries, n, options->threads, counters, error);
 }

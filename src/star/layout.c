@@ -1,9 +1,9 @@
 /* layout.c - the facets in the order and form in which walks read them.
  *
- * The order is that along a Hilbert curve over the sphere, which is unfolded to a square by way of an octahedron: facets
- * that a walk visits one after the other, and the walks of queries sorted along the same curve, stand near each other,
- * whatever the user's order. The form holds the three planes that bound a facet's cone, so that a step reads one line
- * of memory and no vertex. */
+ * The order is that along a Hilbert curve over the sphere, which is unfolded to a square by way of an octahedron: what
+ * a walk visits, and the walks of queries sorted along the same curve, stand near each other, whatever the user's
+ * order. A guide tells where in it a part of the curve begins: 1 to 2 bytes a facet. The form holds the three planes that
+ * bound a facet's cone, so that a step reads one line of memory and no vertex. */
 #include "base/hilbert.h"
 #include "star/star.h"
 
@@ -38,9 +38,10 @@ static void sort_facets(const mw_star *star, mw_key *keys, mw_key *scratch)
 
 /* --- form --------------------------------------------------------------------------------------------------------- */
 
-/* The normal (a - c) x (b - c) as computed is off by less than 2^-49 |a - c| |b - c|: where it is at least
- * LEAST_SINE times that product, by less than 2^-26 of itself. Where it is less, or lengths are SHORT or LONG, which might
- * under- or overflow, the normal is 0, and so never sure of a side. */
+/* With a factor off by u = 2^-53 of itself, a component of the normal (a - c) x (b - c) is off by 4u of its sum of
+ * magnitudes, so the normal by less than 2^-49 |a - c| |b - c|. Where it is at least LEAST_SINE times that product,
+ * that is less than 2^-26 of it. Where it is less, or lengths are SHORT or LONG, which might under- or overflow, the
+ * normal is 0, and so never sure of a side. */
 #define LEAST_SINE 0x1p-23
 #define SHORT 0x1p-200
 #define LONG 0x1p200
@@ -83,6 +84,20 @@ static mw_star_facet cast(const mw_star *star, const mw_triangle *t, const uint3
     return facet;
 }
 
+/* --- guide -------------------------------------------------------------------------------------------------------- */
+
+/* For each part of the curve the middle one of the facets there; of a part without any, the next one. */
+static void fill_guide(mw_star *star, const mw_key *keys)
+{
+    uint32_t parts = UINT32_C(1) << star->guide_bits, shift = 32 - star->guide_bits, end = 0;
+    for (uint32_t i = 0; i < parts; i++) {
+        uint32_t first = end;
+        while (end < star->tri_count && keys[end].key >> shift == i) end++;
+        uint32_t middle = first + (end - first) / 2;
+        star->guide[i] = middle < star->tri_count ? middle : star->tri_count - 1;
+    }
+}
+
 bool mw__star_lay_out(mw_star *star)
 {
     uint32_t n = star->tri_count, *place = mw__alloc(n, sizeof *place);
@@ -92,6 +107,7 @@ bool mw__star_lay_out(mw_star *star)
         sort_facets(star, keys, keys + n);
         for (uint32_t i = 0; i < n; i++) place[keys[i].item] = i;
         for (uint32_t i = 0; i < n; i++) star->facet[i] = cast(star, &star->tri[keys[i].item], place);
+        fill_guide(star, keys);
     }
     free(place);
     free(keys);

@@ -80,8 +80,8 @@ static void go_straight(mw_star_walk *walk, mw_star_trace *trace)
     run(walk, &mw__star_straight, trace);
 }
 
-/* From where a walk ended to the facet that the ray meets: what a cheap one leaves is ended by `finish`. Returns true if
- * another walk had to end what these could not. */
+/* From where a walk ended to the facet that the ray meets: what a cheap one leaves is ended by `finish`. Returns true
+ * if another walk had to end what these could not. */
 static bool go_on(mw_star_walk *walk, mw_star_verdict verdict, const mw_star_kernels *finish, mw_star_trace *trace)
 {
     if (verdict == MW_STAR_CLOSE) {
@@ -114,14 +114,14 @@ static uint32_t owner(const mw_star *star, uint32_t t, const double area[3])
 }
 
 /* The ray meets facet t (as stored). */
-static mw_location settle(const mw_star *star, uint32_t t, const double q[3])
+static void settle(const mw_star *star, uint32_t t, const double q[3], mw_location *location)
 {
     double area[3];
     mw__star_areas(star, star->facet[t].v, q, area);
     uint32_t number = owner(star, t, area);
     if (MW_UNLIKELY(number != star->facet[t].user)) /* another one, or with marks */
         mw__star_areas(star, star->surface->tri[number].v, q, area);
-    return mw__star_place(star, number, q, area);
+    mw__star_place(star, number, q, area, location);
 }
 
 /* --- the query ---------------------------------------------------------------------------------------------------- */
@@ -171,10 +171,10 @@ void mw__star_begin(mw_star_walk *walk, const mw_star *star, const mw_star_curso
     if (work) work->visited++;
 }
 
-mw_location mw__star_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict)
+void mw__star_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict, mw_location *location)
 {
     go_on(walk, verdict, kernels[cursor->finish], NULL);
-    return settle(walk->star, walk->t, walk->q);
+    settle(walk->star, walk->t, walk->q, location);
 }
 
 mw_location mw__star_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3], uint32_t *last,
@@ -187,7 +187,8 @@ mw_location mw__star_answer(const mw_star *star, const mw_star_cursor *cursor, c
     if (trace) record(trace, &walk);
     mw_star_verdict verdict = run(&walk, kernels[cursor->walk], trace);
     bool handed_over = go_on(&walk, verdict, kernels[cursor->finish], trace);
-    mw_location location = settle(star, walk.t, point);
+    mw_location location;
+    settle(star, walk.t, point, &location);
     if (cursor->count) count(counters, &work, handed_over);
     *last = walk.t;
     *random = walk.random;

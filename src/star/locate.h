@@ -15,13 +15,13 @@ bool mw__star_answerable(const mw_star *star, const double q[3]);
 
 /* --- a query in two halves, for those who have many in flight --- */
 
-/* The walk of a query (answerable) that begins where the cursor's start says; `last` is where the one before it ended, or
- * MW_NONE. It is counted in *work, unless that is NULL. */
+/* The walk of a query (answerable) that begins where the cursor's start says; `last` is where the one before it ended,
+ * or MW_NONE. It is counted in *work, unless that is NULL. */
 void mw__star_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor, const double q[3],
                     uint32_t last, uint64_t random, mw_star_work *work);
 const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor);
 /* From where the walk ended, in facet walk->t, to the answer. */
-mw_location mw__star_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict);
+void mw__star_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict, mw_location *location);
 
 /* --- a query as a whole --- */
 

@@ -9,13 +9,13 @@ static const double *corner(const mw_star *star, const uint32_t v[3], uint32_t k
 /* What areas may be off by, all told, of their sum. */
 #define AREA_ERROR 0x1p-36
 
-static double norm(const double v[3])
+static MW_INLINE double norm(const double v[3])
 {
     return fabs(v[0]) + fabs(v[1]) + fabs(v[2]);
 }
 
 /* Of numbers: no NaN, for which fmax would be called. */
-static double larger(double a, double b)
+static MW_INLINE double larger(double a, double b)
 {
     return a > b ? a : b;
 }
@@ -26,7 +26,7 @@ static double larger(double a, double b)
  * norms of a - c plus t d, of w and of d, and u = 2^-53: w is off by 2 u S, which makes 4 u S W D of the
  * determinant; d, itself rounded, 6 u S W D; its evaluation 7 u W W D, where W <= S. All that is less than 2^-48 S W
  * D, which is returned. */
-static double shear(double w[3][3], const double d[3], double area[3])
+static MW_INLINE double shear(double w[3][3], const double d[3], double area[3])
 {
     double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], long_norm = 0, short_norm = 0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -44,7 +44,7 @@ static double shear(double w[3][3], const double d[3], double area[3])
 }
 
 /* The areas, with what corners have in common taken off. Returns whether they are surely not 0, and off by little. */
-static bool refine(const mw_star *star, const uint32_t v[3], const double q[3], double area[3])
+static MW_INLINE bool refine(const mw_star *star, const uint32_t v[3], const double q[3], double area[3])
 {
     const double *c = star->centre, d[3] = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
     double w[3][3];
@@ -100,17 +100,17 @@ static void rescale(const mw_star *star, const uint32_t facet[3], const double q
     for (uint32_t k = 0; k < 3; k++) area[k] = exact[k] == 0 ? 0 : fmax(area[k], DBL_MIN);
 }
 
-mw_location mw__star_place(const mw_star *star, uint32_t number, const double q[3], double area[3])
+void mw__star_place(const mw_star *star, uint32_t number, const double q[3], double area[3], mw_location *location)
 {
     double sum = area[0] + area[1] + area[2];
     if (MW_UNLIKELY(!(fabs(sum) > 0x1p-900 && fabs(sum) < 0x1p900))) {
         rescale(star, star->surface->tri[number].v, q, area);
         sum = area[0] + area[1] + area[2];
     }
-    mw_location location = {.triangle = number, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
+    *location = (mw_location){.triangle = number, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
     uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        location.weight[k] = area[k] == 0 ? 0 : area[k] / sum; /* never -0 */
+        location->weight[k] = area[k] == 0 ? 0 : area[k] / sum; /* never -0 */
         if (area[k] != 0) {
             at = k;
         } else {
@@ -119,13 +119,12 @@ mw_location mw__star_place(const mw_star *star, uint32_t number, const double q[
         }
     }
     if (zeros == 1) {
-        location.where = MW_ON_EDGE;
-        location.local = (uint8_t)on;
+        location->where = MW_ON_EDGE;
+        location->local = (uint8_t)on;
     } else if (zeros == 2) {
-        location.where = MW_ON_VERTEX;
-        location.local = (uint8_t)at;
+        location->where = MW_ON_VERTEX;
+        location->local = (uint8_t)at;
     }
-    return location;
 }
 
 mw_location mw__star_nowhere(void)

@@ -114,8 +114,10 @@ static bool allocate(mw_star *star, bool angles)
 {
     star->facet = mw__alloc_lines(star->tri_count, sizeof *star->facet);
     star->owner = mw__alloc(star->point_count, sizeof *star->owner);
+    star->guide_bits = mw__star_guide_bits(star->tri_count);
+    star->guide = mw__alloc((size_t)1 << star->guide_bits, sizeof *star->guide);
     if (angles) star->angle = mw__alloc_lines(star->point_count, 2 * sizeof *star->angle);
-    return star->facet && star->owner && (star->angle || !angles);
+    return star->facet && star->owner && star->guide && (star->angle || !angles);
 }
 
 mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options, mw_star **out, mw_error *error)
@@ -151,6 +153,7 @@ void mw_star_destroy(mw_star *star)
 {
     if (!star) return;
     free(star->facet);
+    free(star->guide);
     free(star->own_place);
     free(star->owner);
     free(star->angle);
@@ -160,10 +163,11 @@ void mw_star_destroy(mw_star *star)
 void mw_star_describe(const mw_star *star, mw_star_info *info)
 {
     size_t places = star->own_place ? star->point_count * sizeof *star->own_place : 0;
+    size_t guide = ((size_t)1 << star->guide_bits) * sizeof *star->guide;
     size_t angles = star->angle ? star->point_count * 2 * sizeof *star->angle : 0;
+    size_t facets = star->tri_count * sizeof *star->facet, owners = star->point_count * sizeof *star->owner;
     *info = (mw_star_info){
-        .bytes = sizeof *star + star->tri_count * sizeof *star->facet + star->point_count * sizeof *star->owner +
-                 angles + places,
+        .bytes = sizeof *star + facets + owners + guide + angles + places,
         .angle_bytes = angles,
         .flat_facets = star->tri_count - star->area_count,
         .centre = {star->centre[0], star->centre[1], star->centre[2]},

@@ -26,15 +26,17 @@ typedef struct mw_star_facet {
     uint32_t user; /* the user's number, and marks; where flat facets were flipped away, several have the same */
 } mw_star_facet;
 
-/* With n a normal above and f the direction of a ray, both of length 1 and rounded to floats, |n . f| beyond this is sure
- * of its sign. n is off by 2^-26, as layout.c sees to, and f by 2^-50, both by 2^-24 for the rounding; so n . f by 2.3 2^-24,
- * and its evaluation, the sum of |n_k f_k| being 1 at most, by 3.1 2^-24. */
+/* With n a normal above and f the direction of a ray, both of length 1 and rounded to floats, |n . f| beyond this is
+ * sure of its sign. n is off by 2^-26, as layout.c sees to, and f by 2^-50, both by 2^-24 for the rounding; so n . f by
+ * 2.3 2^-24, and its evaluation, the sum of |n_k f_k| being 1 at most, by 3.1 2^-24. */
 #define MW_STAR_SURE 0x1p-21f
 
 struct mw_star {
     const mw_surface *surface;
-    mw_triangle *tri;      /* while it is prepared: the facets in the user's order, oriented; else NULL */
-    mw_star_facet *facet;  /* in the order of layout.c */
+    mw_triangle *tri;     /* while it is prepared: the facets in the user's order, oriented; else NULL */
+    mw_star_facet *facet; /* in the order of layout.c */
+    uint32_t *guide;      /* for the upper bits of a key of the curve, a facet about there; see mw__star_by_curve */
+    uint32_t guide_bits;
     const uint32_t *place; /* per vertex the lowest at its place: the surface's, or its own; NULL: no two are at one */
     uint32_t *own_place;
     uint32_t *owner; /* per vertex the lowest facet that the ray through it meets; MW_NONE: of no facet */
@@ -120,8 +122,22 @@ static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
     *y = below ? copysign(1 - fabs(u), v) : v;
 }
 
-/* Fill in star->facet from star->tri. Returns false when out of memory. */
+/* Fill in star->facet and star->guide from star->tri. Returns false when out of memory. */
 bool mw__star_lay_out(mw_star *star);
+
+/* Bits of the guide of so many facets: an entry for 2 to 4 of them. */
+static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
+{
+    uint32_t bits = 1;
+    while (bits < 30 && facets >> bits >= 4) bits++;
+    return bits;
+}
+
+/* A facet about where a key of the curve over the sphere is. */
+static MW_INLINE uint32_t mw__star_by_curve(const mw_star *star, uint32_t key)
+{
+    return star->guide[key >> (32 - star->guide_bits)];
+}
 
 /* --- start.c, grid.c, octahedron.c -------------------------------------------------------------------------------- */
 

@@ -25,7 +25,7 @@ static MW_INLINE double mw__star_turn(const double a[3], const double b[3], cons
     return -mw__orient3d_exact(a, b, q, c);
 }
 
-/* Does the ray through q lie strictly beyond edge e of a facet? For where floats are not sure, which is rare: locate.c. */
+/* Does the ray through q lie strictly beyond edge e of a facet? Where floats are not sure, which is rare: locate.c. */
 bool mw__star_beyond(const mw_star *star, const mw_star_facet *facet, uint32_t e, const double q[3]);
 
 static MW_INLINE const double *star_vertex(const mw_star_walk *w, uint32_t v)
@@ -136,8 +136,8 @@ static MW_INLINE mw_star_verdict mw__star_drive(mw_star_walk *walk,
     return verdict;
 }
 
-/* Many walks in flight: while one waits for memory the others go on. After a step the line of the new facet is fetched, and
- * after the last one the vertices, which the conclusion reads: it is drawn a lap later. */
+/* Many walks in flight: while one waits for memory the others go on. After a step the line of the new facet is fetched,
+ * and after the last one the vertices, which the conclusion reads: it is drawn a lap later. */
 static MW_INLINE void mw__star_drive_ring(mw_star_feed *feed, uint32_t lane_count,
                                           mw_star_verdict (*step)(mw_star_walk *walk, mw_star_policy P),
                                           mw_star_policy P)
@@ -151,14 +151,19 @@ static MW_INLINE void mw__star_drive_ring(mw_star_feed *feed, uint32_t lane_coun
             name[alive++] = i;
         }
     for (uint32_t i = 0; alive; i = i + 1 < alive ? i + 1 : 0) {
-        while (i < alive && verdict[i] != MW_STAR_GO && !feed->deliver(feed, name[i], &lane[i], verdict[i])) {
-            alive--;
-            lane[i] = lane[alive];
-            name[i] = name[alive];
-            verdict[i] = verdict[alive];
-        }
-        if (i >= alive) continue;
         mw_star_walk *w = &lane[i];
+        if (verdict[i] != MW_STAR_GO) {
+            if (feed->deliver(feed, name[i], w, verdict[i])) {
+                verdict[i] = MW_STAR_GO;
+                __builtin_prefetch(&w->facet[w->t]);
+            } else {
+                alive--;
+                lane[i] = lane[alive];
+                name[i] = name[alive];
+                verdict[i] = verdict[alive];
+            }
+            continue;
+        }
         verdict[i] = MW_LIKELY(w->fuel > 0) ? step(w, P) : MW_STAR_DRY;
         w->fuel--;
         const mw_star_facet *facet = &w->facet[w->t];

@@ -132,8 +132,8 @@ static mw_search plan(const mw_prober *prober, mw_probe_cursor *cursor, const do
     };
 }
 
-/* A probe that moves in small steps mostly touches the triangle that it touched last, where its first walk would begin and
- * end: no need to walk, but to be counted or seen. */
+/* A probe that moves in small steps mostly touches the triangle that it touched last, where its first walk would begin
+ * and end: no need to walk, but to be counted or seen. */
 static mw_touch answer_published(const mw_search *search, mw_probe_counters *work, mw_trace *trace)
 {
     mw_touch again;
