@@ -38,7 +38,8 @@ static void machine(const contest_plan *plan, text *t)
     strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &day));
     processor(t);
 #ifdef __clang__
-    text_printf(t, ", %ld processors; clang %s", sysconf(_SC_NPROCESSORS_ONLN), __clang_version__);
+    text_printf(t, ", %ld processors; clang %d.%d.%d", sysconf(_SC_NPROCESSORS_ONLN), __clang_major__, __clang_minor__,
+                __clang_patchlevel__);
 #else
     text_printf(t, ", %ld processors; gcc %s", sysconf(_SC_NPROCESSORS_ONLN), __VERSION__);
 #endif
