@@ -6,7 +6,6 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <boost/function_output_iterator.hpp>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -66,7 +65,7 @@ try {
         boxes->tree = Tree(entries.begin(), entries.end());
     }
     double seconds = watch.seconds();
-    boxes->bytes = heap_bytes() - before;
+    boxes->bytes = heap_growth(before);
     *self = boxes.release();
     return seconds;
 } catch (const std::exception &) {

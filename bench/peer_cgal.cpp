@@ -40,7 +40,7 @@ template <class Triangulation> double insert(Built<Triangulation> &built, const 
     Stopwatch watch;
     built.triangulation.insert(points.begin(), points.end());
     double seconds = watch.seconds();
-    built.bytes = heap_bytes() - before;
+    built.bytes = heap_growth(before);
     return seconds;
 }
 

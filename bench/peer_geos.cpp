@@ -106,7 +106,7 @@ try {
     Stopwatch watch;
     auto boxes = std::make_unique<Boxes>(*mesh);
     double seconds = watch.seconds();
-    boxes->bytes = heap_bytes() - before;
+    boxes->bytes = heap_growth(before);
     *self = boxes.release();
     return seconds;
 } catch (const std::exception &) {

@@ -21,11 +21,15 @@ const engine_code *geos_engine(engine_id id);
 const engine_code *boost_engine(engine_id id);
 const engine_code *python_engine(engine_id id);
 
-// Memory in use, of libraries that do not tell how much they take.
+// Memory in use, of libraries that do not tell how much they take; and how much more it is than before.
 inline size_t heap_bytes()
 {
     struct mallinfo2 info = mallinfo2();
     return info.uordblks + info.hblkhd;
+}
+inline size_t heap_growth(size_t before)
+{
+    return std::max(heap_bytes(), before) - before;
 }
 
 // Call work(begin, end) for parts of 0 to n, on so many threads.
