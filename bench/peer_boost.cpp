@@ -1,6 +1,5 @@
 // peer_boost.cpp - Boost's R-tree over the boxes of the triangles, packed [Leutenegger, Edgington, Lopez 1997], and an exact
 // orientation test of each triangle whose box holds the point.
-#include "harness.h"
 #include "peers.h"
 
 #pragma GCC diagnostic push
@@ -12,8 +11,7 @@
 #include <boost/version.hpp>
 #pragma GCC diagnostic pop
 
-#include <memory>
-#include <stdexcept>
+#include <string>
 
 namespace bench
 {
@@ -25,12 +23,6 @@ using BoostPoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using Box = bg::model::box<BoostPoint>;
 using Entry = std::pair<Box, uint32_t>;
 using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
-
-struct Boxes {
-    engine_mesh mesh;
-    Tree tree;
-    size_t bytes;
-};
 
 const char *version()
 {
@@ -53,35 +45,18 @@ Box box_of(const engine_mesh &mesh, size_t triangle)
     return Box(BoostPoint(low[0], low[1]), BoostPoint(high[0], high[1]));
 }
 
-double build(const engine_mesh *mesh, unsigned, void **self)
-try {
-    auto boxes = std::make_unique<Boxes>();
-    boxes->mesh = *mesh;
-    size_t before = heap_bytes();
-    Stopwatch watch;
+struct Boxes {
+    engine_mesh mesh;
+    Tree tree;
+    size_t bytes = 0;
+
+    explicit Boxes(const engine_mesh &of) : mesh(of)
     {
-        std::vector<Entry> entries(mesh->triangle_count);
-        for (size_t t = 0; t < mesh->triangle_count; t++) entries[t] = {box_of(*mesh, t), static_cast<uint32_t>(t)};
-        boxes->tree = Tree(entries.begin(), entries.end());
+        std::vector<Entry> entries(mesh.triangle_count);
+        for (size_t t = 0; t < mesh.triangle_count; t++) entries[t] = {box_of(mesh, t), static_cast<uint32_t>(t)};
+        tree = Tree(entries.begin(), entries.end());
     }
-    double seconds = watch.seconds();
-    boxes->bytes = heap_growth(before);
-    *self = boxes.release();
-    return seconds;
-} catch (const std::exception &) {
-    *self = nullptr;
-    return ENGINE_FAILED;
-}
-
-size_t bytes(const void *self)
-{
-    return static_cast<const Boxes *>(self)->bytes;
-}
-
-void destroy(void *self)
-{
-    delete static_cast<Boxes *>(self);
-}
+};
 
 uint64_t find(const Boxes &boxes, const double *query)
 {
@@ -107,7 +82,8 @@ double locate(void *self, const double *queries, size_t n, unsigned threads, uin
 
 const engine_code *boost_engine(engine_id id)
 {
-    static const engine_structure tree = {version, build, bytes, nullptr, destroy};
+    static const engine_structure tree = {version, Keeper<Boxes>::build, Keeper<Boxes>::bytes, nullptr,
+                                          Keeper<Boxes>::destroy};
     static const engine_code code = {&tree, locate, nullptr};
     return id == ENGINE_BOOST ? &code : nullptr;
 }

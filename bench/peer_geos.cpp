@@ -1,12 +1,11 @@
 // peer_geos.cpp - GEOS: its STRtree [Leutenegger, Edgington, Lopez 1997] over the boxes of the triangles, by the C interface,
 // and an exact orientation test of each triangle whose box holds the point.
-#include "harness.h"
 #include "peers.h"
 
 #include <geos_c.h>
 
-#include <memory>
-#include <stdexcept>
+#include <new>
+#include <string>
 
 namespace bench
 {
@@ -100,30 +99,6 @@ const char *version()
     return name.c_str();
 }
 
-double build(const engine_mesh *mesh, unsigned, void **self)
-try {
-    size_t before = heap_bytes();
-    Stopwatch watch;
-    auto boxes = std::make_unique<Boxes>(*mesh);
-    double seconds = watch.seconds();
-    boxes->bytes = heap_growth(before);
-    *self = boxes.release();
-    return seconds;
-} catch (const std::exception &) {
-    *self = nullptr;
-    return ENGINE_FAILED;
-}
-
-size_t bytes(const void *self)
-{
-    return static_cast<const Boxes *>(self)->bytes;
-}
-
-void destroy(void *self)
-{
-    delete static_cast<Boxes *>(self);
-}
-
 double locate(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
 {
     const Boxes &boxes = *static_cast<const Boxes *>(self);
@@ -139,7 +114,8 @@ double locate(void *self, const double *queries, size_t n, unsigned threads, uin
 
 const engine_code *geos_engine(engine_id id)
 {
-    static const engine_structure tree = {version, build, bytes, nullptr, destroy};
+    static const engine_structure tree = {version, Keeper<Boxes>::build, Keeper<Boxes>::bytes, nullptr,
+                                          Keeper<Boxes>::destroy};
     static const engine_code code = {&tree, locate, nullptr};
     return id == ENGINE_GEOS ? &code : nullptr;
 }

@@ -4,9 +4,11 @@
 #define MW_BENCH_PEERS_H
 
 #include "cli/engine.h"
+#include "harness.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <malloc.h>
 #include <thread>
 #include <vector>
@@ -49,6 +51,25 @@ inline bool contains(const engine_mesh &mesh, size_t triangle, const double *q)
     return engine_contains(mesh.points + 2 * size_t(v[0]), mesh.points + 2 * size_t(v[1]),
                            mesh.points + 2 * size_t(v[2]), q);
 }
+
+// A structure made of a mesh by its constructor, with a member `bytes`: what is on the heap then.
+template <class Built> struct Keeper {
+    static double build(const engine_mesh *mesh, unsigned, void **self)
+    try {
+        size_t before = heap_bytes();
+        Stopwatch watch;
+        auto *built = new Built(*mesh);
+        double seconds = watch.seconds();
+        built->bytes = heap_growth(before);
+        *self = built;
+        return seconds;
+    } catch (const std::exception &) {
+        *self = nullptr;
+        return ENGINE_FAILED;
+    }
+    static size_t bytes(const void *self) { return static_cast<const Built *>(self)->bytes; }
+    static void destroy(void *self) { delete static_cast<Built *>(self); }
+};
 
 } // namespace bench
 
