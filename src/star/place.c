@@ -55,10 +55,24 @@ static MW_INLINE bool refine(const mw_star *star, const uint32_t v[3], const dou
     return positive && off > 0x1p-900 && 3 * off < AREA_ERROR * sum;
 }
 
+/* Is an edge long, seen from the centre: more than about 1/32? Then corners have little in common, and plain
+ * determinants of short coordinates are the exact ones. */
+static MW_INLINE bool is_wide(const mw_star *star, const uint32_t v[3])
+{
+    double edge = 0, height = 0;
+    for (int i = 0; i < 3; i++) {
+        double a = corner(star, v, 0)[i], along = corner(star, v, 1)[i] - a, up = a - star->centre[i];
+        edge += along * along;
+        height += up * up;
+    }
+    return edge > 0x1p-10 * height;
+}
+
 void mw__star_areas(const mw_star *star, const uint32_t v[3], const double q[3], double area[3])
 {
     const double *c = star->centre;
-    if (MW_LIKELY(refine(star, v, q, area))) return;
+    bool wide = is_wide(star, v);
+    if (MW_LIKELY(!wide) && MW_LIKELY(refine(star, v, q, area))) return;
     double sum = 0, off = 0;
     bool sure = true;
     for (uint32_t k = 0; k < 3; k++) {
@@ -68,7 +82,7 @@ void mw__star_areas(const mw_star *star, const uint32_t v[3], const double q[3],
         sum += area[k];
         off += bound;
     }
-    if (sure && off < AREA_ERROR * fabs(sum)) return;
+    if (sure && (off < AREA_ERROR * fabs(sum) || (wide && refine(star, v, q, area)))) return;
     for (uint32_t k = 0; k < 3; k++)
         area[k] = mw__orient3d_exact(corner(star, v, mw__next(k)), corner(star, v, mw__prev(k)), q, c);
 }
