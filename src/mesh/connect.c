@@ -44,29 +44,28 @@ static MW_INLINE void join(connection *c, uint32_t a, uint32_t b)
     *link_of(c, b) = a;
 }
 
-static uint32_t upper_of(const connection *c, uint32_t half)
-{
-    return upper(&c->tri[mw__link_triangle(half)], mw__link_edge(half));
-}
+/* A half-edge as its lower vertex sees it. */
+typedef struct half_edge {
+    uint32_t to, half; /* upper vertex; 4 * triangle + edge */
+} half_edge;
 
 enum { FEW = 32 }; /* half-edges at a vertex that are compared each with each */
 
 /* Join the halves of one lower vertex by comparing all. False, and nothing done, where an edge has more than two. */
-static MW_INLINE bool match_few(connection *c, const uint32_t *half, uint32_t count)
+static MW_INLINE bool match_few(connection *c, const half_edge *half, uint32_t count)
 {
-    uint32_t to[FEW], mate[FEW];
+    uint32_t mate[FEW];
     for (uint32_t i = 0; i < count; i++) {
-        to[i] = upper_of(c, half[i]);
         mate[i] = MW_NONE;
         for (uint32_t j = 0; j < i; j++) {
-            if (to[j] != to[i]) continue;
+            if (half[j].to != half[i].to) continue;
             if (mate[j] != MW_NONE || mate[i] != MW_NONE) return false;
             mate[i] = j;
             mate[j] = i;
         }
     }
     for (uint32_t i = 0; i < count; i++)
-        if (mate[i] < i) join(c, half[i], half[mate[i]]);
+        if (mate[i] < i) join(c, half[i].half, half[mate[i]].half);
     return true;
 }
 
@@ -93,11 +92,11 @@ static void note_extra(const connection *c, uint32_t half, uint32_t *extra)
 }
 
 /* The same for many, or for edges that more than two share: the first two in the user's order are joined. */
-static bool match_many(connection *c, const uint32_t *half, uint32_t count, uint32_t *extra)
+static bool match_many(connection *c, const half_edge *half, uint32_t count, uint32_t *extra)
 {
     keyed_half *keyed = mw__alloc(count, sizeof *keyed);
     if (!keyed) return false;
-    for (uint32_t i = 0; i < count; i++) keyed[i] = (keyed_half){rank_of(c, half[i]), upper_of(c, half[i]), half[i]};
+    for (uint32_t i = 0; i < count; i++) keyed[i] = (keyed_half){rank_of(c, half[i].half), half[i].to, half[i].half};
     qsort(keyed, count, sizeof *keyed, compare_halves);
     for (uint32_t i = 0, next; i < count; i = next) {
         for (next = i + 1; next < count && keyed[next].to == keyed[i].to;) next++;
@@ -110,18 +109,24 @@ static bool match_many(connection *c, const uint32_t *half, uint32_t count, uint
 
 /* --- strays --- */
 
-/* The half-edges of part p whose lower vertex is in another part: count them, or store them too. */
+/* A triangle of a mesh that is laid out has three vertices. */
+static MW_INLINE bool is_sound(const connection *c, uint32_t t)
+{
+    return c->parts->count > 1 || mw__has_three_vertices(&c->tri[t]);
+}
+
 static MW_INLINE bool belongs(const connection *c, uint32_t p, uint32_t t, uint32_t e)
 {
     return mw__part_of(c->parts, lower(&c->tri[t], e)) == p;
 }
 
+/* The half-edges of part p whose lower vertex is in another part: count them, or store them too. */
 static uint32_t find_strays(const connection *c, uint32_t p, uint32_t *out)
 {
     uint32_t count = 0;
     for (uint32_t t = c->parts->first[p]; t < c->parts->first[p + 1]; t++)
-        for (uint32_t e = 0; e < 3; e++) {
-            if (belongs(c, p, t, e) || !mw__has_three_vertices(&c->tri[t])) continue;
+        for (uint32_t e = 0; e < 3 && is_sound(c, t); e++) {
+            if (belongs(c, p, t, e)) continue;
             if (out) out[count] = mw__link(t, e);
             count++;
         }
@@ -185,26 +190,31 @@ static bool exchange_strays(connection *c)
 
 /* Room for the half-edges of one part: those of its i-th vertex are half[first[i]] to before half[first[i + 1]]. */
 typedef struct bench {
-    uint32_t *first, *half;
+    uint32_t *first;
+    half_edge *half;
 } bench;
+
+static MW_INLINE void put(const connection *c, bench b, uint32_t base, uint32_t t, uint32_t e)
+{
+    const mw_triangle *tri = &c->tri[t];
+    b.half[--b.first[lower(tri, e) - base]] = (half_edge){upper(tri, e), mw__link(t, e)};
+}
 
 static void gather(const connection *c, uint32_t p, uint32_t vertices, bench b)
 {
-    uint32_t base = mw__part_begin(c->parts, p), sum = 0;
+    uint32_t base = mw__part_begin(c->parts, p), sum = 0, first = c->parts->first[p], end = c->parts->first[p + 1];
     memset(b.first, 0, ((size_t)vertices + 1) * sizeof *b.first);
-    for (uint32_t t = c->parts->first[p]; t < c->parts->first[p + 1]; t++)
-        for (uint32_t e = 0; e < 3; e++)
-            if (belongs(c, p, t, e) && mw__has_three_vertices(&c->tri[t])) b.first[lower(&c->tri[t], e) - base]++;
+    for (uint32_t t = first; t < end; t++)
+        for (uint32_t e = 0; e < 3 && is_sound(c, t); e++)
+            if (belongs(c, p, t, e)) b.first[lower(&c->tri[t], e) - base]++;
     for (uint32_t i = c->stray_first[p]; i < c->stray_first[p + 1]; i++)
         b.first[lower(&c->tri[mw__link_triangle(c->stray[i])], mw__link_edge(c->stray[i])) - base]++;
     for (uint32_t i = 0; i <= vertices; i++) b.first[i] = sum += b.first[i];
     for (uint32_t i = c->stray_first[p]; i < c->stray_first[p + 1]; i++)
-        b.half[--b.first[lower(&c->tri[mw__link_triangle(c->stray[i])], mw__link_edge(c->stray[i])) - base]] =
-            c->stray[i];
-    for (uint32_t t = c->parts->first[p + 1]; t-- > c->parts->first[p];)
-        for (uint32_t e = 3; e-- > 0;)
-            if (belongs(c, p, t, e) && mw__has_three_vertices(&c->tri[t]))
-                b.half[--b.first[lower(&c->tri[t], e) - base]] = mw__link(t, e);
+        put(c, b, base, mw__link_triangle(c->stray[i]), mw__link_edge(c->stray[i]));
+    for (uint32_t t = first; t < end; t++)
+        for (uint32_t e = 0; e < 3 && is_sound(c, t); e++)
+            if (belongs(c, p, t, e)) put(c, b, base, t, e);
 }
 
 static bool connect_part(connection *c, uint32_t p, bench b, uint32_t *extra)
@@ -213,7 +223,7 @@ static bool connect_part(connection *c, uint32_t p, bench b, uint32_t *extra)
     gather(c, p, vertices, b);
     bool done = true;
     for (uint32_t i = 0; i < vertices && done; i++) {
-        const uint32_t *half = b.half + b.first[i];
+        const half_edge *half = b.half + b.first[i];
         uint32_t count = b.first[i + 1] - b.first[i];
         if (count > FEW || !match_few(c, half, count)) done = match_many(c, half, count, extra);
     }

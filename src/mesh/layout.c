@@ -95,38 +95,45 @@ static size_t chunk_begin(const layout *l, uint32_t chunk)
     return l->arrays->triangle_count * chunk / CHUNKS;
 }
 
-/* The vertices of the caller's triangle t by their new numbers, and the lowest; false where it is not usable. */
-static MW_INLINE bool take(const layout *l, size_t t, uint32_t v[3], uint32_t *low)
+/* The vertices of a triangle by their new numbers, and the lowest; that is MW_NONE where the triangle is not usable. */
+typedef struct corners {
+    uint32_t v[3], low;
+} corners;
+
+static MW_INLINE corners take(const layout *l, size_t t)
 {
     const mw_mesh *mesh = l->mesh;
-    *low = MW_NONE;
+    corners c = {.low = MW_NONE};
     for (size_t k = 0; k < 3; k++) {
         uint32_t given = mw__index_at(l->arrays, 3 * t + k);
-        if (MW_UNLIKELY(given >= mesh->point_count)) return false;
-        v[k] = mesh->vertex_place[given];
-        if (MW_UNLIKELY(!l->all_finite && !mw__is_finite(mesh->point[v[k]]))) return false;
-        if (v[k] < *low) *low = v[k];
+        if (MW_UNLIKELY(given >= mesh->point_count)) return (corners){.low = MW_NONE};
+        c.v[k] = mesh->vertex_place[given];
+        if (MW_UNLIKELY(!l->all_finite && !mw__is_finite(mesh->point[c.v[k]]))) return (corners){.low = MW_NONE};
+        if (c.v[k] < c.low) c.low = c.v[k];
     }
-    return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+    if (MW_UNLIKELY(c.v[0] == c.v[1] || c.v[1] == c.v[2] || c.v[2] == c.v[0])) c.low = MW_NONE;
+    return c;
 }
 
 /* Returns the first triangle of the chunk that is not usable, or MW_NONE. */
 static uint32_t count_chunk(const layout *l, uint32_t chunk)
 {
-    uint32_t *count = l->next + (size_t)chunk * l->parts->count, v[3], low;
+    uint32_t *count = l->next + (size_t)chunk * l->parts->count;
     for (size_t t = chunk_begin(l, chunk); t < chunk_begin(l, chunk + 1); t++) {
-        if (MW_UNLIKELY(!take(l, t, v, &low))) return (uint32_t)t;
-        count[mw__part_of(l->parts, low)]++;
+        corners c = take(l, t);
+        if (MW_UNLIKELY(c.low == MW_NONE)) return (uint32_t)t;
+        count[mw__part_of(l->parts, c.low)]++;
     }
     return MW_NONE;
 }
 
 static void scatter_chunk(const layout *l, uint32_t chunk)
 {
-    uint32_t *next = l->next + (size_t)chunk * l->parts->count, v[3], low;
+    uint32_t *next = l->next + (size_t)chunk * l->parts->count;
     for (size_t t = chunk_begin(l, chunk); t < chunk_begin(l, chunk + 1); t++) {
-        take(l, t, v, &low);
-        l->mesh->tri[next[mw__part_of(l->parts, low)]++] = (mw_triangle){.v = {v[0], v[1], v[2]}, .user = (uint32_t)t};
+        corners c = take(l, t);
+        mw_triangle *to = &l->mesh->tri[next[mw__part_of(l->parts, c.low)]++];
+        *to = (mw_triangle){.v = {c.v[0], c.v[1], c.v[2]}, .user = (uint32_t)t};
     }
 }
 

@@ -7,14 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-uint32_t mw__index_at(const mw_arrays *arrays, size_t i)
-{
-    if (arrays->index_type == MW_UINT32) return ((const uint32_t *)arrays->triangles)[i];
-    int64_t v = arrays->index_type == MW_INT32 ? ((const int32_t *)arrays->triangles)[i]
-                                               : ((const int64_t *)arrays->triangles)[i];
-    return v < 0 || v >= MW_NONE ? MW_NONE : (uint32_t)v;
-}
-
 mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_error *error)
 {
     if (!arrays || (!arrays->points && arrays->point_count) || (!arrays->triangles && arrays->triangle_count))
