@@ -1,6 +1,7 @@
 /* bench - measurements that anybody can repeat. */
 #include "bench.h"
 #include "commands.h"
+#include "engines.h"
 #include "message.h"
 #include "spelling.h"
 
@@ -46,12 +47,10 @@ static const option bench_options[] = {
      "F1 to G3 meshes, taken as they are; nothing is published for them, but for the models of G1 to G3",
      NULL},
     {"engines", 0, OPTION_TEXT, offsetof(bench_settings, engines), "LIST",
-     "engines that peers and scale measure, as in meshwalk,embree-single (default: all there are; of scale, meshwalk)",
-     NULL},
+     "engines that peers and scale measure, as in meshwalk,geos (default: all there are; of scale, meshwalk):",
+     &engine_choices},
     {"tasks", 0, OPTION_TEXT, offsetof(bench_settings, tasks), "LIST",
-     "what peers and scale measure: random, sorted, coherent, half-outside, total, dense, delaunay, connectivity "
-     "(default: the first five; of scale, random and the last two)",
-     NULL},
+     "what peers and scale measure (default: the first five; of scale, random and the last two):", &task_choices},
     {"rounds", 0, OPTION_COUNT, offsetof(bench_settings, rounds), "N",
      "rounds of peers and scale, whose median counts (default: 0, five)", NULL},
     {"no-times", 0, OPTION_FLAG, offsetof(bench_settings, no_times), NULL, "count only", NULL},

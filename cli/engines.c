@@ -59,36 +59,55 @@ static const char *engine_name(int i)
 {
     return i < ENGINES ? engines[i].name : NULL;
 }
+static const char *engine_help(int i)
+{
+    return engines[i].help;
+}
 static const char *task_name(int i)
 {
     return i < TASKS ? engines_task((engine_task)i) : NULL;
 }
+static const char *task_help(int i)
+{
+    static const char *const help[TASKS] = {
+        [TASK_RANDOM] = "queries in the mesh, in random order",
+        [TASK_SORTED] = "the same, given along a Hilbert curve",
+        [TASK_COHERENT] = "a stream with steps of about one edge",
+        [TASK_HALF_OUTSIDE] = "as random, half of them in no triangle",
+        [TASK_TOTAL] = "as random, with all that is built",
+        [TASK_DENSE] = "as random, as dense as the mesh is",
+        [TASK_DELAUNAY] = "the Delaunay triangulation",
+        [TASK_CONNECTIVITY] = "from arrays to the first query",
+    };
+    return help[i];
+}
+const choices engine_choices = {"engine", engine_name, engine_help};
+const choices task_choices = {"task", task_name, task_help};
 
 typedef struct naming {
-    const char *noun;
-    const char *(*name)(int);
+    const choices *choices;
     uint32_t set;
 } naming;
 
 static int take_name(const char *word, void *self)
 {
     naming *n = self;
-    for (int i = 0; n->name(i); i++)
-        if (strcmp(n->name(i), word) == 0) {
+    for (int i = 0; n->choices->name(i); i++)
+        if (strcmp(n->choices->name(i), word) == 0) {
             n->set |= UINT32_C(1) << i;
             return 0;
         }
     text all = {0};
-    for (int i = 0; n->name(i); i++) text_printf(&all, "%s%s", i ? ", " : "", n->name(i));
+    for (int i = 0; n->choices->name(i); i++) text_printf(&all, "%s%s", i ? ", " : "", n->choices->name(i));
     text_bytes(&all, "", 1);
-    complain("unknown %s '%s'; there are %s", n->noun, word, all.failed ? "others" : all.bytes);
+    complain("unknown %s '%s'; there are %s", n->choices->noun, word, all.failed ? "others" : all.bytes);
     text_release(&all);
     return END_USAGE;
 }
 
 int engines_tasks_named(const char *list, uint32_t *set)
 {
-    naming n = {.noun = "task", .name = task_name};
+    naming n = {.choices = &task_choices};
     int end = bench_each_word(list, take_name, &n);
     *set = n.set;
     return end;
@@ -101,7 +120,7 @@ static bool is_in(uint32_t set, engine_id id)
 
 int engines_named(const char *list, uint32_t *set)
 {
-    naming n = {.noun = "engine", .name = engine_name};
+    naming n = {.choices = &engine_choices};
     int end = bench_each_word(list, take_name, &n);
     *set = n.set;
     for (engine_id id = 0; id < ENGINES && end == 0; id++)

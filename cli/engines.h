@@ -3,7 +3,7 @@
 #define CLI_ENGINES_H
 
 #include "engine.h"
-#include "text.h"
+#include "options.h"
 
 typedef struct engine {
     const char *name, *help;
@@ -16,6 +16,8 @@ extern const engine engines[ENGINES];
 
 /* "random", ... */
 const char *engines_task(engine_task task);
+/* The names of both, for --help. */
+extern const choices engine_choices, task_choices;
 
 /* How to run an engine; NULL: this program, or this machine, does not have it. */
 const engine_code *engines_code(engine_id id);

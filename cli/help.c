@@ -106,7 +106,7 @@ static void help_of_option(text *t, const option *o)
     }
     blanks(t, HELP_COLUMN - column);
     wrap_from(t, o->help, HELP_COLUMN, HELP_COLUMN);
-    if (o->kind == OPTION_CHOICE) help_of_choices(t, o->choices);
+    if (o->choices) help_of_choices(t, o->choices);
 }
 
 /* Has a table before it, or the same one, an option of this name? Then that one counts, and says what is true here. */

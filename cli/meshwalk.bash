@@ -33,8 +33,8 @@ _meshwalk_names() {
         --enclose) echo 'auto yes no' ;;
         --tasks) echo 'random sorted coherent half-outside total dense delaunay connectivity' ;;
         --engines)
-            echo 'meshwalk meshwalk-single meshwalk-grid meshwalk-grid-single meshwalk-two-level-grid'
-            echo 'meshwalk-two-level-grid-single meshwalk-curve meshwalk-curve-single meshwalk-last'
+            echo 'meshwalk meshwalk-single meshwalk-grid meshwalk-grid-single meshwalk-two-level'
+            echo 'meshwalk-two-level-single meshwalk-curve meshwalk-curve-single meshwalk-last'
             echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
             echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
             ;;

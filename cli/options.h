@@ -9,7 +9,7 @@
 
 typedef enum option_kind {
     OPTION_FLAG,   /* bool: no argument                          */
-    OPTION_TEXT,   /* const char *                               */
+    OPTION_TEXT,   /* const char *; choices, if any, are for --help */
     OPTION_LENGTH, /* double: finite and not negative            */
     OPTION_REACH,  /* double: likewise, but 0 given is not the default: the least length above 0 stands for it */
     OPTION_POINT,  /* coordinates: X,Y,Z, finite                 */
@@ -25,7 +25,7 @@ typedef struct coordinates {
     uint32_t count; /* 0: not given */
 } coordinates;
 
-/* The names an OPTION_CHOICE accepts. */
+/* The names an OPTION_CHOICE accepts, or that may stand in a list. */
 typedef struct choices {
     const char *noun;         /* "walk" */
     const char *(*name)(int); /* from 0; NULL beyond the last */
