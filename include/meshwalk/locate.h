@@ -221,7 +221,8 @@ typedef struct mw_cursor {
     uint32_t steps;                                 /* as in the options                           */
     uint32_t fuel;                                  /* steps after which a walk hands over         */
     uint8_t walk, start, finish, arithmetic, count; /* resolved options          */
-    uint8_t reserved[7];
+    uint8_t plain;                                  /* 1: the fast way is tried first */
+    uint8_t reserved[6];
 } mw_cursor;
 
 /* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a finish that is neither remembering nor

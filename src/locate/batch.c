@@ -78,7 +78,7 @@ static mw_counters answer(const mw_batch *queries, uint32_t first, uint32_t coun
 {
     const batch *b = (const batch *)queries; /* its first member */
     if (b->plain) {
-        mw__fly(&(mw_flight){queries, b->locator, &b->cursor, b->chained}, first, count, b->lanes);
+        mw__fly(&(mw_flight){queries, b->locator, &b->cursor, b->chained, false}, first, count, b->lanes);
         return (mw_counters){0};
     }
     chunk c;
@@ -121,14 +121,11 @@ static uint32_t choose_lanes(const batch *b, uint32_t asked)
     return bytes < CACHE ? b->plain ? 16 : 1 : 32;
 }
 
-/* May flight.c answer? It takes the way of the remembering walk, exactly; a walk that was not asked for by name may begin with
- * a few of its steps, too. */
+/* Does flight.c answer? */
 static bool is_plain(const batch *b, const mw_query_options *options)
 {
-    const mw_tiling *tiling = &b->locator->tiling;
-    if (b->cursor.count || b->cursor.arithmetic != MW_EXACT || tiling->open || tiling->cut) return false;
     if (options->lanes && options->lanes < MW_FLIGHT_WIDTH) return false;
-    return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && b->cursor.start != MW_START_AUTO;
+    return mw__flies(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
 }
 
 /* How queries begin where nothing is said: on tiles that lie along a Hilbert curve, by a sample of them, no more than there are

@@ -1,4 +1,4 @@
-/* flight.h - many plain queries in flight. Private. */
+/* flight.h - plain queries: many in flight, or one alone. Private. */
 #ifndef MW_SRC_FLIGHT_H
 #define MW_SRC_FLIGHT_H
 
@@ -10,8 +10,19 @@ typedef struct mw_flight {
     const mw_batch *queries;
     const mw_locator *locator;
     const mw_cursor *cursor;
-    bool chained; /* each query begins where the one before it in its lane ended, whatever the cursor's start */
+    bool chained;  /* each query begins where the one before it in its lane ended, whatever the cursor's start */
+    bool portable; /* only with instructions that every processor of the kind has */
 } mw_flight;
+
+/* Is that a tiling and a way to ask for such? Then the walk may be the remembering walk, whatever the cursor's. */
+static MW_INLINE bool mw__flies(const mw_tiling *tiling, const mw_query_options *options)
+{
+    return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && !options->count &&
+           options->arithmetic == MW_EXACT && !tiling->open && !tiling->cut;
+}
+
+/* One query from tile *t. False: it is not plain; walk on from where *t now is. */
+bool mw__fly_alone(const mw_tiling *tiling, mw_point q, uint32_t *t, mw_location *location);
 
 /* Walks that step together. Fewer lanes do not pay. */
 #define MW_FLIGHT_WIDTH 4

@@ -1,5 +1,6 @@
 /* query.c - one query: first tile, walk, exact conclusion. */
 #include "base/random.h"
+#include "locate/flight.h"
 #include "locate/index.h"
 #include "locate/locator.h"
 #include "locate/pieces.h"
@@ -229,6 +230,12 @@ static mw_status resolve_start(const mw_query_options *options, mw_start_kind *s
     return MW_OK;
 }
 
+/* Does the start lead near q, so that the walk is short? */
+static bool is_near(mw_start_kind start)
+{
+    return start != MW_START_RANDOM && start != MW_START_SAMPLE && start != MW_START_CENTRE;
+}
+
 mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options, mw_error *error)
 {
     static const mw_query_options defaults;
@@ -263,6 +270,7 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         .finish = (uint8_t)(options->finish ? options->finish : locator->finish),
         .arithmetic = (uint8_t)options->arithmetic,
         .count = options->count != 0,
+        .plain = is_near(start) && mw__flies(&locator->tiling, options),
     };
     return MW_OK;
 }
@@ -270,11 +278,20 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
 mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y)
 {
     if (MW_UNLIKELY(!isfinite(x) || !isfinite(y))) return mw__nowhere(MW_BAD);
+    mw_location location;
+    mw_point q = {x, y};
     mw_work work;
-    mw_walk walk = mw__depart(locator, cursor, cursor->last, (mw_point){x, y}, &cursor->random, &work);
+    mw_walk walk;
+    if (cursor->plain) {
+        cursor->last = mw__first_tile(locator, cursor, cursor->last, q, &cursor->random, NULL);
+        if (MW_LIKELY(mw__fly_alone(&locator->tiling, q, &cursor->last, &location))) return location;
+        walk = mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel, mw__random(&cursor->random), NULL);
+    } else {
+        walk = mw__depart(locator, cursor, cursor->last, q, &cursor->random, &work);
+    }
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
-    mw_location location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
+    location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
     cursor->last = walk.t;
     return location;
 }

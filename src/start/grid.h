@@ -6,7 +6,7 @@
 
 typedef struct mw_grid {
     mw_lattice lattice;
-    uint32_t *tile; /* of each cell: one with a vertex there, or, where there is no vertex, near it */
+    uint32_t *tile; /* of each cell: the one that holds its middle, or near it */
 } mw_grid;
 
 /* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the extent of the tiling.

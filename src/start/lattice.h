@@ -35,6 +35,19 @@ static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p
     return mw__lattice_line(y, lattice->rows) * lattice->columns + mw__lattice_line(x, lattice->columns);
 }
 
+static MW_INLINE double mw__lattice_at(const mw_lattice *lattice, int k, uint32_t line)
+{
+    double away = lattice->scale[k] > 0 ? (line + 0.5 - lattice->half[k]) / lattice->scale[k] : 0;
+    return lattice->middle[k] + away;
+}
+
+/* The middle of a cell. */
+static MW_INLINE mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell)
+{
+    return (mw_point){mw__lattice_at(lattice, 0, cell % lattice->columns),
+                      mw__lattice_at(lattice, 1, cell / lattice->columns)};
+}
+
 /* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell, that of a cell in the
  * first ring of cells round it that has an entry. Not all are MW_NONE. queue: room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);
