@@ -33,7 +33,7 @@ static void answer_piece(const mw_batch *batch, uint32_t n, uint32_t threads, mw
 mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters *counters, mw_error *error)
 {
     size_t piece = n < PIECE ? n : PIECE;
-    mw_key *keys = batch->sort ? mw__alloc(2 * piece, sizeof *keys) : NULL;
+    mw_key *keys = batch->sort ? mw__alloc_lines(2 * piece, sizeof *keys) : NULL;
     if (batch->sort && !keys) return mw__fail_memory(error);
     batch->order = keys;
     uint64_t seed = batch->seed;
