@@ -134,9 +134,16 @@ static uint32_t check_vertices(const mw_mesh *mesh, const uint32_t *duplicate_of
 {
     uint32_t n = mesh->point_count, distinct = 0;
     uint32_t *first = malloc(n * sizeof *first), *used = calloc(n, sizeof *used);
-    find_equal_points(mesh->point, n, first);
+    mw_point *points = malloc(n * sizeof *points); /* by the user's numbers */
+    for (uint32_t i = 0; i < n; i++) {
+        double p[2];
+        mw_mesh_vertex(mesh, i, p);
+        points[i] = (mw_point){p[0], p[1]};
+    }
+    find_equal_points(points, n, first);
+    free(points);
     for (uint32_t t = 0; t < mesh->tri_count; t++)
-        for (int k = 0; k < 3; k++) used[mesh->tri[t].v[k]] = 1;
+        for (int k = 0; k < 3; k++) used[mw__users_vertex(mesh, mesh->tri[t].v[k])] = 1;
     for (uint32_t i = 0; i < n; i++) {
         assert_int_equal(duplicate_of[i], first[i] == i ? MW_NONE : first[i]);
         assert_int_equal(used[i], first[i] == i);

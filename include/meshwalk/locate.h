@@ -103,10 +103,10 @@ typedef struct mw_locator_info {
     size_t area_bytes;        /* of it, the stored areas                           */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;      /* 1: walks run on an own copy of triangles and points: with ghosts, or without flat triangles */
-    int embedding;   /* 0: only with options.any                          */
-    int open;        /* 1: not convex, and pockets and holes are not filled                  */
-    uint32_t pieces; /* parts that share no place (equal coordinates are one); only where open, else 1 */
+    int copied;        /* 1: walks run on an own copy of triangles and points: with ghosts, or without flat triangles */
+    int embedding;     /* 0: only with options.any                          */
+    int open;          /* 1: not convex, and pockets and holes are not filled                  */
+    uint32_t pieces;   /* parts that share no place (equal coordinates are one); only where open, else 1 */
     size_t fill_bytes; /* of the bytes, ghosts and the copy that they are in; 0 without ghosts           */
 } mw_locator_info;
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);

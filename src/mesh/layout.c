@@ -39,7 +39,63 @@ bool mw__is_scattered(const mw_arrays *arrays)
     return far > edges / 4;
 }
 
+bool mw__are_scattered(const mw_point *points, uint32_t n)
+{
+    enum { SMALL = 1 << 14, PROBES = 4096 };
+    if (n < SMALL) return false;
+    uint32_t stride = n / PROBES + 1, jumps = 0, probes = 0;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < n; i += stride) {
+        const double p[2] = {points[i].x, points[i].y};
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], p[k]);
+            high[k] = fmax(high[k], p[k]);
+        }
+    }
+    double far = 16 * sqrt((high[0] - low[0]) / n * (high[1] - low[1]));
+    for (uint32_t i = 0; i + 1 < n; i += stride, probes++)
+        jumps += !(fabs(points[i].x - points[i + 1].x) + fabs(points[i].y - points[i + 1].y) < far);
+    return jumps > probes / 4;
+}
+
 /* --- vertices --- */
+
+bool mw__give_points(mw_mesh *mesh, const mw_point *given, uint32_t *order, uint32_t threads)
+{
+    enum { AHEAD = 16, WORTHWHILE = 1 << 14 };
+    uint32_t n = mesh->point_count;
+    mesh->users_vertex = order;
+    mesh->point = mw__alloc_lines(n, sizeof *mesh->point);
+    mesh->vertex_place = order ? mw__alloc_lines(n, sizeof *mesh->vertex_place) : NULL;
+    if (!mesh->point || (order && !mesh->vertex_place)) return false;
+    int team = mw__team(threads, n / WORTHWHILE + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+#endif
+    for (uint32_t i = 0; i < n; i++) {
+        if (order && i + AHEAD < n) __builtin_prefetch(&given[order[i + AHEAD]]);
+        mesh->point[i] = given[order ? order[i] : i];
+        if (order) mesh->vertex_place[order[i]] = i;
+    }
+    return true;
+}
+
+bool mw__lay_out_vertices(mw_mesh *mesh, uint32_t threads)
+{
+    if (mesh->users_vertex || !mw__are_scattered(mesh->point, mesh->point_count)) return true;
+    uint32_t *order = mw__alloc_lines(mesh->point_count, sizeof *order);
+    if (!order || !mw__curve_order(mesh->point, mesh->point_count, threads, order)) {
+        free(order);
+        return false;
+    }
+    mw_point *given = mesh->point;
+    bool done = mw__give_points(mesh, given, order, threads);
+    for (uint32_t t = 0; t < mesh->tri_count && done; t++)
+        for (int k = 0; k < 4; k++) mesh->tri[t].v[k] = mesh->vertex_place[mesh->tri[t].v[k]];
+    free(given);
+    return done;
+}
 
 typedef struct layout {
     mw_mesh *mesh;
@@ -60,30 +116,21 @@ static mw_point point_at(const mw_arrays *arrays, size_t i)
 /* Number the vertices, and copy the points in their new order. */
 static bool place_vertices(layout *l, uint32_t threads)
 {
-    mw_mesh *mesh = l->mesh;
-    uint32_t n = mesh->point_count;
-    mw_point *given = mw__alloc(n, sizeof *given);
-    bool finite = true;
-    if (!given) return false;
+    uint32_t n = l->mesh->point_count, *order = mw__alloc_lines(n, sizeof *order);
+    mw_point *given = mw__alloc_lines(n, sizeof *given);
+    bool finite = true, done = given && order;
 #ifdef _OPENMP
 #pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1) reduction(&& : finite)
 #endif
     for (uint32_t i = 0; i < n; i++) {
+        if (!done) continue;
         given[i] = point_at(l->arrays, i);
         finite = finite && mw__is_finite(given[i]);
     }
     l->all_finite = finite;
-    bool done = mw__curve_order(given, n, threads, mesh->users_vertex);
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1)
-#endif
-    for (uint32_t i = 0; i < n; i++) {
-        enum { AHEAD = 16 };
-        if (!done) continue;
-        if (i + AHEAD < n) __builtin_prefetch(&given[mesh->users_vertex[i + AHEAD]]);
-        mesh->point[i] = given[mesh->users_vertex[i]];
-        mesh->vertex_place[mesh->users_vertex[i]] = i;
-    }
+    done = done && mw__curve_order(given, n, threads, order);
+    if (!done) free(order);
+    done = done && mw__give_points(l->mesh, given, order, threads);
     free(given);
     return done;
 }
@@ -249,12 +296,10 @@ static mw_status place_all(layout *l, uint32_t threads, mw_error *error)
 {
     mw_mesh *mesh = l->mesh;
     l->team = mw__team(threads, CHUNKS);
-    mesh->users_vertex = mw__alloc(mesh->point_count, sizeof *mesh->users_vertex);
-    mesh->vertex_place = mw__alloc(mesh->point_count, sizeof *mesh->vertex_place);
-    mesh->triangle_place = mw__alloc(mesh->tri_count, sizeof *mesh->triangle_place);
+    mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
+    mesh->triangle_place = mw__alloc_lines(mesh->tri_count, sizeof *mesh->triangle_place);
     l->next = mw__calloc((size_t)CHUNKS * l->parts->count, sizeof *l->next);
-    if (!mesh->users_vertex || !mesh->vertex_place || !mesh->triangle_place || !l->next || !l->parts->first ||
-        !place_vertices(l, threads))
+    if (!mesh->tri || !mesh->triangle_place || !l->next || !l->parts->first || !place_vertices(l, threads))
         return mw__fail_memory(error);
     scatter(l);
     if (l->bad != MW_NONE) return mw__copy_triangle(l->arrays, 2, false, l->bad, &mesh->tri[0], error);

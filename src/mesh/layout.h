@@ -34,7 +34,18 @@ static MW_INLINE uint32_t mw__part_size(const mw_parts *parts, uint32_t p, uint3
 /* Are the vertices of the arrays' triangles far apart in memory, or triangles that follow each other? Looks at a few. */
 bool mw__is_scattered(const mw_arrays *arrays);
 
-/* Fill in points, triangles without links, and the numbers of both. *parts is released with free(parts->first), also on
+/* Are points that follow each other far apart in the plane? Looks at a few. */
+bool mw__are_scattered(const mw_point *points, uint32_t n);
+
+/* Copy the points into a mesh that has none yet, the triangles of which name their places by `order`: place i is that of
+ * point order[i]. NULL: they are the same; else the mesh owns it from here on. Returns false when out of memory. */
+bool mw__give_points(mw_mesh *mesh, const mw_point *given, uint32_t *order, uint32_t threads);
+
+/* Lay out the vertices of a mesh whose triangles are in good order, if they are scattered. Returns false when out of
+ * memory; then the mesh can only be destroyed. */
+bool mw__lay_out_vertices(mw_mesh *mesh, uint32_t threads);
+
+/* Make points, triangles without links, and the numbers of both. *parts is released with free(parts->first), also on
  * failure. MW_ERROR_INPUT names the first triangle that is unusable; MW_ERROR_MEMORY. */
 mw_status mw__lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, mw_parts *parts, mw_error *error);
 

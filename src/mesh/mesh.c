@@ -109,6 +109,9 @@ static mw_status refuse_shared(const mw_mesh *mesh, uint32_t extra, mw_error *er
 /* In the order of the arrays. */
 static mw_status copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
 {
+    mesh->point = mw__alloc_lines(mesh->point_count, sizeof *mesh->point);
+    mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
+    if (!mesh->point || !mesh->tri) return mw__fail_memory(error);
     copy_points(mesh, arrays);
     mw_status status = MW_OK;
     for (uint32_t t = 0; t < mesh->tri_count && !status; t++)
@@ -148,9 +151,7 @@ mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options
     mesh->tolerant = options->tolerant;
     mesh->point_count = (uint32_t)arrays->point_count;
     mesh->tri_count = (uint32_t)arrays->triangle_count;
-    mesh->point = mw__alloc_lines(mesh->point_count, sizeof *mesh->point);
-    mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
-    status = mesh->point && mesh->tri ? fill(mesh, arrays, options, error) : mw__fail_memory(error);
+    status = fill(mesh, arrays, options, error);
     if (status)
         mw_mesh_destroy(mesh);
     else

@@ -1,6 +1,8 @@
 /* constrained_result.c - what was made, as a mesh and a list of pieces. */
 #include "triangulate/constrained.h"
 
+#include "mesh/layout.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -137,7 +139,7 @@ mw_status mw__give_constrained(mw_constrained_making *m, mw_constrain_report *re
         return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
                         m->tri_count);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
-    if (mesh && give_mesh(m, report, pieces, mesh)) {
+    if (mesh && give_mesh(m, report, pieces, mesh) && mw__lay_out_vertices(mesh, m->threads)) {
         *out = mesh;
         return MW_OK;
     }

@@ -5,6 +5,7 @@
 #include "triangulate/delaunay.h"
 
 #include "base/threads.h"
+#include "mesh/layout.h"
 #include "triangulate/delaunay_harvest.h"
 
 #include <limits.h>
@@ -202,7 +203,7 @@ static bool harvest(delaunay *d, mw_triangle **tri, uint32_t *tri_count)
     free(d->ground.sequence);
     d->ground.sequence = NULL;
     uint32_t *scratch = (uint32_t *)d->ground.point;
-    return mw__harvest(&d->patches, &d->ground, d->setup.threads, scratch, tri, tri_count);
+    return mw__harvest(&d->patches, &d->ground, d->setup.order != NULL, d->setup.threads, scratch, tri, tri_count);
 }
 
 mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
@@ -224,6 +225,10 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
         if (report) *report = (mw_triangulation_report){n, whole->duplicates, whole->visited};
         if (!harvest(&d, tri, tri_count)) status = mw__fail_memory(error);
     }
+    if (d.setup.order) {
+        *d.setup.order = status == MW_OK ? d.ground.order : NULL;
+        if (status == MW_OK) d.ground.order = NULL;
+    }
     release(&d);
     return status;
 }
@@ -236,40 +241,64 @@ mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *d
     return mw__delaunay_set_up(points, n, &alone, duplicate_of, report, tri, tri_count, error);
 }
 
-static void read_points(const double *from, size_t stride, mw_point *to, uint32_t n, uint32_t threads)
+/* --- a mesh --- */
+
+/* The points as the library has them; the caller's own array if that is what it holds. *copy is to be released. */
+static const mw_point *read_points(const double *from, size_t stride, uint32_t n, uint32_t threads, mw_point **copy)
 {
+    *copy = NULL;
+    if (stride == 2) return (const mw_point *)from;
+    *copy = mw__alloc_lines(n, sizeof **copy);
     int team = mw__team(threads, n / CHUNK + 1);
     (void)team; /* unused without OpenMP */
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(team) if (team > 1)
 #endif
-    for (int64_t i = 0; i < (int64_t)n; i++) to[i] = (mw_point){from[(size_t)i * stride], from[(size_t)i * stride + 1]};
+    for (int64_t i = 0; i < (int64_t)n; i++)
+        if (*copy) (*copy)[i] = (mw_point){from[(size_t)i * stride], from[(size_t)i * stride + 1]};
+    return *copy;
 }
 
-mw_status mw_delaunay_with(const mw_delaunay_options *options, const double *points, size_t n, size_t stride,
-                           uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+static mw_status make_mesh(const mw_point *given, mw_delaunay_setup setup, bool laid_out, uint32_t *duplicate_of,
+                           mw_triangulation_report *report, mw_mesh *mesh, mw_error *error)
 {
-    const mw_delaunay_setup setup = {.threads = options ? options->threads : 0};
+    uint32_t *order = NULL, n = mesh->point_count;
+    if (laid_out && mw__are_scattered(given, n)) setup.order = &order;
+    mw_status status = mw__delaunay_set_up(given, n, &setup, duplicate_of, report, &mesh->tri, &mesh->tri_count, error);
+    if (!status && !mw__give_points(mesh, given, order, setup.threads)) status = mw__fail_memory(error);
+    return status;
+}
+
+mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *points, size_t n, size_t stride,
+                            uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+{
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
     if (!stride) stride = 2;
     if (stride < 2) return mw__fail(error, MW_ERROR_ARGUMENT, "stride %zu is below 2", stride);
     if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "points is NULL");
     if (n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
+    mw_point *copy;
+    const mw_point *given = read_points(points, stride, (uint32_t)n, threads, &copy);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
-    if (mesh) mesh->point = mw__alloc_lines(n, sizeof *mesh->point);
-    mw_status status = mesh && mesh->point ? MW_OK : mw__fail_memory(error);
+    mw_status status = mesh && (given || !n) ? MW_OK : mw__fail_memory(error);
     if (status == MW_OK) {
         mesh->point_count = (uint32_t)n;
-        read_points(points, stride, mesh->point, mesh->point_count, setup.threads);
-        status = mw__delaunay_set_up(mesh->point, mesh->point_count, &setup, duplicate_of, report, &mesh->tri,
-                                     &mesh->tri_count, error);
+        const mw_delaunay_setup setup = {.threads = threads};
+        status = make_mesh(given, setup, laid_out, duplicate_of, report, mesh, error);
     }
+    free(copy);
     if (status == MW_OK)
         *out = mesh;
     else
         mw_mesh_destroy(mesh);
     return status;
+}
+
+mw_status mw_delaunay_with(const mw_delaunay_options *options, const double *points, size_t n, size_t stride,
+                           uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+{
+    return mw__delaunay_mesh(options ? options->threads : 0, true, points, n, stride, duplicate_of, report, out, error);
 }
 
 mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,

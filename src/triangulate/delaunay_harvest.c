@@ -27,6 +27,7 @@ typedef struct harvest {
     stretch *stretches;
     int64_t stretch_count;
     mw_triangle *tri;
+    const uint32_t *vertex; /* of each place: its vertex; NULL: they are the same */
 } harvest;
 
 static MW_INLINE uint32_t lowest(const mw_facet *f)
@@ -100,7 +101,7 @@ static void copy(harvest *h, stretch *s)
         mw_triangle *t = &h->tri[h->number[f]];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t other = h->number[mw__link_triangle(from->link[k])];
-            t->v[k] = h->ground->order[from->v[k]];
+            t->v[k] = h->vertex ? h->vertex[from->v[k]] : from->v[k];
             t->link[k] = other == MW_NONE ? MW_NONE : mw__link(other, mw__link_edge(from->link[k]));
         }
         t->v[3] = t->v[0];
@@ -151,10 +152,11 @@ static uint32_t number_all(harvest *h, int team)
     return sum;
 }
 
-bool mw__harvest(const mw_patches *patches, const mw_ground *ground, uint32_t threads, uint32_t *scratch,
+bool mw__harvest(const mw_patches *patches, const mw_ground *ground, bool places, uint32_t threads, uint32_t *scratch,
                  mw_triangle **tri, uint32_t *tri_count)
 {
     harvest h = {.ground = ground, .number = scratch, .next = scratch + 2 * (size_t)ground->n};
+    if (!places) h.vertex = ground->order;
     if (!list_stretches(&h, patches)) return false;
     int team = mw__team(threads, h.stretch_count);
     *tri_count = number_all(&h, team);

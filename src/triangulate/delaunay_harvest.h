@@ -6,8 +6,8 @@
 #include "triangulate/delaunay_patches.h"
 
 /* Hand out all facets that are no ghosts: *tri is set to *tri_count records as of mw__delaunay_triangles, on so many
- * threads. `scratch` has room for 12 n + 4 bytes. Returns false when out of memory, with *tri NULL. */
-bool mw__harvest(const mw_patches *patches, const mw_ground *ground, uint32_t threads, uint32_t *scratch,
+ * threads; with `places` vertices are named by those. `scratch` has room for 12 n + 4 bytes. Returns false when out of memory, with *tri NULL. */
+bool mw__harvest(const mw_patches *patches, const mw_ground *ground, bool places, uint32_t threads, uint32_t *scratch,
                  mw_triangle **tri, uint32_t *tri_count);
 
 #endif

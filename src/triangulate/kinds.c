@@ -1,6 +1,7 @@
 /* kinds.c - the table of kinds of triangulation, and what they share. */
 #include "triangulate/kind.h"
 
+#include "mesh/layout.h"
 #include "mesh/order.h"
 #include "triangulate/delaunay.h"
 
@@ -120,10 +121,11 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
     *out = NULL;
     if ((unsigned)kind >= MW_KIND_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of triangulation");
     if (!options) options = &defaults;
-    const mw_delaunay_options delaunay = {.threads = options->threads};
     mw_mesh *mesh;
-    mw_status status = mw_delaunay_with(&delaunay, points, n, stride, duplicate_of, &made.delaunay, &mesh, error);
+    mw_status status = mw__delaunay_mesh(options->threads, kind == MW_DELAUNAY, points, n, stride, duplicate_of,
+                                         &made.delaunay, &mesh, error);
     if (status == MW_OK) status = convert(kind, mesh, options, &made, error);
+    if (status == MW_OK && !mw__lay_out_vertices(mesh, options->threads)) status = mw__fail_memory(error);
     if (status == MW_OK) {
         *out = mesh;
         if (report) *report = made;
