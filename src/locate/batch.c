@@ -128,22 +128,18 @@ static bool is_plain(const batch *b, const mw_query_options *options)
     return mw__flies(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
 }
 
-/* How queries begin where nothing is said: on tiles that lie along a Hilbert curve, by a sample of them, no more than there are
- * queries; else sorted; few where the one before ended, or at the nearest of a sample. */
-static mw_status choose_start(batch *b, size_t n, mw_index *index, mw_error *error)
+/* How queries begin where nothing is said: by the locator's guide, else sorted; few, where the one before ended or at the
+ * nearest of a sample. */
+static void choose_start(batch *b, size_t n)
 {
-    if (b->cursor.start != MW_START_AUTO || n < MW_SORT_WORTHWHILE) return MW_OK;
-    const mw_tiling *tiling = &b->locator->tiling;
-    b->cursor.start = MW_START_SORTED;
-    if (tiling->open) return MW_OK;
-    uint32_t samples = n < tiling->tri_count / MW_CURVE_STRIDE ? (uint32_t)n : 0;
-    if (!mw__curve_create(&index->curve, tiling, b->locator->low, b->locator->high, samples))
-        return mw__fail_memory(error);
-    if (index->curve.regular) {
-        b->cursor.start = index->start = MW_START_CURVE;
-        b->cursor.index = index;
+    if (b->cursor.start != MW_START_AUTO) return;
+    const mw_index *guide = &b->locator->guide;
+    if (guide->start != MW_START_AUTO) {
+        b->cursor.start = (uint8_t)guide->start;
+        b->cursor.index = guide;
+    } else if (n >= MW_SORT_WORTHWHILE) {
+        b->cursor.start = MW_START_SORTED;
     }
-    return MW_OK;
 }
 
 static mw_status run(batch *b, size_t n, const mw_query_options *options, mw_counters *counters, mw_error *error)
@@ -173,9 +169,6 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
     if (status) return status;
     if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
     if (b.queries.stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
-    mw_index own = {.start = MW_START_AUTO};
-    status = choose_start(&b, n, &own, error);
-    if (!status) status = run(&b, n, options, counters, error);
-    mw__curve_release(&own.curve);
-    return status;
+    choose_start(&b, n);
+    return run(&b, n, options, counters, error);
 }

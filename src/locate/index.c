@@ -21,7 +21,7 @@ static mw_status build(mw_index *index, const mw_locator *locator, const mw_inde
     if (options->cells > MW_MAX_CELLS) return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
     bool done = false;
     switch (index->start) {
-    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, options->cells); break;
+    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, options->cells, 1, NULL); break;
     case MW_START_TWO_LEVEL_GRID:
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, options->cells);
         break;
@@ -53,9 +53,8 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const 
     return status;
 }
 
-void mw_index_destroy(mw_index *index)
+void mw__index_release(mw_index *index)
 {
-    if (!index) return;
     switch (index->start) {
     case MW_START_GRID: mw__grid_release(&index->grid); break;
     case MW_START_TWO_LEVEL_GRID: mw__two_level_grid_release(&index->two_level_grid); break;
@@ -63,27 +62,39 @@ void mw_index_destroy(mw_index *index)
     case MW_START_LAYERS: mw__layers_release(&index->layers); break;
     default: break;
     }
+}
+
+void mw_index_destroy(mw_index *index)
+{
+    if (!index) return;
+    mw__index_release(index);
     free(index);
+}
+
+size_t mw__index_bytes(const mw_index *index)
+{
+    switch (index->start) {
+    case MW_START_GRID: return mw__grid_bytes(&index->grid);
+    case MW_START_TWO_LEVEL_GRID: return mw__two_level_grid_bytes(&index->two_level_grid);
+    case MW_START_CURVE: return mw__curve_bytes(&index->curve);
+    case MW_START_LAYERS: return mw__layers_bytes(&index->layers);
+    default: return 0;
+    }
 }
 
 void mw_index_describe(const mw_index *index, mw_index_info *info)
 {
-    *info = (mw_index_info){.start = index->start, .bytes = sizeof *index, .seconds = index->seconds};
+    *info = (mw_index_info){
+        .start = index->start, .bytes = sizeof *index + mw__index_bytes(index), .seconds = index->seconds};
     switch (index->start) {
-    case MW_START_GRID:
-        info->bytes += mw__grid_bytes(&index->grid);
-        info->cells = mw__lattice_cells(&index->grid.lattice);
-        break;
+    case MW_START_GRID: info->cells = mw__lattice_cells(&index->grid.lattice); break;
     case MW_START_TWO_LEVEL_GRID:
-        info->bytes += mw__two_level_grid_bytes(&index->two_level_grid);
         info->cells = mw__lattice_cells(&index->two_level_grid.lattice) + index->two_level_grid.fine_count;
         break;
     case MW_START_CURVE:
-        info->bytes += mw__curve_bytes(&index->curve);
         info->cells = index->curve.count - 2; /* the ends are no tiles */
         break;
     case MW_START_LAYERS:
-        info->bytes += mw__layers_bytes(&index->layers);
         info->layers = index->layers.count;
         mw__layers_describe(&index->layers, info->vertices);
         break;
@@ -97,23 +108,24 @@ static MW_INLINE uint32_t within(const mw_tiling *tiling, uint32_t t)
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
 }
 
-uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
+uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
-    const mw_index *index = cursor->index;
     uint32_t t = 0;
     switch (index->start) {
     case MW_START_GRID: t = mw__grid_first(&index->grid, q); break;
     case MW_START_TWO_LEVEL_GRID: t = mw__two_level_grid_first(&index->two_level_grid, q); break;
     case MW_START_CURVE: t = mw__curve_first(&index->curve, q); break;
-    case MW_START_LAYERS: {
-        mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish, cursor->arithmetic == MW_EXACT,
-                             cursor->count};
-        t = mw__layers_first(&index->layers, q, &how, random, work);
-        break;
-    }
     default: break;
     }
     return within(tiling, t);
+}
+
+uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
+{
+    if (MW_LIKELY(cursor->index->start != MW_START_LAYERS)) return mw__index_tile(tiling, cursor->index, q);
+    mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish, cursor->arithmetic == MW_EXACT,
+                         cursor->count};
+    return within(tiling, mw__layers_first(&cursor->index->layers, q, &how, random, work));
 }
 
 static void grid_first_many(const mw_grid *grid, const mw_point *q, uint32_t n, uint32_t *t)

@@ -21,6 +21,13 @@ struct mw_index {
     };
 };
 
+/* Release what an index holds; how much that is. */
+void mw__index_release(mw_index *index);
+size_t mw__index_bytes(const mw_index *index);
+
+/* The first tile for q: a tile of this tiling, whatever mesh the index was made from. Not for layers. */
+uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q);
+
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking
  * through the index did is added to *work, if the cursor counts. */
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work);

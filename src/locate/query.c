@@ -156,9 +156,9 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_SAMPLE: return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
     case MW_START_CENTRE: return locator->centre;
     case MW_START_AUTO:
-        if (mw__distance2(tiling->point[tiling->tri[last].v[0]], q) > locator->near2)
-            return mw__start_sample(tiling, q, cursor->sample, last, random);
-        break;
+        if (mw__distance2(tiling->point[tiling->tri[last].v[0]], q) <= locator->near2) break;
+        if (locator->guide.start != MW_START_AUTO) return mw__index_tile(tiling, &locator->guide, q);
+        return mw__start_sample(tiling, q, cursor->sample, last, random);
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
     case MW_START_LAYERS:

@@ -48,6 +48,17 @@ static MW_INLINE mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t
                       mw__lattice_at(lattice, 1, cell / lattice->columns)};
 }
 
+/* The cell of p, and the square of how far p is off its middle, in widths of a cell; NaN is as far as can be. */
+static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_point p, float *off)
+{
+    double x = (p.x - lattice->middle[0]) * lattice->scale[0] + lattice->half[0];
+    double y = (p.y - lattice->middle[1]) * lattice->scale[1] + lattice->half[1];
+    uint32_t column = mw__lattice_line(x, lattice->columns), row = mw__lattice_line(y, lattice->rows);
+    float dx = (float)(x - column) - 0.5f, dy = (float)(y - row) - 0.5f;
+    *off = dx * dx + dy * dy;
+    return row * lattice->columns + column;
+}
+
 /* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell, that of a cell in the
  * first ring of cells round it that has an entry. Not all are MW_NONE. queue: room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);

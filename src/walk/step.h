@@ -137,9 +137,11 @@ static MW_INLINE mw_verdict leave_either(mw_walk *w, uint32_t first, uint32_t se
         if (beyond(w, first, P)) return cross(w, first, P);
         return leave(w, second, P);
     }
-    bool one = beyond(w, first, P), two = beyond(w, second, P);
-    if (!(one | two)) return MW_FOUND;
-    return cross(w, one ? first : second, P);
+    double one = orient(w, corner(w, first), corner(w, first + 1), w->q, P);
+    double two = orient(w, corner(w, second), corner(w, second + 1), w->q, P);
+    double least = one < two ? one : two; /* of `one < 0 | two < 0` compilers make two jumps again */
+    if (!(least < 0)) return MW_FOUND;
+    return cross(w, one < 0 ? first : second, P);
 }
 
 #endif
