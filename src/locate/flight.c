@@ -4,7 +4,8 @@
  * sure of each turn. A step here computes the three areas that q makes with the sides of its tile. Where one is surely
  * negative, q lies beyond that side; the walk leaves over the first such side, so it takes the way of the remembering walk.
  * Where all are surely positive, they are the weights of the answer, the same as settle and mw__place would find (query.c).
- * What is not plain - ghosts, the hull, q on an edge or nearly so, thin tiles, ways that are long - goes on by the walk of the
+ * Where the edge is on the hull, or the tile a ghost, q is in no triangle.
+ * What is not plain - q on an edge or nearly so, thin tiles, ways that are long - goes on by the walk of the
  * cursor, from the tile where it was met.
  *
  * Four walks step together, in vectors of four doubles. While they wait for memory other groups of four step: after a step
@@ -221,8 +222,8 @@ static MW_INLINE void see(view *s, const group *g, const mw_triangle *tri, const
 }
 
 /* Cross the first edge beyond which q surely lies, in all tiles where there is one. Returns the others as bits, and those
- * where the edge is on the hull. */
-static MW_INLINE uint32_t cross_edges(const view *s, group *g, bits_of bits)
+ * where the edge is on the hull: these are *left. */
+static MW_INLINE uint32_t cross_edges(const view *s, group *g, uint32_t *left, bits_of bits)
 {
     flags beyond[3] = {s->area[2] < -s->off, s->area[0] < -s->off, s->area[1] < -s->off}; /* edges 0, 1, 2 */
     flags any = beyond[0] | beyond[1] | beyond[2], first = (2 + beyond[1]) & ~beyond[0];
@@ -234,6 +235,7 @@ static MW_INLINE uint32_t cross_edges(const view *s, group *g, bits_of bits)
         hull |= (uint32_t)(link == MW_NONE) << k;
         g->t[k] = mw__link_triangle(link);
     }
+    *left = bits(&any) & hull;
     return (bits(&any) ^ ALL) | hull;
 }
 
@@ -250,23 +252,36 @@ static MW_INLINE uint32_t weigh(const view *s, double weight[3][WIDTH], bits_of 
     return bits(&inside);
 }
 
+/* Answer a walk that has ended: in tile `tile`, plainly inside or, if it left, beyond an edge of the hull. False: it is not
+ * plain. */
+static MW_INLINE bool answer(const mw_flight *f, const mw_triangle *tile, uint32_t query, bool left, bool in,
+                             double weight[3][WIDTH], uint32_t k)
+{
+    mw_location *location = &f->queries->locations[query];
+    if (MW_LIKELY(in && !(tile->user & MW_GHOST))) {
+        *location = inside(tile->user, weight[0][k], weight[1][k], weight[2][k]);
+        return true;
+    }
+    if (f->cursor->tolerance > 0 || !f->locator->tiling.embedding || !(in || left)) return false;
+    *location = mw__in_none(in ? tile->user : 0);
+    return true;
+}
+
 /* One step of a group. */
 static MW_INLINE void step(crew *c, group *g, const mw_triangle *tri, const mw_point *point, bool chained, bits_of bits)
 {
     view s;
     see(&s, g, tri, point);
-    uint32_t ended = cross_edges(&s, g, bits);
+    uint32_t left, ended = cross_edges(&s, g, &left, bits);
     if (!ended) return;
     double weight[3][WIDTH];
     for (uint32_t plain = weigh(&s, weight, bits); ended; ended &= ended - 1) {
-        uint32_t k = (uint32_t)__builtin_ctz(ended), t = (uint32_t)(s.tile[k] - tri), user = s.tile[k]->user;
+        uint32_t k = (uint32_t)__builtin_ctz(ended), t = (uint32_t)(s.tile[k] - tri);
         if (MW_UNLIKELY(g->query[k] == MW_NONE)) {
             g->t[k] = 0;
             continue;
         }
-        if (MW_LIKELY(plain >> k & 1 && !(user & MW_GHOST)))
-            c->flight->queries->locations[g->query[k]] = inside(user, weight[0][k], weight[1][k], weight[2][k]);
-        else
+        if (MW_UNLIKELY(!answer(c->flight, s.tile[k], g->query[k], left >> k & 1, plain >> k & 1, weight, k)))
             t = walk_on(c->flight, (mw_point){g->x[k], g->y[k]}, g->query[k], t);
         depart(c, g, k, t, chained);
     }
@@ -384,7 +399,7 @@ static MW_INLINE void fetch_across(const mw_triangle *tri, const mw_triangle *ti
 
 /* The same step for a single walk. The turn is a jump here: the processor guesses it, and does not wait for the areas before
  * it goes on. */
-bool mw__fly_alone(const mw_tiling *tiling, mw_point q, uint32_t *t, mw_location *location)
+bool mw__fly_alone(const mw_tiling *tiling, mw_point q, bool tolerant, uint32_t *t, mw_location *location)
 {
     for (uint32_t steps = 0; steps < SHORT; steps++) {
         const mw_triangle *tile = &tiling->tri[*t];
@@ -403,11 +418,15 @@ bool mw__fly_alone(const mw_tiling *tiling, mw_point q, uint32_t *t, mw_location
             link = tile->link[2];
         } else {
             if (!(area[0] > off && area[1] > off && area[2] > off && off < PLAIN * sum)) return false;
-            if (!(sum > LEAST && sum < MOST) || tile->user & MW_GHOST) return false;
-            *location = inside(tile->user, area[0] / sum, area[1] / sum, area[2] / sum);
+            if (!(sum > LEAST && sum < MOST) || (tile->user & MW_GHOST && tolerant)) return false;
+            *location = tile->user & MW_GHOST ? mw__in_none(tile->user)
+                                              : inside(tile->user, area[0] / sum, area[1] / sum, area[2] / sum);
             return true;
         }
-        if (MW_UNLIKELY(link == MW_NONE)) return false;
+        if (MW_UNLIKELY(link == MW_NONE)) {
+            *location = mw__in_none(0);
+            return !tolerant && tiling->embedding;
+        }
         *t = mw__link_triangle(link);
     }
     return false;

@@ -44,6 +44,15 @@ static MW_INLINE mw_location mw__nowhere(mw_where where)
         .weight = {NAN, NAN, NAN}, .triangle = MW_NONE, .hole = MW_NONE, .where = (uint8_t)where, .local = 255};
 }
 
+/* A location in no triangle: in a hole, if the mark of its tile says so, or outside. */
+static MW_INLINE mw_location mw__in_none(uint32_t mark)
+{
+    bool hole = (mark & MW_GHOST) && (mark & MW_USER_MASK) != MW_POCKET;
+    mw_location location = mw__nowhere(hole ? MW_IN_HOLE : MW_OUTSIDE);
+    if (hole) location.hole = mark & MW_USER_MASK;
+    return location;
+}
+
 /* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to corner k: exact in sign,
  * and off by less than 2^-42 of their sum. */
 void mw__areas(const mw_point corner[3], mw_point q, double area[3]);

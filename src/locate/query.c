@@ -33,11 +33,7 @@ static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const d
 /* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the tolerance says so. */
 static mw_location outside(const mw_locator *locator, uint32_t mark, mw_point q, double tolerance)
 {
-    mw_location location = mw__nowhere(MW_OUTSIDE);
-    if ((mark & MW_GHOST) && (mark & MW_USER_MASK) != MW_POCKET) {
-        location.where = MW_IN_HOLE;
-        location.hole = mark & MW_USER_MASK;
-    }
+    mw_location location = mw__in_none(mark);
     if (tolerance > 0) mw__border_near(&locator->border, locator->mesh, q, tolerance, &location);
     return location;
 }
@@ -284,7 +280,8 @@ mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, do
     mw_walk walk;
     if (cursor->plain) {
         cursor->last = mw__first_tile(locator, cursor, cursor->last, q, &cursor->random, NULL);
-        if (MW_LIKELY(mw__fly_alone(&locator->tiling, q, &cursor->last, &location))) return location;
+        if (MW_LIKELY(mw__fly_alone(&locator->tiling, q, cursor->tolerance > 0, &cursor->last, &location)))
+            return location;
         walk = mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel, mw__random(&cursor->random), NULL);
     } else {
         walk = mw__depart(locator, cursor, cursor->last, q, &cursor->random, &work);
