@@ -228,8 +228,9 @@ typedef struct mw_cursor {
 /* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a finish that is neither remembering nor
  * stochastic, a start without its index, an index of another start, a tolerance that is negative, NaN or infinite, or
  * one without the border index, another walk than the border walk where pockets and holes are open
- * (mw_locator_info.open). With an index and MW_START_AUTO the start is the index's. MW_START_SORTED in single
- * queries means MW_START_LAST. */
+ * (mw_locator_info.open). With an index and MW_START_AUTO the start is the index's; without, it is in single queries the
+ * triangle found last if that is near, else what the locator's guide says. MW_START_SORTED in single queries means
+ * MW_START_LAST. */
 MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options,
                                 mw_error *error);
 
@@ -251,8 +252,8 @@ MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double 
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
  *   counters  NULL or filled with the sum over the batch (options->count)
- * MW_START_AUTO means, for 64 queries and more, MW_START_CURVE with an index of its own where the triangles lie along a
- * Hilbert curve in memory, else MW_START_SORTED. MW_START_LAST and _SORTED: each thread takes 16,384
+ * MW_START_AUTO means the locator's guide: a small grid, or a sample as of MW_START_CURVE; where it has none, as where pockets and
+ * holes are open, MW_START_SORTED for 64 queries and more. MW_START_LAST and _SORTED: each thread takes 16,384
  * queries at a time, in `lanes` runs; the first query of a run begins as with MW_START_SAMPLE, each other where the one
  * before it ended.
  * MW_ERROR_ARGUMENT as mw_cursor_init; MW_ERROR_MEMORY (then locations is unspecified). */

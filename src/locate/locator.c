@@ -125,10 +125,7 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
     locator->centre = mw__start_centre(tiling, locator->low, locator->high);
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     if (!make_guide(locator)) return mw__fail_memory(error);
-    enum { NEAR = 16 }; /* triangles round a point; with a guide, the last one is to be nearer than a few edges */
-    uint32_t near = locator->guide.start == MW_START_AUTO ? mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT)
-                                                          : tiling->tri_count / NEAR + 1;
-    locator->near2 = width / near * height;
+    locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
     locator->pace = expect_pace(tiling->tri_count, width, height);
     return MW_OK;
 }

@@ -15,7 +15,7 @@ struct mw_locator {
     mw_border border;       /* edge_count 0 and box NULL without options.border                         */
     double low[2], high[2]; /* extent of the tiling                                                    */
     mw_index guide;         /* how queries begin where nothing is said; start MW_START_AUTO: there is none */
-    double near2;           /* a tile within this squared distance beats the guide, or a sample         */
+    double near2;           /* a tile within this squared distance beats a sample, by expectation      */
     double pace;            /* tiles that a straight line crosses per unit of length, by expectation   */
     mw_walk_kind auto_walk; /* what MW_WALK_AUTO means here */
     mw_walk_kind finish;    /* what ends the cheap walks    */

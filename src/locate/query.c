@@ -142,6 +142,24 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
 
 /* --- the departure ----------------------------------------------------------------------------------------------- */
 
+/* Does q lie within a few lengths of an edge of tile t? Then hardly any guide leads nearer. */
+static MW_INLINE bool is_close(const mw_tiling *tiling, uint32_t t, mw_point q)
+{
+    enum { LENGTHS = 4 };
+    const uint32_t *v = tiling->tri[t].v;
+    mw_point p = tiling->point[v[0]];
+    return mw__distance2(p, q) <= LENGTHS * LENGTHS * mw__distance2(p, tiling->point[v[1]]);
+}
+
+/* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
+static uint32_t near_or_sample(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
+                               uint64_t *random)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    if (mw__distance2(tiling->point[tiling->tri[t].v[0]], q) <= locator->near2) return t;
+    return mw__start_sample(tiling, q, cursor->sample, t, random);
+}
+
 static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
                            uint64_t *random)
 {
@@ -152,9 +170,9 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_SAMPLE: return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
     case MW_START_CENTRE: return locator->centre;
     case MW_START_AUTO:
-        if (mw__distance2(tiling->point[tiling->tri[last].v[0]], q) <= locator->near2) break;
-        if (locator->guide.start != MW_START_AUTO) return mw__index_tile(tiling, &locator->guide, q);
-        return mw__start_sample(tiling, q, cursor->sample, last, random);
+        if (locator->guide.start == MW_START_AUTO) return near_or_sample(locator, cursor, last, q, random);
+        if (!is_close(tiling, last, q)) return mw__index_tile(tiling, &locator->guide, q);
+        break;
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
     case MW_START_LAYERS:

@@ -1,7 +1,7 @@
 /* curve.c - tiles that lie in memory along a Hilbert curve are their own index: where q lies on the curve tells about
  * where its tile lies.
  *
- * Of every few tiles one is sampled, with the key of its middle. Between the two samples round the key of q the place of its
+ * Of every few tiles one is sampled, with the key of its lowest vertex. Between the two samples round the key of q the place of its
  * tile is estimated by the rule of three. Samples lie as dense as the tiles, so any distribution of vertices will do. What is near
  * on the curve is near in the plane; a walk is a few tiles longer than from a fine grid, but what it looks up is small enough
  * for a cache. Of tiles in any other order the sample before q is taken.
@@ -11,11 +11,18 @@
 
 #include <stdlib.h>
 
+/* The key of the lowest vertex: by that tiles of a mesh that is laid out are in order (mesh/layout.h). */
 static uint32_t key_of(const mw_curve *curve, const mw_tiling *tiling, uint32_t t)
 {
-    const mw_triangle *tile = &tiling->tri[t];
-    mw_point a = tiling->point[tile->v[0]], b = tiling->point[tile->v[1]], c = tiling->point[tile->v[2]];
-    return mw__hilbert_key(&curve->hilbert, a.x / 3 + b.x / 3 + c.x / 3, a.y / 3 + b.y / 3 + c.y / 3);
+    const uint32_t *v = tiling->tri[t].v;
+    uint32_t low = v[0] < v[1] ? v[0] : v[1];
+    mw_point p = tiling->point[v[2] < low ? v[2] : low];
+    return mw__hilbert_key(&curve->hilbert, p.x, p.y);
+}
+
+static bool follows(const mw_curve *curve, uint32_t tile, uint32_t before)
+{
+    return (tile > before ? tile - before : before - tile) <= curve->near;
 }
 
 static uint32_t buckets(const mw_curve *curve)
@@ -32,7 +39,7 @@ static void take_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t strid
     mw__sort_keys(sample, scratch, n);
     sample[-1] = (mw_key){0, sample[0].item};
     sample[n] = (mw_key){UINT32_MAX, sample[n - 1].item};
-    for (uint32_t i = 1; i < n; i++) follow += sample[i].item - sample[i - 1].item <= curve->near;
+    for (uint32_t i = 1; i < n; i++) follow += follows(curve, sample[i].item, sample[i - 1].item);
     curve->regular = follow >= n - n / 8 - 1;
 }
 
