@@ -83,15 +83,16 @@ MW_API void mw_check_release(mw_check *check);
 typedef struct mw_mesh_options {
     int tolerant; /* 1: take also arrays with repeated vertices, non-finite vertices and edges of three triangles; the
                      triangles concerned are kept but never own a point, the third triangle is not linked           */
-    int layout; /* in memory, which no number shows: 0: decide; 1: along a Hilbert curve, whatever the order of the arrays;
-                   2: as the arrays are. Tolerant meshes are as the arrays are                                      */
+    int layout; /* in memory, which no number shows (of a mesh that is no embedding other defects may be named, and the sum of
+                   areas may differ in its last bits): 0: decide; 1: along a Hilbert curve, whatever the order of the
+                   arrays; 2: as the arrays are. Tolerant meshes are as the arrays are                              */
     uint32_t threads; /* 0 = what OpenMP gives; the mesh is the same for any number                                 */
     uint32_t reserved[5];
 } mw_mesh_options;
 
 /* Build a mesh: copies the coordinates, finds the neighbours in O(n). Mixed orientation is accepted and remembered. Arrays
- * whose neighbours lie far apart are laid out along a Hilbert curve in memory, which
- * takes 4 bytes a triangle and 8 a vertex more; numbers stay the caller's.
+ * whose neighbours lie far apart are laid out along a Hilbert curve in memory, which takes 4
+ * bytes a triangle and 8 a vertex more; numbers stay the caller's.
  *   options  NULL = all zero
  *   out      set to the new mesh, owned by the caller (mw_mesh_destroy), or to NULL on failure
  * MW_ERROR_INPUT names the first defect of the unusable group; MW_ERROR_LIMIT, MW_ERROR_MEMORY. */

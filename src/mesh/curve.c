@@ -87,11 +87,17 @@ typedef struct sorting {
     uint32_t *first; /* per chunk and bucket: their number, then where they go */
 } sorting;
 
+static uint32_t chunk_end(const sorting *s, uint32_t chunk)
+{
+    uint64_t end = ((uint64_t)chunk + 1) * CHUNK; /* there may be nearly 2^32 points */
+    return end < s->n ? (uint32_t)end : s->n;
+}
+
 /* Keys of one chunk, and how many of them go to each bucket. */
 static void make_keys(const sorting *s, const mw_hilbert *hilbert, uint32_t chunk)
 {
-    uint32_t *count = s->first + (size_t)chunk * s->buckets, end = (chunk + 1) * CHUNK;
-    for (uint32_t i = chunk * CHUNK; i < s->n && i < end; i++) {
+    uint32_t *count = s->first + (size_t)chunk * s->buckets, end = chunk_end(s, chunk);
+    for (uint32_t i = chunk * CHUNK; i < end; i++) {
         uint32_t key = mw__hilbert_key(hilbert, s->points[i].x, s->points[i].y);
         s->keys[i] = (mw_key){key, i};
         count[key >> s->shift]++;
@@ -112,9 +118,8 @@ static void add_up(const sorting *s)
 
 static void part_keys(const sorting *s, uint32_t chunk)
 {
-    uint32_t *next = s->first + (size_t)chunk * s->buckets, end = (chunk + 1) * CHUNK;
-    for (uint32_t i = chunk * CHUNK; i < s->n && i < end; i++)
-        s->scratch[next[s->keys[i].key >> s->shift]++] = s->keys[i];
+    uint32_t *next = s->first + (size_t)chunk * s->buckets, end = chunk_end(s, chunk);
+    for (uint32_t i = chunk * CHUNK; i < end; i++) s->scratch[next[s->keys[i].key >> s->shift]++] = s->keys[i];
 }
 
 /* The parting leaves, for the last chunk, the end of each bucket. */
@@ -155,7 +160,7 @@ static void sort_all(const sorting *s, uint32_t *order)
 
 bool mw__curve_order(const mw_point *points, uint32_t n, uint32_t threads, uint32_t *order)
 {
-    sorting s = {.points = points, .n = n, .chunks = (n + CHUNK - 1) / CHUNK, .shift = 32};
+    sorting s = {.points = points, .n = n, .chunks = (uint32_t)(((uint64_t)n + CHUNK - 1) / CHUNK), .shift = 32};
     uint32_t bits = 1;
     while (bits < MOST_BITS && n >> bits > SMALL) bits++;
     s.shift -= bits;

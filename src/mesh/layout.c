@@ -259,9 +259,11 @@ static bool sort_parts(const layout *l)
         uint32_t n = l->parts->first[p + 1] - l->parts->first[p];
         if (n > most) most = n;
     }
+    int team = mw__team((uint32_t)l->team, l->parts->count);
+    (void)team; /* unused without OpenMP */
     bool done = true;
 #ifdef _OPENMP
-#pragma omp parallel num_threads(l->team) if (l->team > 1)
+#pragma omp parallel num_threads(team) if (team > 1)
 #endif
     {
         uint32_t *next = mw__alloc((size_t)1 << l->parts->shift, sizeof *next);

@@ -1,6 +1,6 @@
 /* curve.h - first tiles by the order in which the tiles lie in memory. Private. */
-#ifndef MW_SRC_CURVE_H
-#define MW_SRC_CURVE_H
+#ifndef MW_SRC_CURVE_START_H
+#define MW_SRC_CURVE_START_H
 
 #include "base/hilbert.h"
 #include "domain/tiling.h"
