@@ -22,8 +22,11 @@ struct Scene {
         if (mw_delaunay(points.data(), points.size() / 2, 2, nullptr, nullptr, &mesh, &error) != MW_OK ||
             mw_locator_create(mesh, nullptr, &locator, &error) != MW_OK)
             fail(error.message);
-        for (mw_start_kind start : {MW_START_GRID, MW_START_TWO_LEVEL_GRID, MW_START_LAYERS})
-            if (mw_index_create(locator, start, nullptr, &index[start], &error) != MW_OK) fail(error.message);
+        for (int i = 0; i < MW_START_COUNT; i++) {
+            auto start = static_cast<mw_start_kind>(i);
+            if (mw_start_has_index(start) && mw_index_create(locator, start, nullptr, &index[i], &error) != MW_OK)
+                fail(error.message);
+        }
     }
     ~Scene()
     {
