@@ -142,13 +142,15 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
 
 /* --- the departure ----------------------------------------------------------------------------------------------- */
 
-/* Does q lie within a few lengths of an edge of tile t? Then hardly any guide leads nearer. */
+/* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads nearer. A long edge would not
+ * tell: many small tiles may lie beside it. */
 static MW_INLINE bool is_close(const mw_tiling *tiling, uint32_t t, mw_point q)
 {
-    enum { LENGTHS = 4 };
+    enum { LENGTHS = 3 };
     const uint32_t *v = tiling->tri[t].v;
-    mw_point p = tiling->point[v[0]];
-    return mw__distance2(p, q) <= LENGTHS * LENGTHS * mw__distance2(p, tiling->point[v[1]]);
+    mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
+    double shortest = fmin(mw__distance2(a, b), fmin(mw__distance2(b, c), mw__distance2(c, a)));
+    return mw__distance2(a, q) <= LENGTHS * LENGTHS * shortest;
 }
 
 /* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
