@@ -122,6 +122,7 @@ void mw__tiling_release(mw_tiling *tiling)
     free(tiling->owner);
     free(tiling->area);
     free(tiling->rim);
+    free(tiling->tile_of);
     if (tiling->open) mw__open_release(tiling->open);
     free(tiling->open);
     *tiling = (mw_tiling){0};
@@ -136,6 +137,7 @@ size_t mw__tiling_copy_bytes(const mw_tiling *tiling)
 size_t mw__tiling_bytes(const mw_tiling *tiling)
 {
     size_t bytes = tiling->point_count * sizeof *tiling->owner + mw__tiling_copy_bytes(tiling);
+    bytes += tiling->number_count * sizeof *tiling->tile_of;
     if (tiling->area) bytes += tiling->tri_count * sizeof *tiling->area;
     if (tiling->open) bytes += sizeof *tiling->open + mw__open_bytes(tiling->open, tiling);
     return bytes;

@@ -32,7 +32,33 @@ typedef struct mw_tiling {
     mw_open *open;    /* NULL for a tiling that fills its hull         */
     mw_rim_edge *rim; /* the border of an open tiling, until it is finished */
     uint32_t rim_count;
+    uint32_t number_count; /* of a tiling that is edited: numbers of triangles given out                     */
+    uint32_t
+        *tile_of; /* of such a one, per number: its tile, or MW_GONE and the number of a triangle that took its place;
+                              else NULL. Always owned */
 } mw_tiling;
+
+#define MW_GONE (UINT32_C(1) << 31)
+
+/* The tile that `name` leads to: in a tiling that is edited the triangle of that number, or one that took its place; else tile
+ * `name`. Always a tile of this tiling: what names it may be older, or of another one. */
+static MW_INLINE uint32_t mw__tile_named(const mw_tiling *tiling, uint32_t name)
+{
+    if (MW_UNLIKELY(tiling->tile_of && name < tiling->number_count)) {
+        do name = tiling->tile_of[name & ~MW_GONE];
+        while (name & MW_GONE);
+        return name;
+    }
+    return MW_LIKELY(name < tiling->tri_count) ? name : name % tiling->tri_count;
+}
+
+/* A name of a tile that lasts: of a ghost, that of a triangle beside it. */
+static MW_INLINE uint32_t mw__tile_name(const mw_tiling *tiling, uint32_t t)
+{
+    if (!tiling->tile_of) return t;
+    const mw_triangle *tile = &tiling->tri[t];
+    return tile->user & MW_GHOST ? tiling->owner[tile->v[0]] : tile->user & MW_USER_MASK;
+}
 
 /* Tile the hull of `mesh`. Where the mesh is no embedding: with `any`, see mw_tiling.embedding; otherwise
  * MW_ERROR_INPUT, the error naming the first defect. A mesh without any triangle that has an area gives no tiles. Also
