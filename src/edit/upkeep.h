@@ -1,0 +1,55 @@
+/* upkeep.h - what leads queries to a first tile, while the mesh changes. Private.
+ *
+ * A locator of a mesh that changes has a guide, a grid or, where vertices are crowded, one of two levels; and its editor may have an index for
+ * each start. They name tiles that edits take away or reshape:
+ *
+ *   grids    hold names of tiles. A name leads to the triangle of that number, or to one that took its place, so it never goes wrong,
+ *            only farther off. An edit puts the tiles it changed into the cells of their middles where they are nearer than what is there:
+ *            O(1) for each.
+ *   layers   follow each vertex [Devillers 2002]: see live_layers.h.
+ *   a curve  holds places of tiles, which say less and less. It is built anew only on request.
+ *
+ * Guide, grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built, or half; when a quarter
+ * as many were put outside the extent that they were built for; and after four edits for each vertex there was. That is O(1) for each edit.
+ * Where memory is short the old ones stay, and layers that cannot follow are dropped: all of this is only a guide, no answer depends on it. */
+#ifndef MW_SRC_UPKEEP_H
+#define MW_SRC_UPKEEP_H
+
+#include "edit/fabric.h"
+#include "edit/live_layers.h"
+#include "locate/locator.h"
+
+/* When was it built? */
+typedef struct mw_since {
+    uint32_t vertices;         /* that there were */
+    uint32_t edits, outsiders; /* since then: edits; vertices put outside of the extent that there was */
+} mw_since;
+
+typedef struct mw_upkeep {
+    mw_locator *locator;
+    const mw_fabric *fabric;        /* whose tiling is the locator's */
+    mw_index index[MW_START_COUNT]; /* by start; its own start is MW_START_AUTO where there is none */
+    mw_index_options options[MW_START_COUNT];
+    mw_since since[MW_START_COUNT]; /* that of MW_START_AUTO is the guide's */
+    mw_live_layers live;            /* what follows the vertices of index[MW_START_LAYERS] */
+    uint64_t refreshes;             /* times that something was built anew */
+} mw_upkeep;
+
+/* Take a locator whose `tiling` is the fabric's, and all else is zero: find its extent, walks, guide, and what else it keeps. None of the three may
+ * move from then on, but what the fabric holds may be exchanged (mw__upkeep_compact). MW_ERROR_MEMORY; release in either case. */
+mw_status mw__upkeep_create(mw_upkeep *upkeep, mw_locator *locator, const mw_fabric *fabric, mw_error *error);
+void mw__upkeep_release(mw_upkeep *upkeep);       /* the guide too */
+size_t mw__upkeep_bytes(const mw_upkeep *upkeep); /* of indices and guide */
+
+/* Build the index of a start, or build it anew, at &upkeep->index[start]. options: NULL = all zero. Errors as mw_index_create; then nothing
+ * has changed. */
+mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_index_options *options, mw_error *error);
+
+/* After an edit was committed, or (undone) reverted, and before its step is forgotten or dropped: its journal tells what changed. Raises the
+ * locator's epoch, by which cursors know that their tile has another place. */
+void mw__upkeep_edit(mw_upkeep *upkeep, bool undone);
+
+/* After everything was numbered anew: all is built anew. Raises the epoch so that cursors know that names are other ones. */
+void mw__upkeep_compact(mw_upkeep *upkeep);
+
+#endif
