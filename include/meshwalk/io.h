@@ -8,6 +8,7 @@
 #ifndef MESHWALK_IO_H
 #define MESHWALK_IO_H
 
+#include <meshwalk/edit.h>
 #include <meshwalk/mesh.h>
 
 #ifdef __cplusplus
@@ -131,6 +132,58 @@ MW_API const char *mw_points_column(const mw_point_reader *reader, size_t column
 MW_API mw_status mw_points_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
                                 mw_error *error);
 MW_API void mw_points_close(mw_point_reader *reader); /* NULL is allowed */
+
+/* What a line of a stream of edits asks for. */
+typedef enum mw_edit_line_kind {
+    MW_EDIT_LINE_NONE = 0, /* nothing: a blank line or a comment; of a reader: the stream has ended */
+    MW_EDIT_LINE_EDIT,     /* `edit`, for mw_edit_apply                                             */
+    MW_EDIT_LINE_LOCATE,   /* which triangle contains edit.x, edit.y?                               */
+    MW_EDIT_LINE_UNDO,     /* mw_edit_undo                                                          */
+    MW_EDIT_LINE_COMPACT   /* mw_editor_compact                                                     */
+} mw_edit_line_kind;
+
+typedef struct mw_edit_line {
+    mw_edit edit;
+    mw_edit_line_kind kind;
+    uint32_t reserved;
+    int64_t line; /* of the file, from 1; 0: not of a file */
+} mw_edit_line;
+
+/* All zero = fields go by their numbers. */
+typedef struct mw_edits_options {
+    const char *const
+        *fields; /* their names, in the order of their numbers (mw_editor_field); has to outlive a reader */
+    size_t field_count;
+    uint32_t reserved[4];
+} mw_edits_options;
+
+/* Edits as text, a line each, its words separated by blanks or by a comma (so that CSV without a header will do):
+ *   insert X Y [VALUE [FIELD]]   remove V   move V X Y   flip V V   constrain V V   release V V   value V VALUE [FIELD]
+ *   locate X Y   undo   compact
+ * Words are taken in any case and may stand in double quotes. V is the number of a vertex, from 0; 17.0 is one, too. FIELD is a name
+ * or a number; without it the field z is meant, where fields have names, else number 0. A VALUE that is missing or "nan" is
+ * interpolated at an insertion. "#" begins a comment. Cells that are empty at the end of a line are passed over. Whether
+ * an edit is possible, the editor tells.
+ *
+ * Read one line; options: NULL = all zero. MW_ERROR_INPUT: an unknown word, too few or too many of them, something that is no
+ * number, an unknown field; then line->kind is MW_EDIT_LINE_NONE. MW_ERROR_ARGUMENT: NULL. Thread-safe. */
+MW_API mw_status mw_edit_parse(const char *text, const mw_edits_options *options, mw_edit_line *line, mw_error *error);
+
+/* Write one line, ended by NUL instead of a newline, so that mw_edit_parse with the same options gives the same edit, every bit of its
+ * numbers (the sign of a NaN apart). Names of fields that cannot stand in a line are written as numbers. Returns its length; 0 and
+ * an empty text for MW_EDIT_LINE_NONE and unknown kinds. Thread-safe. */
+#define MW_EDIT_TEXT 160
+MW_API size_t mw_edit_format(char text[MW_EDIT_TEXT], const mw_edit_line *line, const mw_edits_options *options);
+
+/* A stream of them, read line by line in constant memory. MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT: NULL. */
+typedef struct mw_edit_reader mw_edit_reader;
+MW_API mw_status mw_edits_open(const char *path, const mw_edits_options *options, mw_edit_reader **out,
+                               mw_error *error);
+/* Read the next line that is not blank; line->kind is MW_EDIT_LINE_NONE at the end. Errors as of mw_edit_parse, with file and
+ * line; then line->line tells whether the reader can go on: the number of the line, which the next call will be behind,
+ * or 0: the file cannot be read on (also MW_ERROR_SYSTEM, MW_ERROR_MEMORY), and the reader can only be closed. */
+MW_API mw_status mw_edits_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error);
+MW_API void mw_edits_close(mw_edit_reader *reader); /* NULL is allowed */
 
 /* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside
  * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a link to
