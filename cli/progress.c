@@ -16,8 +16,8 @@ static struct {
     thrd_t thread;
     mtx_t lock;
     cnd_t wake;
-    const char *doing, *what;
-    uint64_t points;
+    const char *doing, *what, *unit;
+    uint64_t done;
     struct timespec begin;
 } watch;
 
@@ -49,7 +49,7 @@ static void paint(void)
     if (!watch.doing) return;
     fprintf(stderr, "\r\033[K%s", watch.doing);
     if (watch.what) fprintf(stderr, " %s", strcmp(watch.what, "-") == 0 ? "standard input" : watch.what);
-    if (watch.points) fprintf(stderr, ": %" PRIu64 " points", watch.points);
+    if (watch.done) fprintf(stderr, ": %" PRIu64 " %s", watch.done, watch.unit);
     fprintf(stderr, ", %.0f s", seconds_since(&watch.begin));
     fflush(stderr);
     watch.shown = true;
@@ -83,16 +83,27 @@ void progress_phase(const char *doing, const char *what)
     mtx_lock(&watch.lock);
     watch.doing = doing;
     watch.what = what;
-    watch.points = 0;
+    watch.done = 0;
+    mtx_unlock(&watch.lock);
+}
+
+static void count(uint64_t done, const char *unit)
+{
+    if (!watch.running) return;
+    mtx_lock(&watch.lock);
+    watch.done = done;
+    watch.unit = unit;
     mtx_unlock(&watch.lock);
 }
 
 void progress_points(uint64_t done)
 {
-    if (!watch.running) return;
-    mtx_lock(&watch.lock);
-    watch.points = done;
-    mtx_unlock(&watch.lock);
+    count(done, "points");
+}
+
+void progress_lines(uint64_t done)
+{
+    count(done, "lines");
 }
 
 void progress_end(void)

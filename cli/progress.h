@@ -12,8 +12,9 @@ void progress_begin(bool quiet);
  * must live until the next call. */
 void progress_phase(const char *doing, const char *what);
 
-/* How many points this phase has done. */
+/* How many points, or lines, this phase has done. */
 void progress_points(uint64_t done);
+void progress_lines(uint64_t done);
 
 /* Stop, and wipe the line. Called before anything else is written to standard error, and at the end. */
 void progress_end(void);

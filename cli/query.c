@@ -39,17 +39,17 @@ static const char *fill_name(int i)
     return names[i];
 }
 
-static const choices walks = {"walk", walk_name, walk_help};
-static const choices starts = {"start", start_name, start_help};
+const choices query_walks = {"walk", walk_name, walk_help};
+const choices query_starts = {"start", start_name, start_help};
 static const choices arithmetics = {"arithmetic", arithmetic_name, NULL};
 static const choices fill_choices = {"way to fill", fill_name, NULL};
 static const choices finish_choices = {"way to finish", finish_name, NULL};
 
 const option query_options[] = {
     {"walk", 0, OPTION_CHOICE, offsetof(query_settings, walk), "NAME",
-     "how to walk to the triangle (default: auto):", &walks},
+     "how to walk to the triangle (default: auto):", &query_walks},
     {"start", 0, OPTION_CHOICE, offsetof(query_settings, start), "NAME",
-     "how to choose the first triangle (default: auto):", &starts},
+     "how to choose the first triangle (default: auto):", &query_starts},
     {"arithmetic", 0, OPTION_CHOICE, offsetof(query_settings, arithmetic), "NAME",
      "how walks decide their turns (default: exact); the triangle found is exact in either case:", &arithmetics},
     {"finish", 0, OPTION_CHOICE, offsetof(query_settings, finish), "NAME",
@@ -123,11 +123,10 @@ static int make_locator(query *q, const char *path, bool border, bool area)
     return 0;
 }
 
-/* The limits of the library, found out before the mesh is read. */
-static int check_index(const query_settings *settings)
+int query_check_index(uint32_t cells, uint32_t layers)
 {
-    int end = options_limit("cells", settings->cells, UINT32_C(1) << 30, "2^30");
-    return end ? end : options_limit("layers", settings->layers, MW_MAX_LAYERS, NULL);
+    int end = options_limit("cells", cells, UINT32_C(1) << 30, "2^30");
+    return end ? end : options_limit("layers", layers, MW_MAX_LAYERS, NULL);
 }
 
 /* Only the border walk does without what fills pockets and holes. */
@@ -157,7 +156,7 @@ int query_open(query *q, const query_settings *settings, const char *const *oper
     mw_mesh_file file;
     *q = (query){.settings = settings, .begin = tally_clock()};
     int end = files_check(settings->stream.common.output, operands, 2);
-    if (end == 0) end = check_index(settings);
+    if (end == 0) end = query_check_index(settings->cells, settings->layers);
     if (end == 0) end = check_fill(settings);
     if (end == 0) end = files_read_mesh(path, &file);
     if (end) return end;

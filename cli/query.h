@@ -17,6 +17,12 @@ typedef struct query_settings {
 
 extern const option query_options[];
 
+/* The names that --walk and --start take. */
+extern const choices query_walks, query_starts;
+
+/* Refuse what the library does not take of --cells and --layers. Returns 0 or an exit code after a complaint. */
+int query_check_index(uint32_t cells, uint32_t layers);
+
 /* A mesh ready to be asked. */
 typedef struct query {
     const query_settings *settings;

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* held: no signal ends the program just now */
-static char doomed[4096];                                /* "": none; under the lock */
+static char doomed[MOST_TEMPORARIES][4096];              /* "": none; under the lock */
 static sigset_t ending;                                  /* written before the thread begins */
 
 /* The signals that would end the program: one that is ignored, as under nohup, stays ignored. */
@@ -24,8 +24,10 @@ static void collect_signals(void)
 /* Under the lock. */
 static void clean(void)
 {
-    if (*doomed) unlink(doomed);
-    *doomed = 0;
+    for (size_t i = 0; i < MOST_TEMPORARIES; i++) {
+        if (*doomed[i]) unlink(doomed[i]);
+        *doomed[i] = 0;
+    }
 }
 
 /* Wait for a signal, clean up, and let it do to the program what it does by default. */
@@ -53,10 +55,27 @@ void signals_begin(void)
         pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
+/* Under the lock. */
+static void doom(const char *temporary)
+{
+    size_t i = 0;
+    while (i < MOST_TEMPORARIES && *doomed[i]) i++;
+    if (!temporary || i == MOST_TEMPORARIES) return;
+    if (snprintf(doomed[i], sizeof doomed[i], "%s", temporary) >= (int)sizeof doomed[i]) *doomed[i] = 0;
+}
+
 void signals_remove(const char *temporary)
 {
     pthread_mutex_lock(&lock);
-    if (!temporary || snprintf(doomed, sizeof doomed, "%s", temporary) >= (int)sizeof doomed) *doomed = 0;
+    for (size_t i = 0; i < MOST_TEMPORARIES; i++) *doomed[i] = 0;
+    doom(temporary);
+    pthread_mutex_unlock(&lock);
+}
+
+void signals_remove_too(const char *temporary)
+{
+    pthread_mutex_lock(&lock);
+    doom(temporary);
     pthread_mutex_unlock(&lock);
 }
 

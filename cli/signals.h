@@ -12,8 +12,11 @@
  * program as they would any other. */
 void signals_begin(void);
 
-/* When a signal asks the program to end: remove this file first. NULL: nothing to remove. */
+/* When a signal asks the program to end: remove this file first, and no other. NULL: nothing to remove. */
 void signals_remove(const char *temporary);
+/* Remove this one, too, of up to MOST_TEMPORARIES. NULL: nothing more. */
+#define MOST_TEMPORARIES 4
+void signals_remove_too(const char *temporary);
 
 /* Remove it now: the program ends without closing its output. */
 void signals_clean(void);

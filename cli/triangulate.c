@@ -3,10 +3,10 @@
 #include "constraints.h"
 #include "files.h"
 #include "heights.h"
+#include "mesh_output.h"
 #include "message.h"
 #include "progress.h"
 #include "report.h"
-#include "signals.h"
 #include "tally.h"
 #include "vertices.h"
 
@@ -14,10 +14,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <strings.h>
-
-enum { FORMAT_BY_ENDING = 0 };
 
 typedef struct triangulate_settings {
     common_settings common;
@@ -27,10 +23,6 @@ typedef struct triangulate_settings {
     bool json, split;
 } triangulate_settings;
 
-static const char *format_name(int i)
-{
-    return i == FORMAT_BY_ENDING ? "auto" : mw_format_name((size_t)i - 1);
-}
 static const char *kind_name(int i)
 {
     return mw_kind_name((mw_triangulation_kind)i);
@@ -50,7 +42,6 @@ static const char *keep_help(int i)
                             "those inside a polygon, or without polygons those that constraints part from the outside "
                             "and from the places of holes"}[i];
 }
-static const choices format_choices = {"format", format_name, NULL};
 static const choices kind_choices = {"kind of triangulation", kind_name, kind_help};
 static const choices keep_choices = {"part to keep", keep_name, keep_help};
 
@@ -70,7 +61,7 @@ static const option triangulate_options[] = {
      "beyond, a local optimum is made (default: 0, what half a minute finds)",
      NULL},
     {"format", 0, OPTION_CHOICE, offsetof(triangulate_settings, format), "NAME",
-     "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &format_choices},
+     "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &mesh_formats},
     {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
      "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first two are x and y, the "
      "third is z, further ones become fields (default: all, with x, y and z first where a header names them)",
@@ -239,28 +230,6 @@ static int print_report(const triangulate_settings *s, const work *w)
     return end;
 }
 
-static int write_mesh(const triangulate_settings *s, const work *w, bool named)
-{
-    mw_error error;
-    const char *format = s->format == FORMAT_BY_ENDING ? NULL : format_name(s->format);
-    progress_phase("writing", NULL);
-    if (named) signals_hold(true);
-    mw_status status = mw_write_mesh(s->common.output, format, &w->vertices.file, &error);
-    if (named) signals_hold(false);
-    return status == MW_OK ? 0 : fail_writing(&error);
-}
-
-/* Does the name end in the name of a format, or in .ele, the other half of node? */
-static bool ending_is_known(const char *path)
-{
-    const char *ending = strrchr(path, '.');
-    if (!ending) return false;
-    const char *name;
-    for (size_t i = 0; (name = mw_format_name(i)); i++)
-        if (strcasecmp(ending + 1, name) == 0) return true;
-    return strcasecmp(ending, ".ele") == 0;
-}
-
 static int refuse(const char *why)
 {
     complain("triangulate: %s", why);
@@ -280,13 +249,6 @@ static int check_combination(const triangulate_settings *s, const char *points)
     return 0;
 }
 
-static bool writes_node(const triangulate_settings *s)
-{
-    if (s->format != FORMAT_BY_ENDING) return strcmp(format_name(s->format), "node") == 0;
-    const char *ending = strrchr(s->common.output, '.');
-    return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
-}
-
 /* What can be refused before the work begins. */
 static int check_settings(const triangulate_settings *s, const char *points)
 {
@@ -294,14 +256,9 @@ static int check_settings(const triangulate_settings *s, const char *points)
     const char *inputs[2] = {points ? points : s->constraints, s->constraints};
     int end = check_combination(s, points);
     if (end) return end;
-    if (!output) return refuse("-o MESH is missing: where should the mesh go?");
-    if (files_is_stream(output) && s->format == FORMAT_BY_ENDING)
-        return refuse("a mesh on standard output wants --format");
-    if (s->format == FORMAT_BY_ENDING && !ending_is_known(output)) {
-        complain("%s: the name tells no format for meshes; --format does (off, ply, ...)", output);
-        return END_USAGE;
-    }
-    if (s->constraints && writes_node(s) && constraints_share_node(s->constraints, output)) {
+    end = mesh_output_check("triangulate", output, s->format);
+    if (end) return end;
+    if (s->constraints && mesh_output_is_node(output, s->format) && constraints_share_node(s->constraints, output)) {
         complain("%s: its points may stand in the .node file that would be written: choose another output",
                  s->constraints);
         return END_USAGE;
@@ -327,7 +284,7 @@ static int run(const void *settings, const char *const *operands)
     if (end == 0) end = files_try_output(s->common.output, &named);
     if (end == 0) end = read_input(s, points, &w);
     if (end == 0) end = s->constraints ? constrain(s, points, &w) : triangulate(s, points, &w);
-    if (end == 0) end = write_mesh(s, &w, named);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, named);
     if (end == 0) end = print_report(s, &w);
     release(&w);
     return end;

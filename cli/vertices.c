@@ -183,6 +183,35 @@ int vertices_complete(vertices *v, const mw_mesh *mesh)
     return 0;
 }
 
+/* A field of a mesh, of as many vertices. */
+static bool take_field(mw_mesh_file *file, const char *name, const double *values)
+{
+    if (strcmp(name, "z") == 0) {
+        file->has_z = true;
+        for (size_t i = 0; i < file->point_count; i++) file->points[3 * i + 2] = values[i];
+        return true;
+    }
+    double *field = add_field(file, name);
+    if (field && file->point_count > 0) memcpy(field, values, file->point_count * sizeof *field);
+    return field != NULL;
+}
+
+int vertices_of_mesh(vertices *v, const mw_mesh *mesh)
+{
+    mw_mesh_file *file = &v->file;
+    *v = (vertices){0};
+    int end = vertices_complete(v, mesh);
+    for (size_t i = 0; end == 0 && i < file->point_count; i++) file->points[3 * i + 2] = 0;
+    for (size_t f = 0; end == 0 && f < mw_mesh_field_count(mesh); f++) {
+        const char *name = mw_mesh_field_name(mesh, f);
+        if (!take_field(file, name, mw_mesh_field(mesh, name))) end = fail_memory();
+    }
+    v->points = file->point_count;
+    v->point_fields = file->field_count;
+    v->point_heights = file->has_z;
+    return end;
+}
+
 size_t vertices_value_count(const vertices *v)
 {
     return 1 + v->file.field_count;

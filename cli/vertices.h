@@ -19,6 +19,8 @@ int vertices_read(vertices *v, const char *path, const char *columns, const char
 int vertices_append(vertices *v, mw_constraint_file *constraints);
 /* Take the vertices that the mesh has beyond these, and its triangles. */
 int vertices_complete(vertices *v, const mw_mesh *mesh);
+/* All vertices, fields and triangles of a mesh; its field z, if it has one, is the height. */
+int vertices_of_mesh(vertices *v, const mw_mesh *mesh);
 void vertices_release(vertices *v);
 
 /* One value of all vertices: that of vertex i is values[i * stride]. Value 0 is z, the others are the fields. */

@@ -157,6 +157,9 @@ typedef struct mw_edits_options {
     uint32_t reserved[4];
 } mw_edits_options;
 
+/* "insert", "remove", "move", "flip", "constrain", "release", "value"; NULL for another number. */
+MW_API const char *mw_edit_name(mw_edit_kind kind);
+
 /* Edits as text, a line each, its words separated by blanks or by a comma (so that CSV without a header will do):
  *   insert X Y [VALUE [FIELD]]   remove V   move V X Y   flip V V   constrain V V   release V V   value V VALUE [FIELD]
  *   locate X Y   undo   compact

@@ -29,6 +29,19 @@ static const edit_form forms[] = {
 };
 enum { FORM_COUNT = sizeof forms / sizeof *forms };
 
+static const edit_form *form_of(mw_edit_line_kind line, mw_edit_kind edit)
+{
+    for (size_t i = 0; i < FORM_COUNT; i++)
+        if (forms[i].line == line && (line != MW_EDIT_LINE_EDIT || forms[i].edit == edit)) return &forms[i];
+    return NULL;
+}
+
+const char *mw_edit_name(mw_edit_kind kind)
+{
+    const edit_form *form = form_of(MW_EDIT_LINE_EDIT, kind);
+    return form ? form->word : NULL;
+}
+
 /* A line, and how far it has been read. */
 typedef struct scan {
     const char *p;
@@ -285,10 +298,7 @@ static char *put_argument(char *p, char argument, const mw_edit *edit, const mw_
 size_t mw_edit_format(char text[MW_EDIT_TEXT], const mw_edit_line *line, const mw_edits_options *options)
 {
     char *p = text;
-    const edit_form *form = NULL;
-    for (size_t i = 0; i < FORM_COUNT && !form; i++)
-        if (forms[i].line == line->kind && (line->kind != MW_EDIT_LINE_EDIT || forms[i].edit == line->edit.kind))
-            form = &forms[i];
+    const edit_form *form = form_of(line->kind, line->edit.kind);
     if (form) {
         p = put_word(p, form->word);
         for (const char *a = form->arguments; *a; a++)
