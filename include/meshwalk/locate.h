@@ -210,7 +210,7 @@ typedef struct mw_counters {
 MW_API void mw_counters_add(mw_counters *sum, const mw_counters *more);
 
 /* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. It serves only
- * the locator it was initialised with. */
+ * the locator it was initialised with; that of an editor (edit.h) through all edits. */
 typedef struct mw_cursor {
     mw_counters counters;
     const mw_index *index;
@@ -222,7 +222,11 @@ typedef struct mw_cursor {
     uint32_t fuel;                                  /* steps after which a walk hands over         */
     uint8_t walk, start, finish, arithmetic, count; /* resolved options          */
     uint8_t plain;                                  /* 1: the fast way is tried first */
-    uint8_t reserved[6];
+    uint8_t live;                                   /* 1: the mesh is an editor's, and may have changed */
+    uint8_t reserved[9];
+    uint32_t asked;     /* samples, as in the options                  */
+    uint32_t last_name; /* number by which `last` is found after edits */
+    uint64_t epoch;     /* of the mesh at the query before             */
 } mw_cursor;
 
 /* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a finish that is neither remembering nor

@@ -36,6 +36,7 @@ typedef struct mw_tiling {
     uint32_t
         *tile_of; /* of such a one, per number: its tile, or MW_GONE and the number of a triangle that took its place;
                               else NULL. Always owned */
+    uint32_t name_count; /* of such a one: numbers up to here, of edits that were undone, lead to a tile too */
 } mw_tiling;
 
 #define MW_GONE (UINT32_C(1) << 31)
@@ -44,10 +45,9 @@ typedef struct mw_tiling {
  * `name`. Always a tile of this tiling: what names it may be older, or of another one. */
 static MW_INLINE uint32_t mw__tile_named(const mw_tiling *tiling, uint32_t name)
 {
-    if (MW_UNLIKELY(tiling->tile_of && name < tiling->number_count)) {
+    if (MW_UNLIKELY(tiling->tile_of) && (name < tiling->number_count || name < tiling->name_count)) {
         do name = tiling->tile_of[name & ~MW_GONE];
         while (name & MW_GONE);
-        return name;
     }
     return MW_LIKELY(name < tiling->tri_count) ? name : name % tiling->tri_count;
 }

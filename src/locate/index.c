@@ -14,7 +14,7 @@ static mw_status build_layers(mw_layers *layers, const mw_tiling *tiling, const 
     return mw__layers_create(tiling, &own, layers, error);
 }
 
-static mw_status build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error)
+mw_status mw__index_build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error)
 {
     const mw_tiling *tiling = &locator->tiling;
     const double *low = locator->low, *high = locator->high;
@@ -44,7 +44,7 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const 
     if (!index) return mw__fail_memory(error);
     index->start = start;
     double begin = mw__seconds();
-    mw_status status = build(index, locator, options ? options : &defaults, error);
+    mw_status status = mw__index_build(index, locator, options ? options : &defaults, error);
     index->seconds = mw__seconds() - begin;
     if (status)
         mw_index_destroy(index);
@@ -102,7 +102,7 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
     }
 }
 
-/* A tile of this tiling, where the index is of another. */
+/* A curve holds places of tiles. A tile of this tiling, where it is of another one, or this one has changed. */
 static MW_INLINE uint32_t within(const mw_tiling *tiling, uint32_t t)
 {
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
@@ -110,22 +110,22 @@ static MW_INLINE uint32_t within(const mw_tiling *tiling, uint32_t t)
 
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
-    uint32_t t = 0;
+    uint32_t name = 0;
     switch (index->start) {
-    case MW_START_GRID: t = mw__grid_first(&index->grid, q); break;
-    case MW_START_TWO_LEVEL_GRID: t = mw__two_level_grid_first(&index->two_level_grid, q); break;
-    case MW_START_CURVE: t = mw__curve_first(&index->curve, q); break;
+    case MW_START_GRID: name = mw__grid_first(&index->grid, q); break;
+    case MW_START_TWO_LEVEL_GRID: name = mw__two_level_grid_first(&index->two_level_grid, q); break;
+    case MW_START_CURVE: return within(tiling, mw__curve_first(&index->curve, q));
     default: break;
     }
-    return within(tiling, t);
+    return mw__tile_named(tiling, name);
 }
 
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
 {
     if (MW_LIKELY(cursor->index->start != MW_START_LAYERS)) return mw__index_tile(tiling, cursor->index, q);
     mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish, cursor->arithmetic == MW_EXACT,
-                         cursor->count};
-    return within(tiling, mw__layers_first(&cursor->index->layers, q, &how, random, work));
+                         cursor->count, tiling};
+    return mw__tile_named(tiling, mw__layers_first(&cursor->index->layers, q, &how, random, work));
 }
 
 static void grid_first_many(const mw_grid *grid, const mw_point *q, uint32_t n, uint32_t *t)
@@ -153,6 +153,14 @@ static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t 
     for (uint32_t i = 0; i < n; i++) t[i] = mw__curve_at(curve, t[i]);
 }
 
+/* From names to tiles. */
+static void resolve_many(const mw_tiling *tiling, uint32_t n, uint32_t *t)
+{
+    for (uint32_t i = 0; i < n; i++)
+        if (t[i] < tiling->number_count) __builtin_prefetch(&tiling->tile_of[t[i]]);
+    for (uint32_t i = 0; i < n; i++) t[i] = mw__tile_named(tiling, t[i]);
+}
+
 void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q, uint32_t n, uint32_t *t)
 {
     switch (index->start) {
@@ -161,6 +169,7 @@ void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const 
     case MW_START_CURVE: curve_first_many(&index->curve, q, n, t); break;
     default: break;
     }
+    if (MW_UNLIKELY(tiling->tile_of && index->start != MW_START_CURVE)) resolve_many(tiling, n, t);
     for (uint32_t i = 0; i < n; i++) {
         t[i] = within(tiling, t[i]);
         __builtin_prefetch(&tiling->tri[t[i]]);

@@ -21,6 +21,9 @@ struct mw_index {
     };
 };
 
+/* Build what the start of an index, which is set, is made of; on failure it may be released. */
+mw_status mw__index_build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error);
+
 /* Release what an index holds; how much that is. */
 void mw__index_release(mw_index *index);
 size_t mw__index_bytes(const mw_index *index);

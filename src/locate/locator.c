@@ -79,25 +79,41 @@ static void find_extent(const mw_tiling *tiling, double low[2], double high[2])
 
 /* How queries begin where nothing is said: by a grid, or, where vertices are crowded, by a sample of the tiles along a Hilbert
  * curve, if they lie so. The grid is small, for half a byte a triangle, and of little work: a larger one makes queries up to
- * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. */
-static bool make_guide(mw_locator *locator)
+ * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. Tiles that are edited do not keep to a
+ * curve; there crowded cells are grids themselves. */
+bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
     enum { TRIANGLES_PER_CELL = 8, STRIDE = 2 };
     const mw_tiling *tiling = &locator->tiling;
-    mw_index *guide = &locator->guide;
     bool even;
+    *guide = (mw_index){0};
     if (tiling->open || !tiling->embedding) return true;
     uint32_t cells = tiling->tri_count / TRIANGLES_PER_CELL + 1;
     guide->start = MW_START_GRID;
     if (!mw__grid_create(&guide->grid, tiling, locator->low, locator->high, cells, STRIDE, &even)) return false;
     if (even) return true;
     mw__index_release(guide);
+    if (tiling->tile_of) {
+        guide->start = MW_START_TWO_LEVEL_GRID;
+        return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells);
+    }
     guide->start = MW_START_CURVE;
     if (!mw__curve_create(&guide->curve, tiling, locator->low, locator->high, 0)) return false;
     if (guide->curve.regular) return true;
     mw__index_release(guide);
     guide->start = MW_START_AUTO;
     return true;
+}
+
+void mw__locator_survey(mw_locator *locator)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    find_extent(tiling, locator->low, locator->high);
+    choose_walks(locator);
+    locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
+    double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
+    locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
+    locator->pace = expect_pace(tiling->tri_count, width, height);
 }
 
 static mw_status prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
@@ -120,14 +136,8 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
         if (!mw__border_create(&locator->border, locator->mesh, tiling)) return mw__fail_memory(error);
         locator->has_border = true;
     }
-    find_extent(tiling, locator->low, locator->high);
-    choose_walks(locator);
-    locator->centre = mw__start_centre(tiling, locator->low, locator->high);
-    double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
-    if (!make_guide(locator)) return mw__fail_memory(error);
-    locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
-    locator->pace = expect_pace(tiling->tri_count, width, height);
-    return MW_OK;
+    mw__locator_survey(locator);
+    return mw__locator_guide(locator, &locator->guide) ? MW_OK : mw__fail_memory(error);
 }
 
 mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options, mw_locator **out, mw_error *error)

@@ -19,10 +19,17 @@ struct mw_locator {
     double pace;            /* tiles that a straight line crosses per unit of length, by expectation   */
     mw_walk_kind auto_walk; /* what MW_WALK_AUTO means here */
     mw_walk_kind finish;    /* what ends the cheap walks    */
-    uint32_t centre;        /* tile in the middle                                                       */
+    uint32_t centre;        /* name of the tile in the middle                                           */
     bool has_border;
+    uint64_t epoch;    /* raised by each edit of the mesh, its upper half where triangles get other names; else 0 */
     char promise[640]; /* which promise is void; empty for an embedding                            */
 };
+
+/* What a tiling shows, and choices that follow from it: extent, walks, the tile in the middle, density. */
+void mw__locator_survey(mw_locator *locator);
+
+/* The guide of a locator that has been surveyed. False when out of memory; it may be released in either case. */
+bool mw__locator_guide(const mw_locator *locator, mw_index *guide);
 
 /* Where the finished walk found its point: ends it exactly if it was not, and applies the rule of ties. Leaves in walk->t
  * the tile where the point is (or the last one before the hull), and counts. */
@@ -36,6 +43,15 @@ mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t 
 
 uint32_t mw__first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
                         mw_work *work);
+
+/* The mesh has changed since the query before: begin at the tile that is now where that ended, or near it. */
+void mw__catch_up(const mw_locator *locator, mw_cursor *cursor);
+
+/* Have the cursor of a mesh that changes know by its name the tile where the query ended. */
+static MW_INLINE void mw__note_last(const mw_locator *locator, mw_cursor *cursor)
+{
+    cursor->last_name = mw__tile_name(&locator->tiling, cursor->last);
+}
 
 /* A location that names no triangle. */
 static MW_INLINE mw_location mw__nowhere(mw_where where)

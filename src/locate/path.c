@@ -23,11 +23,13 @@ size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, doub
     mw_walk_trace trace = {.triangle = triangles, .capacity = triangles ? capacity : 0};
     *at = nowhere;
     if (!isfinite(x) || !isfinite(y)) return 0;
+    if (cursor->live) mw__catch_up(locator, cursor);
     mw_cursor exact = *cursor; /* a walk that is written down counts */
     exact.count = 1;
     exact.arithmetic = MW_EXACT;
     *at = follow(locator, &exact, (mw_point){x, y}, &trace);
     cursor->last = exact.last;
+    if (cursor->live) mw__note_last(locator, cursor);
     cursor->random = exact.random;
     if (cursor->count) cursor->counters = exact.counters;
     return trace.count;

@@ -170,7 +170,7 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     switch ((mw_start_kind)cursor->start) {
     case MW_START_RANDOM: return mw__start_random(tiling, random);
     case MW_START_SAMPLE: return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
-    case MW_START_CENTRE: return locator->centre;
+    case MW_START_CENTRE: return mw__tile_named(tiling, locator->centre);
     case MW_START_AUTO:
         if (locator->guide.start == MW_START_AUTO) return near_or_sample(locator, cursor, last, q, random);
         if (!is_close(tiling, last, q)) return mw__index_tile(tiling, &locator->guide, q);
@@ -277,7 +277,7 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),
         .tolerance = options->tolerance,
-        .last = locator->centre,
+        .last = mw__tile_named(&locator->tiling, locator->centre),
         .sample = mw__sample_count(&locator->tiling, options->sample),
         .steps = options->steps,
         .fuel = mw__walk_fuel(walk, options->arithmetic, &locator->tiling),
@@ -287,15 +287,28 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         .arithmetic = (uint8_t)options->arithmetic,
         .count = options->count != 0,
         .plain = is_near(start) && mw__flies(&locator->tiling, options),
+        .live = locator->tiling.tile_of != NULL,
+        .asked = options->sample,
+        .last_name = locator->centre,
+        .epoch = locator->epoch,
     };
     return MW_OK;
 }
 
-mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y)
+void mw__catch_up(const mw_locator *locator, mw_cursor *cursor)
 {
-    if (MW_UNLIKELY(!isfinite(x) || !isfinite(y))) return mw__nowhere(MW_BAD);
+    const mw_tiling *tiling = &locator->tiling;
+    if (cursor->epoch == locator->epoch) return;
+    bool renamed = cursor->epoch >> 32 != locator->epoch >> 32;
+    cursor->last = renamed ? cursor->last % tiling->tri_count : mw__tile_named(tiling, cursor->last_name);
+    cursor->fuel = mw__walk_fuel((mw_walk_kind)cursor->walk, (mw_arithmetic)cursor->arithmetic, tiling);
+    cursor->sample = mw__sample_count(tiling, cursor->asked);
+    cursor->epoch = locator->epoch;
+}
+
+static MW_INLINE mw_location locate(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+{
     mw_location location;
-    mw_point q = {x, y};
     mw_work work;
     mw_walk walk;
     if (cursor->plain) {
@@ -311,4 +324,19 @@ mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, do
     location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
     cursor->last = walk.t;
     return location;
+}
+
+static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+{
+    mw__catch_up(locator, cursor);
+    mw_location location = locate(locator, cursor, q);
+    mw__note_last(locator, cursor);
+    return location;
+}
+
+mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y)
+{
+    if (MW_UNLIKELY(!isfinite(x) || !isfinite(y))) return mw__nowhere(MW_BAD);
+    if (MW_UNLIKELY(cursor->live)) return locate_live(locator, cursor, (mw_point){x, y});
+    return locate(locator, cursor, (mw_point){x, y});
 }

@@ -21,14 +21,10 @@
 /* Of every few tiles, put the one nearest to the middle of a cell into it. Returns how many cells got one. */
 static uint32_t put_some(mw_grid *grid, const mw_tiling *tiling, uint32_t stride, float *distance)
 {
-    const double third = 1.0 / 3;
     uint32_t taken = 0;
     for (uint64_t t = 0; t < tiling->tri_count; t += stride) {
-        const uint32_t *v = tiling->tri[t].v;
-        mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
-        mw_point p = {a.x * third + b.x * third + c.x * third, a.y * third + b.y * third + c.y * third};
         float off;
-        uint32_t cell = mw__lattice_cell_off(&grid->lattice, p, &off);
+        uint32_t cell = mw__lattice_cell_off(&grid->lattice, mw__tile_middle(tiling, (uint32_t)t), &off);
         if (!(off < distance[cell])) continue;
         taken += grid->tile[cell] == MW_NONE;
         grid->tile[cell] = (uint32_t)t;
@@ -52,6 +48,7 @@ static bool fill_gaps(mw_grid *grid, const mw_tiling *tiling, const float *dista
         (void)mw__remembering.run[true][false](&walk);
         grid->tile[c] = walk.t;
     }
+    for (uint32_t c = 0; c < cells && tiling->tile_of; c++) grid->tile[c] = mw__tile_name(tiling, grid->tile[c]);
     return true;
 }
 
@@ -72,6 +69,11 @@ bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2]
     done = done && ((even && crowded) || fill_gaps(grid, tiling, distance));
     free(distance);
     return done;
+}
+
+void mw__grid_offer(mw_grid *grid, const mw_tiling *tiling, uint32_t t)
+{
+    mw__lattice_offer(&grid->lattice, grid->tile, tiling, t);
 }
 
 void mw__grid_release(mw_grid *grid)

@@ -6,7 +6,7 @@
 
 typedef struct mw_grid {
     mw_lattice lattice;
-    uint32_t *tile; /* of each cell: the one that holds its middle, or near it */
+    uint32_t *tile; /* of each cell: the name of the one that holds its middle, or near it */
 } mw_grid;
 
 /* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the extent of the tiling. Of the
@@ -14,6 +14,8 @@ typedef struct mw_grid {
  * of these; if not, the vertices are too crowded for a grid, and it is left unfinished. Returns false when out of memory. */
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
                      uint32_t stride, bool *even);
+/* Tile t of the tiling that the grid was made from was changed: where its middle is, lead to it if it is the nearest. */
+void mw__grid_offer(mw_grid *grid, const mw_tiling *tiling, uint32_t t);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);
 

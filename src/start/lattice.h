@@ -48,16 +48,36 @@ static MW_INLINE mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t
                       mw__lattice_at(lattice, 1, cell / lattice->columns)};
 }
 
-/* The cell of p, and the square of how far p is off its middle, in widths of a cell; NaN is as far as can be. */
+/* The square of how far p is off the middle of a cell, in widths of a cell; NaN is as far as can be. */
+static MW_INLINE float mw__lattice_off(const mw_lattice *lattice, uint32_t column, uint32_t row, mw_point p)
+{
+    double x = (p.x - lattice->middle[0]) * lattice->scale[0] + lattice->half[0];
+    double y = (p.y - lattice->middle[1]) * lattice->scale[1] + lattice->half[1];
+    float dx = (float)(x - column) - 0.5f, dy = (float)(y - row) - 0.5f;
+    return dx * dx + dy * dy;
+}
+
+/* The cell of p, and how far p is off its middle. */
 static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_point p, float *off)
 {
     double x = (p.x - lattice->middle[0]) * lattice->scale[0] + lattice->half[0];
     double y = (p.y - lattice->middle[1]) * lattice->scale[1] + lattice->half[1];
     uint32_t column = mw__lattice_line(x, lattice->columns), row = mw__lattice_line(y, lattice->rows);
-    float dx = (float)(x - column) - 0.5f, dy = (float)(y - row) - 0.5f;
-    *off = dx * dx + dy * dy;
+    *off = mw__lattice_off(lattice, column, row, p);
     return row * lattice->columns + column;
 }
+
+/* The middle of a tile, rounded. */
+static MW_INLINE mw_point mw__tile_middle(const mw_tiling *tiling, uint32_t t)
+{
+    const double third = 1.0 / 3;
+    const uint32_t *v = tiling->tri[t].v;
+    mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
+    return (mw_point){a.x * third + b.x * third + c.x * third, a.y * third + b.y * third + c.y * third};
+}
+
+/* Tile t was changed: give its name to the cell of its middle if no other is known that lies nearer to the middle of the cell. */
+void mw__lattice_offer(const mw_lattice *lattice, uint32_t *entry, const mw_tiling *tiling, uint32_t t);
 
 /* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell, that of a cell in the
  * first ring of cells round it that has an entry. Not all are MW_NONE. queue: room for as many numbers as cells. */

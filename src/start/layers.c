@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RATIO 0.025 /* the best exchange of time for memory on random vertices [Devillers 2002] */
-
 /* By size: a mesh gets a layer where walks in it can be long. A layer gets another where that is expected to save tiles,
  * about 9 for the walk in it against 1.1 times the root of its vertices without (so from 100 on, with little gained up to
  * 200); and 200, with a ratio of 0.025, gives the layers of the thesis' measurements: 2, 2, 3, 3, 4, 4 for 10^2 to 10^7
@@ -104,7 +102,7 @@ static void release_layer(mw_layer *layer)
 /* Vertices of layer i, the mesh being 0. */
 static uint32_t vertex_count(const mw_layers *layers, uint32_t i)
 {
-    return i == 0 ? layers->vertices : layers->layer[i - 1].tiling.point_count;
+    return i == 0 ? layers->vertices : layers->layer[i - 1].tiling.point_count - layers->layer[i - 1].vacant;
 }
 
 /* Put a layer of `size` vertices above the highest, `tiling`, of which `at` has the tiles. */
@@ -156,7 +154,7 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
     *out = (mw_layers){.count = 1, .tiles = tiling->tri_count, .descent = options->descent};
     mw_status status = check(options, error);
     if (status) return status;
-    double ratio = options->ratio > 0 ? options->ratio : RATIO;
+    double ratio = options->ratio > 0 ? options->ratio : MW_LAYER_RATIO;
     uint32_t *at = mw__tile_of_vertices(tiling), size = at ? count_used(at, tiling->point_count) : 0;
     uint32_t wanted = options->layers ? options->layers : layers_by_size(size, ratio);
     out->vertices = size;
@@ -176,10 +174,14 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
     return status;
 }
 
+void mw__layers_cut(mw_layers *layers, uint32_t count)
+{
+    while (layers->count > count) release_layer(&layers->layer[--layers->count - 1]);
+}
+
 void mw__layers_release(mw_layers *layers)
 {
-    for (uint32_t i = 0; i + 1 < layers->count; i++) release_layer(&layers->layer[i]);
-    layers->count = 1;
+    mw__layers_cut(layers, 1);
 }
 
 size_t mw__layers_bytes(const mw_layers *layers)
@@ -187,8 +189,8 @@ size_t mw__layers_bytes(const mw_layers *layers)
     size_t bytes = 0;
     for (uint32_t i = 0; i + 1 < layers->count; i++) {
         const mw_tiling *t = &layers->layer[i].tiling;
-        bytes += t->tri_count * (sizeof *t->tri + sizeof *t->area) +
-                 t->point_count * (sizeof *t->point + sizeof *layers->layer[i].below);
+        bytes += mw__tiling_bytes(t) + t->point_count * sizeof *layers->layer[i].below;
+        if (!t->owner) bytes -= t->point_count * sizeof *t->owner;
     }
     return bytes;
 }
@@ -233,14 +235,22 @@ static uint32_t most_weight(mw_walk *walk, const mw_layer_walk *how)
     const uint32_t *v = walk->tri[walk->t].v;
     const mw_point *p = walk->point;
     double at0 = mw__orient2d_double(p[v[1]], p[v[2]], walk->q), at1 = mw__orient2d_double(p[v[2]], p[v[0]], walk->q);
-    double at2 = walk->tiling->area[walk->t] - at0 - at1;
-    if (how->count && !has_coordinates(how->walk)) walk->work->orient[MW_STAGE_WALK] += 2;
+    double all = walk->tiling->area ? walk->tiling->area[walk->t] : mw__orient2d_double(p[v[0]], p[v[1]], p[v[2]]);
+    double at2 = all - at0 - at1;
+    if (how->count && !has_coordinates(how->walk)) walk->work->orient[MW_STAGE_WALK] += walk->tiling->area ? 2 : 3;
     if (at0 >= at1 && at0 >= at2) return v[0];
     return at1 >= at2 ? v[1] : v[2];
 }
 
-uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
-                          mw_work *work)
+/* The name of a tile to begin at in the layer `beneath`, by what the one above keeps of a vertex. */
+static uint32_t name_below(const mw_layers *layers, const mw_tiling *beneath, uint32_t below)
+{
+    if (!layers->live || below >= beneath->point_count) return below;
+    return beneath->owner[below];
+}
+
+uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
+                            mw_work *work, uint32_t *tile)
 {
     bool by_weight =
         layers->descent == MW_DESCENT_COORDINATE || (layers->descent == MW_DESCENT_AUTO && has_coordinates(how->walk));
@@ -249,10 +259,19 @@ uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_wa
     uint32_t t = mw__random_below(random, top ? layers->layer[top - 1].tiling.tri_count : layers->tiles);
     for (uint32_t i = top; i-- > 0;) {
         const mw_layer *layer = &layers->layer[i];
+        const mw_tiling *beneath = i > 0 ? &layers->layer[i - 1].tiling : how->mesh;
         uint32_t fuel = mw__walk_fuel(how->walk, arithmetic, &layer->tiling);
         mw_walk walk = mw__walk_begin(&layer->tiling, q, t, fuel, mw__random(random), how->count ? work : NULL);
         find(&layer->tiling, how, &walk);
-        t = layer->below[by_weight ? most_weight(&walk, how) : nearest(&walk)];
+        if (tile) tile[i] = walk.t;
+        t = name_below(layers, beneath, layer->below[by_weight ? most_weight(&walk, how) : nearest(&walk)]);
+        if (i > 0) t = mw__tile_named(beneath, t);
     }
     return t;
+}
+
+uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
+                          mw_work *work)
+{
+    return mw__layers_descend(layers, q, how, random, work, NULL);
 }

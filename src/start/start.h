@@ -26,8 +26,8 @@ uint32_t mw__start_centre(const mw_tiling *tiling, const double low[2], const do
 void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2], const double high[2],
                       mw_key *order, mw_key *scratch);
 
-/* For each finite vertex the lowest tile that has it, MW_NONE for the other ones. NULL when out of memory. Release with
- * free(). */
+/* For each finite vertex the name of a tile that has it, the lowest unless tiles are edited; MW_NONE for the other ones.
+ * NULL when out of memory. Release with free(). */
 uint32_t *mw__tile_of_vertices(const mw_tiling *tiling);
 
 /* Square of the rounded distance: a guide, never a decision. */

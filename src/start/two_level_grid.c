@@ -116,6 +116,22 @@ bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
     return done;
 }
 
+/* An empty cell near a crowded one had the grid of that; now it gets a tile of its own. */
+void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t)
+{
+    uint32_t cell = mw__lattice_cell(&grid->lattice, mw__tile_middle(tiling, t)), entry = grid->coarse[cell];
+    if (!(entry & MW_FINE)) {
+        mw__lattice_offer(&grid->lattice, grid->coarse, tiling, t);
+        return;
+    }
+    const mw_fine_grid *fine = &grid->grid[entry - MW_FINE];
+    mw_point middle = {fine->lattice.middle[0], fine->lattice.middle[1]};
+    if (mw__lattice_cell(&grid->lattice, middle) == cell)
+        mw__lattice_offer(&fine->lattice, grid->fine + fine->first, tiling, t);
+    else
+        grid->coarse[cell] = mw__tile_name(tiling, t);
+}
+
 void mw__two_level_grid_release(mw_two_level_grid *grid)
 {
     free(grid->coarse);

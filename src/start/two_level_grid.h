@@ -14,9 +14,9 @@ typedef struct mw_fine_grid {
 
 typedef struct mw_two_level_grid {
     mw_lattice lattice;
-    uint32_t *coarse; /* of each cell: a tile, as in mw_grid; or MW_FINE and the number of its fine grid */
+    uint32_t *coarse; /* of each cell: the name of a tile, as in mw_grid; or MW_FINE and the number of its fine grid */
     mw_fine_grid *grid;
-    uint32_t *fine; /* the cells of the fine grids: a tile each */
+    uint32_t *fine; /* the cells of the fine grids: the name of a tile each */
     uint32_t grid_count, fine_count;
 } mw_two_level_grid;
 
@@ -24,6 +24,8 @@ typedef struct mw_two_level_grid {
  * tiling. Returns false when out of memory. */
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
                                const double high[2], uint32_t cells);
+/* As mw__grid_offer. */
+void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t);
 void mw__two_level_grid_release(mw_two_level_grid *grid);
 size_t mw__two_level_grid_bytes(const mw_two_level_grid *grid);
 

@@ -5,7 +5,8 @@ uint32_t *mw__tile_of_vertices(const mw_tiling *tiling)
 {
     uint32_t *tile = mw__alloc(tiling->point_count, sizeof *tile);
     if (!tile) return NULL;
-    for (uint32_t v = 0; v < tiling->point_count; v++) tile[v] = MW_NONE;
+    for (uint32_t v = 0; v < tiling->point_count; v++) tile[v] = tiling->tile_of ? tiling->owner[v] : MW_NONE;
+    if (tiling->tile_of) return tile;
     for (uint32_t t = tiling->tri_count; t-- > 0;)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t v = tiling->tri[t].v[k];
