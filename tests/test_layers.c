@@ -148,7 +148,7 @@ static void descend(mw_layers *layers, const mw_tiling *tiling, uint64_t *random
 {
     for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
         for (int i = 0; i < 4 * DESCENTS; i++) {
-            mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_STOCHASTIC, i % 2, true};
+            mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_STOCHASTIC, i % 2, true, NULL};
             layers->descent = (mw_descent)(i / 4);
             mw_point q = query(tiling, random);
             uint64_t seed = mw__random(random), same = seed;
@@ -233,7 +233,7 @@ static void test_no_layer(void **state)
         mw__layers_create(&tiling, &(mw_layers_options){.layers = 3, .ratio = 1e-9, .seed = 1}, &layers, NULL), MW_OK);
     assert_int_equal(layers.count, 1);
     bool seen[64] = {false};
-    mw_layer_walk how = {MW_WALK_REMEMBERING, MW_WALK_REMEMBERING, true, true};
+    mw_layer_walk how = {MW_WALK_REMEMBERING, MW_WALK_REMEMBERING, true, true, NULL};
     mw_work work = {0};
     for (int i = 0; i < 2000; i++) seen[mw__layers_first(&layers, (mw_point){1, 0}, &how, &random, &work)] = true;
     for (uint32_t t = 0; t < tiling.tri_count; t++) assert_true(seen[t]);
@@ -296,7 +296,7 @@ static void check_near(mw_mesh *mesh)
     assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){0}, &layers, NULL), MW_OK);
     for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
         for (int i = 0; i < 2 * DESCENTS; i++) {
-            mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, i % 2, true};
+            mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, i % 2, true, NULL};
             layers.descent = (mw_descent)(i / 2);
             assert_true(mean_walk(&tiling, &layers, &how, &random) < 40);
         }
@@ -358,7 +358,7 @@ static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_poin
     bool heavy = descent == MW_DESCENT_COORDINATE || (descent == MW_DESCENT_AUTO && has_coordinates(walk));
 
     mw_work work = {.comparisons = 7};
-    mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, true, true};
+    mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, true, true, NULL};
     layers->descent = descent;
     uint32_t first = mw__layers_first(layers, q, &how, &same, &work);
     assert_true(same == seed);
