@@ -26,14 +26,18 @@ typedef struct mw_before {
 
 /* An edit: what it was, and how things stood before it. */
 typedef struct mw_step {
-    mw_edit edit;   /* vertices by number                                               */
-    size_t journal; /* its part of the journal begins here                             */
-    uint32_t tiles, numbers, vertices, points, fixed_count;
+    mw_edit edit;   /* vertices by number                       */
+    size_t journal; /* its part of the journal begins here      */
+    uint32_t tiles, ghosts, numbers, vertices, points, free_places, fixed_count;
     uint32_t vertex; /* place of the vertex made, removed or moved; MW_NONE if there is none */
-    mw_point point;  /* where it was */
-    double value;    /* MW_EDIT_VALUE: as it was */
+    uint32_t number; /* of the vertex removed: others may have had its place since           */
+    mw_point point;  /* where it was, if it was moved or removed                             */
+    double value;    /* MW_EDIT_VALUE: as it was                                             */
     bool delaunay;
 } mw_step;
+
+/* A step of the boundary of tiles that are to be replaced, which lie to its left: see rim.h. */
+typedef struct mw_rim_step mw_rim_step;
 
 typedef struct mw_fabric {
     mw_tiling *tiling;       /* its arrays belong to the fabric as long as it lives; with tile_of */
@@ -49,11 +53,13 @@ typedef struct mw_fabric {
     size_t before_count, before_room;
     mw_step *step; /* the edits in it; the last one is under way between begin and commit */
     size_t step_count, step_room;
-    uint32_t *stack,
-        *ring; /* scratch: half-edges to look at; the polygon that a vertex or a segment leaves, see the files */
-    size_t stack_count, stack_room, ring_room;
-    uint32_t last;  /* a tile where the last edit was */
-    uint32_t flips; /* of this edit                   */
+    uint32_t *stack; /* half-edges that may have to be flipped, and other scratch        */
+    size_t stack_count, stack_room;
+    mw_rim_step *rim; /* scratch */
+    uint32_t *pool;   /* scratch: tiles that are to be replaced */
+    size_t rim_room;  /* of both */
+    uint32_t last;    /* a tile where the last edit was */
+    uint32_t flips;   /* of this edit                   */
 } mw_fabric;
 
 static MW_INLINE uint32_t mw__corner(const mw_fabric *f, uint32_t half)
@@ -103,8 +109,19 @@ void mw__fabric_drop(mw_fabric *f);
 /* Keep the journal of the last `steps` edits only. */
 void mw__fabric_forget(mw_fabric *f, size_t steps);
 
-/* What the last step changed, in its journal: `list` with room for twice the journal of the step; sorted. */
+/* The part of the journal that belongs to the last step. */
+static MW_INLINE size_t mw__fabric_journal(const mw_fabric *f, const mw_before **first)
+{
+    size_t begin = f->step[f->step_count - 1].journal;
+    *first = f->before + begin;
+    return f->before_count - begin;
+}
+
+/* The triangles that the last step changed, by its journal: `list` has room for three times that. */
 void mw__fabric_report(const mw_fabric *f, mw_changed_triangle *list, mw_change *change);
+
+/* The numbers of a tile's vertices, in the user's order. */
+void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3]);
 
 /* --- operations: MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY, then roll back ------------------------------------ */
 

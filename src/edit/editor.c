@@ -1,0 +1,417 @@
+/* editor.c - making an editor, and carrying out edits. */
+#include "edit/editor.h"
+
+#include "edit/stitch.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- making ----------------------------------------------------------------------------------------------------------- */
+
+void mw__editor_look(mw_editor *editor)
+{
+    const mw_fabric *f = &editor->fabric;
+    const mw_tiling *tiling = &editor->locator.tiling;
+    mw_mesh *view = &editor->view;
+    view->point = tiling->point;
+    view->tri = tiling->tri;
+    view->triangle_place = tiling->tile_of;
+    view->vertex_place = f->vertex_place;
+    view->users_vertex = f->vertex_number;
+    view->point_count = tiling->point_count;
+    view->tri_count = tiling->tri_count;
+}
+
+mw_status mw__fix_edges(mw_fabric *f, const uint32_t *ends, size_t count, mw_error *error)
+{
+    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN})) return mw__fail_memory(error);
+    mw_status status = MW_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        uint32_t a = mw__vertex_there(f, ends[2 * i]), b = mw__vertex_there(f, ends[2 * i + 1]), pieces;
+        if (a == MW_NONE || b == MW_NONE || a == b || mw__fabric_edge(f, a, b) == MW_NONE)
+            status = mw__fail_at(error, -1, ends[2 * i],
+                                 "the constraint from vertex %" PRIu32 " to %" PRIu32 " is no edge of the mesh",
+                                 ends[2 * i], ends[2 * i + 1]);
+        else
+            status = mw__fabric_constrain(f, a, b, false, &pieces, error);
+    }
+    if (!status && !mw__fabric_commit(f)) status = mw__fail_memory(error);
+    if (status)
+        mw__fabric_rollback(f);
+    else
+        mw__fabric_forget(f, 0);
+    return status;
+}
+
+static bool is_delaunay(const mw_fabric *f)
+{
+    for (uint32_t t = 0; t < f->tiling->tri_count; t++)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t half = mw__link(t, k), other = mw__beyond(f, half);
+            if (other != MW_NONE && other > half && mw__is_users(f, t) && mw__is_illegal(f, half)) return false;
+        }
+    return true;
+}
+
+static mw_status choose_delaunay(mw_fabric *f, int wanted, mw_error *error)
+{
+    f->delaunay = wanted != 2 && is_delaunay(f);
+    if (wanted != 1 || f->delaunay) return MW_OK;
+    mw_status status =
+        mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}) ? mw__fabric_mend(f, error) : mw__fail_memory(error);
+    if (!status && !mw__fabric_commit(f)) status = mw__fail_memory(error);
+    if (!status) mw__fabric_forget(f, 0);
+    return status;
+}
+
+static bool copy_fields(mw_editor *editor, const mw_mesh *mesh)
+{
+    mw_mesh *view = &editor->view;
+    editor->field_room = mesh->point_count;
+    view->field = mw__calloc(mesh->field_count, sizeof *view->field);
+    if (!view->field) return false;
+    for (; view->field_count < mesh->field_count; view->field_count++) {
+        mw_field *field = &view->field[view->field_count];
+        const mw_field *from = &mesh->field[view->field_count];
+        size_t size = strlen(from->name) + 1;
+        field->name = mw__alloc(size, 1);
+        field->values = mw__alloc(mesh->point_count, sizeof *field->values);
+        if (!field->name || !field->values) {
+            view->field_count++;
+            return false;
+        }
+        memcpy(field->name, from->name, size);
+        memcpy(field->values, from->values, mesh->point_count * sizeof *field->values);
+    }
+    return true;
+}
+
+static mw_status make(mw_editor *editor, const mw_mesh *mesh, const mw_editor_options *options, mw_error *error)
+{
+    mw_locator *locator = &editor->locator;
+    mw_fabric *f = &editor->fabric;
+    locator->mesh = &editor->view;
+    mw_status status = mw__tiling_create(mesh, false, &locator->tiling, error);
+    if (!status) status = mw__fabric_create(f, &locator->tiling, mesh, error);
+    if (!status) status = mw__fix_edges(f, options->constraints, options->constraint_count, error);
+    if (!status) status = choose_delaunay(f, options->delaunay, error);
+    if (!status && !copy_fields(editor, mesh)) status = mw__fail_memory(error);
+    if (status) return status;
+    mw__editor_look(editor);
+    status = mw__upkeep_create(&editor->upkeep, locator, f, error);
+    return status ? status : mw_cursor_init(&editor->cursor, locator, NULL, error);
+}
+
+mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options, mw_editor **out, mw_error *error)
+{
+    static const mw_editor_options defaults;
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the editor");
+    *out = NULL;
+    if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
+    if (!options) options = &defaults;
+    if (options->delaunay < 0 || options->delaunay > 2)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to keep a mesh Delaunay");
+    if (options->constraint_count > 0 && !options->constraints)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no constraints");
+    if (mesh->flat_count == mesh->tri_count)
+        return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
+    mw_editor *editor = mw__calloc(1, sizeof *editor);
+    if (!editor) return mw__fail_memory(error);
+    editor->keeps_log = options->log != 0;
+    editor->undo = options->undo;
+    mw_status status = make(editor, mesh, options, error);
+    if (status)
+        mw_editor_destroy(editor);
+    else
+        *out = editor;
+    return status;
+}
+
+void mw_editor_destroy(mw_editor *editor)
+{
+    if (!editor) return;
+    mw__upkeep_release(&editor->upkeep);
+    mw__fabric_release(&editor->fabric);
+    mw__tiling_release(&editor->locator.tiling);
+    for (size_t i = 0; i < editor->view.field_count; i++) {
+        free(editor->view.field[i].name);
+        free(editor->view.field[i].values);
+    }
+    free(editor->view.field);
+    free(editor->log);
+    free(editor->changed);
+    free(editor);
+}
+
+/* --- values at new vertices ------------------------------------------------------------------------------------------- */
+
+static bool field_room(mw_editor *editor)
+{
+    if (editor->fabric.vertex_count < editor->field_room) return true;
+    size_t room = editor->field_room + editor->field_room / 4 + 16;
+    for (size_t i = 0; i < editor->view.field_count; i++) {
+        double *values = mw__realloc(editor->view.field[i].values, room, sizeof *values);
+        if (!values) return false;
+        editor->view.field[i].values = values;
+    }
+    editor->field_room = room;
+    return true;
+}
+
+/* The vertex of tile t that is nearest to q: its number. */
+static uint32_t nearest_corner(const mw_fabric *f, uint32_t t, mw_point q)
+{
+    const uint32_t *v = f->tiling->tri[t].v;
+    const mw_point *p = f->tiling->point;
+    uint32_t best = v[0];
+    for (int k = 1; k < 3; k++)
+        if (mw__square_length(p[v[k]], q) < mw__square_length(p[best], q)) best = v[k];
+    return f->vertex_number[best];
+}
+
+/* Give the next vertex, at q, its values: interpolated in the mesh as it is before the edit; outside, those of a vertex near by. */
+static void set_values(mw_editor *editor, const mw_edit *edit)
+{
+    mw_fabric *f = &editor->fabric;
+    mw_mesh *view = &editor->view;
+    mw_location at = mw_locate(&editor->locator, &editor->cursor, edit->x, edit->y);
+    f->last = editor->cursor.last;
+    uint32_t corner = nearest_corner(f, f->last, (mw_point){edit->x, edit->y});
+    for (uint32_t i = 0; i < view->field_count; i++) {
+        double *values = view->field[i].values, *value = &values[f->vertex_count];
+        if (i == edit->field && !isnan(edit->value))
+            *value = edit->value;
+        else if (at.triangle == MW_NONE)
+            *value = values[corner];
+        else
+            mw_interpolate(view, values, &at, 1, value);
+    }
+}
+
+/* --- edits ------------------------------------------------------------------------------------------------------------ */
+
+static mw_status refuse_vertex(const mw_fabric *f, uint32_t number, mw_error *error)
+{
+    bool gone = number >= f->vertex_count || f->vertex_place[number] == MW_NONE;
+    return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
+}
+
+static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    mw_fabric *f = &editor->fabric;
+    mw_point q = {edit->x, edit->y};
+    uint32_t vertex = MW_NONE, before = f->vertex_count, t;
+    if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
+    mw_cursor *cursor = &editor->cursor;
+    cursor->last = f->last;
+    cursor->epoch = editor->locator.epoch;
+    if (editor->view.field_count > 0) {
+        if (!field_room(editor)) return mw__fail_memory(error);
+        set_values(editor, edit);
+        t = f->last;
+    } else {
+        t = mw__first_tile(&editor->locator, cursor, f->last, q, &cursor->random, NULL);
+    }
+    mw_status status = mw__fabric_insert(f, q, t, &vertex, error);
+    if (status) return status;
+    change->vertex = f->vertex_number[vertex];
+    change->vertex_made = f->vertex_count > before;
+    return MW_OK;
+}
+
+static mw_status change_vertex(mw_fabric *f, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    uint32_t v = mw__vertex_there(f, edit->vertex);
+    if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
+    change->vertex = edit->vertex;
+    if (edit->kind == MW_EDIT_REMOVE) {
+        change->vertex_freed = 1;
+        return mw__fabric_remove(f, v, error);
+    }
+    if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
+    return mw__fabric_move(f, v, (mw_point){edit->x, edit->y}, error);
+}
+
+static mw_status change_edge(mw_fabric *f, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    uint32_t v = mw__vertex_there(f, edit->vertex), w = mw__vertex_there(f, edit->other);
+    if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
+    if (w == MW_NONE) return refuse_vertex(f, edit->other, error);
+    if (v == w) return mw__fail_at(error, -1, edit->vertex, "both ends are vertex %" PRIu32, edit->vertex);
+    if (edit->kind == MW_EDIT_FLIP) return mw__fabric_flip(f, v, w, error);
+    return mw__fabric_constrain(f, v, w, edit->kind == MW_EDIT_RELEASE, &change->pieces, error);
+}
+
+static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *error)
+{
+    const mw_fabric *f = &editor->fabric;
+    if (edit->field >= editor->view.field_count) return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
+    if (edit->vertex >= f->vertex_count || f->vertex_place[edit->vertex] == MW_NONE)
+        return refuse_vertex(f, edit->vertex, error);
+    double *value = &editor->view.field[edit->field].values[edit->vertex];
+    f->step[f->step_count - 1].value = *value;
+    *value = edit->value;
+    return MW_OK;
+}
+
+static mw_status carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    switch (edit->kind) {
+    case MW_EDIT_INSERT: return insert(editor, edit, change, error);
+    case MW_EDIT_REMOVE:
+    case MW_EDIT_MOVE: return change_vertex(&editor->fabric, edit, change, error);
+    case MW_EDIT_FLIP:
+    case MW_EDIT_CONSTRAIN:
+    case MW_EDIT_RELEASE: return change_edge(&editor->fabric, edit, change, error);
+    case MW_EDIT_VALUE: return change_value(editor, edit, error);
+    case MW_EDIT_KIND_COUNT: break;
+    }
+    return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of edit");
+}
+
+static bool log_room(mw_editor *editor)
+{
+    if (!editor->keeps_log || editor->log_count < editor->log_room) return true;
+    size_t room = editor->log_room + editor->log_room / 2 + 16;
+    mw_edit *log = mw__realloc(editor->log, room, sizeof *log);
+    if (!log) return false;
+    editor->log = log;
+    editor->log_room = room;
+    return true;
+}
+
+/* For the report of the step under way. */
+static bool report_room(mw_editor *editor)
+{
+    const mw_before *first;
+    size_t count = 3 * mw__fabric_journal(&editor->fabric, &first);
+    if (count <= editor->changed_room) return true;
+    mw_changed_triangle *changed = mw__realloc(editor->changed, count + count / 2, sizeof *changed);
+    if (!changed) return false;
+    editor->changed = changed;
+    editor->changed_room = count + count / 2;
+    return true;
+}
+
+static void keep(mw_editor *editor, const mw_edit *edit)
+{
+    if (editor->keeps_log) editor->log[editor->log_count++] = *edit;
+    if (editor->undoable < editor->undo) editor->undoable++;
+    editor->edits++;
+    mw__editor_look(editor);
+    mw__upkeep_edit(&editor->upkeep, false);
+}
+
+mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
+    mw_fabric *f = &editor->fabric;
+    mw_change own = {.vertex = MW_NONE};
+    if (!log_room(editor) || !mw__fabric_begin(f, edit)) return mw__fail_memory(error);
+    mw_status status = carry_out(editor, edit, &own, error);
+    if (!status && ((change && !report_room(editor)) || !mw__fabric_commit(f))) status = mw__fail_memory(error);
+    if (status) {
+        mw__fabric_rollback(f);
+        mw__editor_look(editor);
+        return status;
+    }
+    keep(editor, edit);
+    if (change) {
+        *change = own;
+        mw__fabric_report(f, editor->changed, change);
+    }
+    mw__fabric_forget(f, editor->undo);
+    return MW_OK;
+}
+
+/* --- undo ------------------------------------------------------------------------------------------------------------- */
+
+static void undo_value(mw_editor *editor, const mw_step *step)
+{
+    if (step->edit.kind == MW_EDIT_VALUE) editor->view.field[step->edit.field].values[step->edit.vertex] = step->value;
+}
+
+/* What taking back an edit did to a vertex. `vertices` is how many numbers of vertices were given out before. */
+static mw_change undone(const mw_fabric *f, const mw_step *step, uint32_t vertices)
+{
+    mw_change change = {.vertex = MW_NONE};
+    if (step->vertex == MW_NONE) return change;
+    change.vertex = f->vertex_number[step->vertex];
+    change.vertex_freed = vertices > f->vertex_count;
+    change.vertex_made = step->edit.kind == MW_EDIT_REMOVE;
+    return change;
+}
+
+mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
+{
+    if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
+    if (editor->undoable == 0) return mw__fail(error, MW_ERROR_INPUT, "there is no edit to take back");
+    if (change && !report_room(editor)) return mw__fail_memory(error);
+    mw_fabric *f = &editor->fabric;
+    uint32_t vertices = f->vertex_count;
+    mw__fabric_revert(f);
+    const mw_step *step = &f->step[f->step_count - 1];
+    undo_value(editor, step);
+    if (editor->keeps_log) editor->log_count--;
+    editor->undoable--;
+    editor->edits++;
+    mw__editor_look(editor);
+    mw__upkeep_edit(&editor->upkeep, true);
+    if (change) {
+        *change = undone(f, step, vertices);
+        mw__fabric_report(f, editor->changed, change);
+    }
+    mw__fabric_drop(f);
+    return MW_OK;
+}
+
+const mw_edit *mw_editor_log(const mw_editor *editor, size_t *count)
+{
+    *count = editor->log_count;
+    return editor->log_count > 0 ? editor->log : NULL;
+}
+
+/* --- each kind by itself ---------------------------------------------------------------------------------------------- */
+
+mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change *change, mw_error *error)
+{
+    mw_edit edit = {.kind = MW_EDIT_INSERT, .x = x, .y = y, .value = NAN};
+    return mw_edit_apply(editor, &edit, change, error);
+}
+
+mw_status mw_edit_remove(mw_editor *editor, uint32_t vertex, mw_change *change, mw_error *error)
+{
+    mw_edit edit = {.kind = MW_EDIT_REMOVE, .vertex = vertex};
+    return mw_edit_apply(editor, &edit, change, error);
+}
+
+mw_status mw_edit_move(mw_editor *editor, uint32_t vertex, double x, double y, mw_change *change, mw_error *error)
+{
+    mw_edit edit = {.kind = MW_EDIT_MOVE, .vertex = vertex, .x = x, .y = y};
+    return mw_edit_apply(editor, &edit, change, error);
+}
+
+mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error)
+{
+    mw_edit edit = {.kind = MW_EDIT_FLIP, .vertex = from, .other = to};
+    return mw_edit_apply(editor, &edit, change, error);
+}
+
+mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error)
+{
+    mw_edit edit = {.kind = MW_EDIT_CONSTRAIN, .vertex = from, .other = to};
+    return mw_edit_apply(editor, &edit, change, error);
+}
+
+mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error)
+{
+    mw_edit edit = {.kind = MW_EDIT_RELEASE, .vertex = from, .other = to};
+    return mw_edit_apply(editor, &edit, change, error);
+}
+
+mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t vertex, double value, mw_error *error)
+{
+    mw_edit edit = {.kind = MW_EDIT_VALUE, .vertex = vertex, .field = field, .value = value};
+    return mw_edit_apply(editor, &edit, NULL, error);
+}

@@ -1,0 +1,39 @@
+/* editor.h - what an editor holds. Private. */
+#ifndef MW_SRC_EDITOR_H
+#define MW_SRC_EDITOR_H
+
+#include "edit/fabric.h"
+#include "edit/upkeep.h"
+
+struct mw_editor {
+    mw_fabric fabric;   /* changes the locator's tiling                                  */
+    mw_locator locator; /* of what is there now                                          */
+    mw_mesh
+        view; /* the tiling as a mesh, ghosts and all, for those who look up triangles by number; with the fields, whose
+                           values are by number of vertex. It owns the fields only        */
+    size_t field_room; /* values of each field there is room for                        */
+    mw_upkeep upkeep;
+    mw_cursor cursor; /* finds where to insert */
+    bool keeps_log;
+    size_t undo, undoable;
+    mw_edit *log;
+    size_t log_count, log_room;
+    mw_changed_triangle *changed;
+    size_t changed_room;
+    uint64_t edits;
+};
+
+/* The arrays of the fabric may have moved: have the view look at them. */
+void mw__editor_look(mw_editor *editor);
+
+/* Fix the edges that join pairs of vertices. MW_ERROR_INPUT: there is no such edge, or no such vertex. */
+mw_status mw__fix_edges(mw_fabric *fabric, const uint32_t *ends, size_t count, mw_error *error);
+
+/* The place of a vertex that some triangle has, MW_NONE if there is none of that number. */
+static MW_INLINE uint32_t mw__vertex_there(const mw_fabric *f, uint32_t number)
+{
+    uint32_t place = number < f->vertex_count ? f->vertex_place[number] : MW_NONE;
+    return place != MW_NONE && f->tiling->owner[place] != MW_NONE ? place : MW_NONE;
+}
+
+#endif

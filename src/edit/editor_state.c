@@ -1,0 +1,149 @@
+/* editor_state.c - what is there now: looking things up by number. */
+#include "edit/editor.h"
+
+#include "edit/rim.h"
+
+static size_t log_bytes(const mw_editor *editor)
+{
+    const mw_fabric *f = &editor->fabric;
+    return f->before_room * sizeof *f->before + f->step_room * sizeof *f->step + editor->log_room * sizeof *editor->log;
+}
+
+void mw_editor_describe(const mw_editor *editor, mw_editor_info *info)
+{
+    const mw_fabric *f = &editor->fabric;
+    const mw_tiling *tiling = f->tiling;
+    size_t index_bytes = mw__upkeep_bytes(&editor->upkeep), fields = editor->view.field_count * editor->field_room;
+    *info = (mw_editor_info){
+        .vertices = tiling->point_count - f->free_count,
+        .triangles = tiling->tri_count - tiling->ghost_count,
+        .vertex_range = f->vertex_count,
+        .triangle_range = tiling->number_count,
+        .constraints = f->fixed_count,
+        .delaunay = f->delaunay,
+        .convex = f->convex,
+        .undoable = editor->undoable,
+        .bytes = sizeof *editor + mw__fabric_bytes(f) + mw__tiling_bytes(tiling) + index_bytes +
+                 fields * sizeof(double) + editor->log_room * sizeof *editor->log +
+                 editor->changed_room * sizeof *editor->changed,
+        .undo_bytes = log_bytes(editor),
+        .index_bytes = index_bytes,
+        .edits = editor->edits,
+        .refreshes = editor->upkeep.refreshes,
+    };
+}
+
+/* The tile of a triangle; NULL if there is none of that number. */
+static const mw_triangle *tile_of(const mw_tiling *tiling, uint32_t triangle)
+{
+    if (triangle >= tiling->number_count || tiling->tile_of[triangle] & MW_GONE) return NULL;
+    return &tiling->tri[tiling->tile_of[triangle]];
+}
+
+int mw_editor_triangle(const mw_editor *editor, uint32_t triangle, uint32_t vertices[3])
+{
+    const mw_triangle *tile = tile_of(editor->fabric.tiling, triangle);
+    if (!tile) return 0;
+    mw__fabric_corners(&editor->fabric, tile, vertices);
+    return 1;
+}
+
+int mw_editor_vertex(const mw_editor *editor, uint32_t vertex, double point[2])
+{
+    const mw_fabric *f = &editor->fabric;
+    if (vertex >= f->vertex_count || f->vertex_place[vertex] == MW_NONE) return 0;
+    mw_point p = f->tiling->point[f->vertex_place[vertex]];
+    point[0] = p.x;
+    point[1] = p.y;
+    return 1;
+}
+
+uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex)
+{
+    uint32_t v = mw__vertex_there(&editor->fabric, vertex);
+    return v == MW_NONE ? MW_NONE : editor->fabric.tiling->owner[v];
+}
+
+/* Edges of ghosts alone are none of the mesh. */
+static bool is_edge(const mw_fabric *f, uint32_t half)
+{
+    uint32_t other = mw__beyond(f, half);
+    return mw__is_users(f, mw__link_triangle(half)) || (other != MW_NONE && mw__is_users(f, mw__link_triangle(other)));
+}
+
+size_t mw_editor_around(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours, size_t capacity)
+{
+    const mw_fabric *f = &editor->fabric;
+    uint32_t v = mw__vertex_there(f, vertex);
+    if (v == MW_NONE) return 0;
+    size_t n = 0;
+    bool open;
+    uint32_t begin = mw__star_first(f, v, &open), at = begin;
+    if (!open) /* begin behind ghosts, if there are any */
+        while (mw__is_users(f, mw__link_triangle(at))) {
+            at = mw__half_next(mw__beyond(f, at));
+            if (at == begin) break;
+        }
+    begin = at;
+    do {
+        uint32_t last = mw__half_prev(at);
+        if (is_edge(f, at) && n++ < capacity) neighbours[n - 1] = f->vertex_number[mw__corner(f, mw__half_next(at))];
+        at = mw__beyond(f, last);
+        if (at == MW_NONE && is_edge(f, last) && n++ < capacity)
+            neighbours[n - 1] = f->vertex_number[mw__corner(f, last)];
+    } while (at != MW_NONE && at != begin);
+    return n;
+}
+
+int mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to)
+{
+    const mw_fabric *f = &editor->fabric;
+    uint32_t v = mw__vertex_there(f, from), w = mw__vertex_there(f, to);
+    uint32_t half = v == MW_NONE || w == MW_NONE || v == w ? MW_NONE : mw__fabric_edge(f, v, w);
+    if (half == MW_NONE || !is_edge(f, half)) return 0;
+    uint32_t other = mw__beyond(f, half);
+    bool border =
+        other == MW_NONE || mw__is_users(f, mw__link_triangle(half)) != mw__is_users(f, mw__link_triangle(other));
+    if (border && !(f->convex && mw__is_fixed(f, half))) return 3;
+    return mw__is_fixed(f, half) ? 2 : 1;
+}
+
+uint32_t mw_editor_field(const mw_editor *editor, const char *name)
+{
+    const double *values = mw_mesh_field(&editor->view, name);
+    for (uint32_t i = 0; values && i < editor->view.field_count; i++)
+        if (editor->view.field[i].values == values) return i;
+    return MW_NONE;
+}
+
+double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex)
+{
+    const mw_fabric *f = &editor->fabric;
+    bool there = field < editor->view.field_count && vertex < f->vertex_count && f->vertex_place[vertex] != MW_NONE;
+    return there ? editor->view.field[field].values[vertex] : NAN;
+}
+
+void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_location *locations, size_t n,
+                           double *result)
+{
+    if (field < editor->view.field_count) {
+        mw_interpolate(&editor->view, editor->view.field[field].values, locations, n, result);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) result[i] = NAN;
+}
+
+const mw_locator *mw_editor_locator(const mw_editor *editor)
+{
+    return &editor->locator;
+}
+
+mw_status mw_editor_index(mw_editor *editor, mw_start_kind start, const mw_index_options *options,
+                          const mw_index **index, mw_error *error)
+{
+    if (!editor || !index) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs an editor and a place");
+    *index = NULL;
+    mw_status status = mw__upkeep_build(&editor->upkeep, start, options, error);
+    if (!status) *index = &editor->upkeep.index[start];
+    return status;
+}

@@ -1,0 +1,306 @@
+/* fabric.c - making a fabric from a tiling, and the room it needs. */
+#include "edit/fabric.h"
+
+#include "edit/rim.h"
+#include "edit/stitch.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- from a tiling ---------------------------------------------------------------------------------------------------- */
+
+/* Copies of a mesh's arrays, where the tiling has borrowed them. */
+static bool own_arrays(mw_tiling *tiling)
+{
+    if (!tiling->borrowed) return true;
+    mw_triangle *tri = mw__alloc_lines(tiling->tri_count, sizeof *tri);
+    mw_point *point = mw__alloc_lines(tiling->point_count, sizeof *point);
+    if (!tri || !point) {
+        free(tri);
+        free(point);
+        return false;
+    }
+    memcpy(tri, tiling->tri, tiling->tri_count * sizeof *tri);
+    memcpy(point, tiling->point, tiling->point_count * sizeof *point);
+    tiling->tri = tri;
+    tiling->point = point;
+    tiling->borrowed = false;
+    return true;
+}
+
+/* Tiles are the user's triangles: none is cut, or has another vertex of the same place. */
+static mw_status check(const mw_tiling *tiling, const mw_mesh *mesh, mw_error *error)
+{
+    if (mesh->flat_count > 0) {
+        uint32_t t = 0;
+        while (mw__has_area(mesh->point, &mesh->tri[t])) t++;
+        return mw__fail_at(error, mw__users_triangle(mesh, t), -1, "triangle %" PRIu32 " has no area",
+                           mw__users_triangle(mesh, t));
+    }
+    for (uint32_t t = 0; t < tiling->tri_count; t++) {
+        const mw_triangle *tile = &tiling->tri[t];
+        if (tile->user & MW_GHOST) continue;
+        const mw_triangle *own = &mesh->tri[mw__triangle_place(mesh, tile->user & MW_USER_MASK)];
+        for (int k = 0; k < 3; k++)
+            if (own->v[k] != tile->v[k]) {
+                uint32_t v = mw__users_vertex(mesh, own->v[k]), other = mw__users_vertex(mesh, tile->v[k]);
+                return mw__fail_at(error, tile->user & MW_USER_MASK, v,
+                                   "vertices %" PRIu32 " and %" PRIu32 " lie at one place", other, v);
+            }
+    }
+    return MW_OK;
+}
+
+static bool make_numbers(mw_fabric *f, const mw_mesh *mesh)
+{
+    mw_tiling *tiling = f->tiling;
+    tiling->number_count = f->number_room = mesh->tri_count;
+    f->vertex_count = f->vertex_room = f->point_room = tiling->point_count;
+    f->tile_room = tiling->tri_count;
+    tiling->tile_of = mw__alloc(tiling->number_count, sizeof *tiling->tile_of);
+    f->vertex_place = mw__alloc(f->vertex_count, sizeof *f->vertex_place);
+    f->vertex_number = mw__alloc(f->vertex_count, sizeof *f->vertex_number);
+    f->mark = mw__calloc(f->tile_room, sizeof *f->mark);
+    if (!tiling->tile_of || !f->vertex_place || !f->vertex_number || !f->mark) return false;
+    for (uint32_t t = 0; t < tiling->tri_count; t++)
+        if (!(tiling->tri[t].user & MW_GHOST)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+    for (uint32_t v = 0; v < f->vertex_count; v++) {
+        f->vertex_number[v] = mw__users_vertex(mesh, v);
+        f->vertex_place[f->vertex_number[v]] = v;
+    }
+    return true;
+}
+
+static void fix_border(mw_fabric *f)
+{
+    const mw_tiling *tiling = f->tiling;
+    for (uint32_t t = 0; t < tiling->tri_count; t++)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t link = tiling->tri[t].link[k];
+            bool border = link == MW_NONE ? !f->convex && mw__is_users(f, t)
+                                          : mw__is_users(f, t) != mw__is_users(f, mw__link_triangle(link));
+            if (border) f->mark[t] |= (uint8_t)(1u << k);
+        }
+}
+
+mw_status mw__fabric_create(mw_fabric *f, mw_tiling *tiling, const mw_mesh *mesh, mw_error *error)
+{
+    *f = (mw_fabric){.tiling = tiling, .convex = tiling->ghost_count == 0};
+    mw_status status = check(tiling, mesh, error);
+    if (status) return status;
+    if (!own_arrays(tiling) || !make_numbers(f, mesh)) return mw__fail_memory(error);
+    fix_border(f);
+    return MW_OK;
+}
+
+void mw__fabric_release(mw_fabric *f)
+{
+    free(f->mark);
+    free(f->vertex_place);
+    free(f->vertex_number);
+    free(f->free_place);
+    free(f->before);
+    free(f->step);
+    free(f->stack);
+    free(f->rim);
+    free(f->pool);
+    *f = (mw_fabric){0};
+}
+
+size_t mw__fabric_bytes(const mw_fabric *f)
+{
+    const mw_tiling *t = f->tiling;
+    size_t spare = (f->tile_room - t->tri_count) * sizeof *t->tri +
+                   (f->number_room - t->number_count) * sizeof *t->tile_of +
+                   (f->point_room - t->point_count) * (sizeof *t->point + sizeof *t->owner);
+    return spare + f->tile_room * sizeof *f->mark + f->vertex_room * sizeof *f->vertex_place +
+           f->point_room * sizeof *f->vertex_number + f->free_room * sizeof *f->free_place +
+           f->before_room * sizeof *f->before + f->step_room * sizeof *f->step + f->stack_room * sizeof *f->stack +
+           f->rim_room * (sizeof *f->rim + sizeof *f->pool);
+}
+
+/* --- room ------------------------------------------------------------------------------------------------------------- */
+
+/* A quarter more, so that n additions copy O(n) in all. */
+static size_t enlarged(size_t room)
+{
+    return room + room / 4 + 16;
+}
+
+/* The same for an array that begins with a cache line, which realloc would not keep. */
+static void *enlarge_lines(void *old, size_t count, size_t room, size_t size)
+{
+    void *more = mw__alloc_lines(room, size);
+    if (!more) return NULL;
+    memcpy(more, old, count * size);
+    free(old);
+    return more;
+}
+
+static bool more_tiles(mw_fabric *f)
+{
+    mw_tiling *tiling = f->tiling;
+    uint32_t room = (uint32_t)enlarged(f->tile_room);
+    uint8_t *mark = mw__realloc(f->mark, room, sizeof *mark);
+    if (!mark) return false;
+    f->mark = mark;
+    mw_triangle *tri = enlarge_lines(tiling->tri, tiling->tri_count, room, sizeof *tri);
+    if (!tri) return false;
+    tiling->tri = tri;
+    memset(mark + f->tile_room, 0, room - f->tile_room);
+    f->tile_room = room;
+    return true;
+}
+
+static bool more_numbers(mw_fabric *f)
+{
+    size_t room = enlarged(f->number_room);
+    uint32_t *tile_of = mw__realloc(f->tiling->tile_of, room, sizeof *tile_of);
+    if (!tile_of) return false;
+    f->tiling->tile_of = tile_of;
+    f->number_room = (uint32_t)room;
+    return true;
+}
+
+static bool more_points(mw_fabric *f)
+{
+    mw_tiling *tiling = f->tiling;
+    size_t room = enlarged(f->point_room);
+    uint32_t *number = mw__realloc(f->vertex_number, room, sizeof *number);
+    if (!number) return false;
+    f->vertex_number = number;
+    uint32_t *owner = mw__realloc(tiling->owner, room, sizeof *owner);
+    if (!owner) return false;
+    tiling->owner = owner;
+    mw_point *point = enlarge_lines(tiling->point, tiling->point_count, room, sizeof *point);
+    if (!point) return false;
+    tiling->point = point;
+    f->point_room = (uint32_t)room;
+    return true;
+}
+
+bool mw__stack_room(mw_fabric *f, size_t more)
+{
+    if (f->stack_count + more <= f->stack_room) return true;
+    size_t room = enlarged(f->stack_count + more);
+    uint32_t *stack = mw__realloc(f->stack, room, sizeof *stack);
+    if (!stack) return false;
+    f->stack = stack;
+    f->stack_room = room;
+    return true;
+}
+
+bool mw__journal_room(mw_fabric *f)
+{
+    if (f->before_count < f->before_room) return true;
+    size_t room = enlarged(f->before_room);
+    mw_before *before = mw__realloc(f->before, room, sizeof *before);
+    if (!before) return false;
+    f->before = before;
+    f->before_room = room;
+    return true;
+}
+
+bool mw__journal_more(mw_fabric *f, uint32_t t)
+{
+    if (!mw__journal_room(f)) return false;
+    f->before[f->before_count++] = (mw_before){t, f->mark[t] & MW_FIXED_EDGES, f->tiling->tri[t]};
+    f->mark[t] |= MW_JOURNALED;
+    return true;
+}
+
+/* --- tiles and vertices come and go ----------------------------------------------------------------------------------- */
+
+uint32_t mw__add_tile(mw_fabric *f, uint32_t user)
+{
+    mw_tiling *tiling = f->tiling;
+    uint32_t t = tiling->tri_count;
+    if (user == MW_NONE || t >= MW_MAX_TRIANGLES || (t == f->tile_room && !more_tiles(f))) return MW_NONE;
+    if (!(f->mark[t] & MW_JOURNALED)) { /* as one that was not there */
+        tiling->tri[t].v[0] = MW_NONE;
+        if (!mw__journal_more(f, t)) return MW_NONE;
+    }
+    mw__set_fixed(f, t, 0);
+    tiling->tri[t] = (mw_triangle){.link = {MW_NONE, MW_NONE, MW_NONE}, .user = user};
+    if (user & MW_GHOST)
+        tiling->ghost_count++;
+    else
+        tiling->tile_of[user] = t;
+    tiling->tri_count++;
+    return t;
+}
+
+uint32_t mw__user_beside(mw_fabric *f, uint32_t t)
+{
+    mw_tiling *tiling = f->tiling;
+    if (!mw__is_users(f, t)) return tiling->tri[t].user;
+    if (tiling->number_count >= MW_USER_MASK || (tiling->number_count == f->number_room && !more_numbers(f)))
+        return MW_NONE;
+    return tiling->number_count++;
+}
+
+void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir)
+{
+    if (mw__is_users(f, t)) f->tiling->tile_of[f->tiling->tri[t].user & MW_USER_MASK] = MW_GONE | heir;
+}
+
+static int descending(const void *a, const void *b)
+{
+    uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
+    return (s < t) - (s > t);
+}
+
+bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
+{
+    mw_tiling *tiling = f->tiling;
+    qsort(tiles, count, sizeof *tiles, descending); /* so that the last tile is none that has yet to go */
+    for (size_t i = 0; i < count; i++) {
+        uint32_t t = tiles[i], last = tiling->tri_count - 1;
+        if (!mw__is_users(f, t)) tiling->ghost_count--;
+        if (t != last) {
+            if (!mw__journal(f, last)) return false;
+            tiling->tri[t] = tiling->tri[last];
+            mw__set_fixed(f, t, f->mark[last] & MW_FIXED_EDGES);
+            for (uint32_t k = 0; k < 3; k++) mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
+            if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+            if (f->last == last) f->last = t;
+        }
+        tiling->tri_count--;
+    }
+    return true;
+}
+
+bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex)
+{
+    mw_tiling *tiling = f->tiling;
+    if (f->free_count == 0 && tiling->point_count == f->point_room && !more_points(f)) return false;
+    if (f->vertex_count == f->vertex_room) {
+        size_t room = enlarged(f->vertex_room);
+        uint32_t *place = mw__realloc(f->vertex_place, room, sizeof *place);
+        if (!place) return false;
+        f->vertex_place = place;
+        f->vertex_room = (uint32_t)room;
+    }
+    uint32_t v = f->free_count > 0 ? f->free_place[--f->free_count] : tiling->point_count++;
+    tiling->point[v] = q;
+    tiling->owner[v] = MW_NONE;
+    f->vertex_number[v] = f->vertex_count;
+    f->vertex_place[f->vertex_count++] = v;
+    *vertex = v;
+    return true;
+}
+
+bool mw__free_vertex(mw_fabric *f, uint32_t v)
+{
+    if (f->free_count == f->free_room) {
+        size_t room = enlarged(f->free_room);
+        uint32_t *place = mw__realloc(f->free_place, room, sizeof *place);
+        if (!place) return false;
+        f->free_place = place;
+        f->free_room = (uint32_t)room;
+    }
+    f->free_place[f->free_count++] = v;
+    f->vertex_place[f->vertex_number[v]] = MW_NONE;
+    return true;
+}

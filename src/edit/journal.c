@@ -1,0 +1,293 @@
+/* journal.c - an edit as a whole: what it changed, and how it is taken back. */
+#include "edit/stitch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit)
+{
+    if (!mw__journal_room(f)) return false;
+    if (f->step_count == f->step_room) {
+        size_t room = f->step_room + f->step_room / 2 + 4;
+        mw_step *step = mw__realloc(f->step, room, sizeof *step);
+        if (!step) return false;
+        f->step = step;
+        f->step_room = room;
+    }
+    const mw_tiling *tiling = f->tiling;
+    f->step[f->step_count++] = (mw_step){.edit = *edit,
+                                         .journal = f->before_count,
+                                         .tiles = tiling->tri_count,
+                                         .ghosts = tiling->ghost_count,
+                                         .numbers = tiling->number_count,
+                                         .vertices = f->vertex_count,
+                                         .points = tiling->point_count,
+                                         .free_places = f->free_count,
+                                         .fixed_count = f->fixed_count,
+                                         .vertex = MW_NONE,
+                                         .delaunay = f->delaunay};
+    f->flips = 0;
+    f->stack_count = 0;
+    return true;
+}
+
+/* --- the lowest triangle of each vertex ------------------------------------------------------------------------------- */
+
+static bool is_users(const mw_triangle *tile)
+{
+    return tile->v[0] != MW_NONE && !(tile->user & MW_GHOST);
+}
+
+/* The tile that has a number now; NULL if none has. */
+static const mw_triangle *tile_now(const mw_tiling *tiling, uint32_t number)
+{
+    if (number >= tiling->number_count || tiling->tile_of[number] & MW_GONE) return NULL;
+    return &tiling->tri[tiling->tile_of[number]];
+}
+
+static const mw_triangle *tile_at(const mw_tiling *tiling, uint32_t place)
+{
+    return place < tiling->tri_count ? &tiling->tri[place] : NULL;
+}
+
+static bool has_corner(const mw_triangle *tile, uint32_t v)
+{
+    return tile && (tile->v[0] == v || tile->v[1] == v || tile->v[2] == v);
+}
+
+/* Vertices whose lowest triangle has gone, or has them no longer: onto the stack. */
+static void find_bereft(mw_fabric *f, const mw_before *first, size_t count)
+{
+    uint32_t *owner = f->tiling->owner;
+    for (size_t i = 0; i < count; i++) {
+        if (!is_users(&first[i].tile)) continue;
+        uint32_t number = first[i].tile.user & MW_USER_MASK;
+        const mw_triangle *now = tile_now(f->tiling, number);
+        for (int k = 0; k < 3; k++) {
+            uint32_t v = first[i].tile.v[k];
+            if (owner[v] != number || has_corner(now, v)) continue;
+            owner[v] = MW_NONE;
+            f->stack[f->stack_count++] = v;
+        }
+    }
+}
+
+static void offer(uint32_t *owner, const mw_triangle *tile)
+{
+    uint32_t number = tile->user & MW_USER_MASK;
+    for (int k = 0; k < 3; k++)
+        if (number < owner[tile->v[k]]) owner[tile->v[k]] = number;
+}
+
+static uint32_t corner_of(const mw_triangle *tile, uint32_t v)
+{
+    return tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
+}
+
+/* The lowest of all triangles round v, one of which is known. */
+static uint32_t lowest_round(const mw_tiling *tiling, uint32_t v)
+{
+    uint32_t first = tiling->tile_of[tiling->owner[v]], t = first, best = MW_NONE;
+    for (int clockwise = 0; clockwise < 2; clockwise++) {
+        uint32_t link;
+        do {
+            const mw_triangle *tile = &tiling->tri[t];
+            uint32_t k = corner_of(tile, v);
+            if (!(tile->user & MW_GHOST) && (tile->user & MW_USER_MASK) < best) best = tile->user & MW_USER_MASK;
+            link = tile->link[clockwise ? k : mw__prev(k)];
+            t = mw__link_triangle(link);
+        } while (link != MW_NONE && t != first);
+        if (link != MW_NONE) break;
+        t = first;
+    }
+    return best;
+}
+
+/* Each vertex of a changed triangle is also one of a triangle that is there now, or has gone. Numbers that were given to other corners
+ * are the rule's only danger: what is new has higher ones. Needs room for three numbers for each entry. */
+static void find_owners(mw_fabric *f, const mw_before *first, size_t count)
+{
+    mw_tiling *tiling = f->tiling;
+    f->stack_count = 0;
+    find_bereft(f, first, count);
+    for (size_t i = 0; i < count; i++) {
+        const mw_triangle *now = tile_at(tiling, first[i].place);
+        if (now && is_users(now)) offer(tiling->owner, now);
+    }
+    while (f->stack_count > 0) {
+        uint32_t v = f->stack[--f->stack_count];
+        if (tiling->owner[v] != MW_NONE) tiling->owner[v] = lowest_round(tiling, v);
+    }
+}
+
+static void clear_marks(mw_fabric *f, const mw_before *first, size_t count)
+{
+    for (size_t i = 0; i < count; i++) f->mark[first[i].place] &= (uint8_t)~MW_JOURNALED;
+}
+
+bool mw__fabric_commit(mw_fabric *f)
+{
+    const mw_before *first;
+    size_t count = mw__fabric_journal(f, &first);
+    f->stack_count = 0;
+    if (!mw__stack_room(f, 3 * count)) return false;
+    find_owners(f, first, count);
+    clear_marks(f, first, count);
+    return true;
+}
+
+/* --- taking back ------------------------------------------------------------------------------------------------------ */
+
+/* Exchange the journal of the last step with the tiles. Tiles round about lie beside restored ones only, whose links tell theirs. */
+static void exchange_tiles(mw_fabric *f, const mw_step *step)
+{
+    mw_tiling *tiling = f->tiling;
+    for (size_t i = step->journal; i < f->before_count; i++) {
+        mw_before *b = &f->before[i], now = {.place = b->place, .tile.v[0] = MW_NONE};
+        if (b->place < tiling->tri_count)
+            now = (mw_before){b->place, f->mark[b->place] & MW_FIXED_EDGES, tiling->tri[b->place]};
+        if (b->tile.v[0] != MW_NONE) {
+            tiling->tri[b->place] = b->tile;
+            mw__set_fixed(f, b->place, b->mark);
+        }
+        *b = now;
+    }
+    tiling->tri_count = step->tiles;
+    tiling->ghost_count = step->ghosts;
+    tiling->number_count = step->numbers;
+    for (size_t i = step->journal; i < f->before_count; i++) {
+        uint32_t t = f->before[i].place;
+        if (t >= tiling->tri_count) continue;
+        for (uint32_t k = 0; k < 3; k++) mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
+        if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+    }
+}
+
+static void restore_vertices(mw_fabric *f, const mw_step *step)
+{
+    mw_tiling *tiling = f->tiling;
+    if (f->vertex_count > step->vertices) { /* one was made */
+        uint32_t v = f->vertex_place[--f->vertex_count];
+        if (f->free_count < step->free_places) f->free_place[f->free_count++] = v;
+        tiling->point_count = step->points;
+    } else if (f->free_count > step->free_places) {
+        uint32_t v = f->free_place[--f->free_count];
+        f->vertex_number[v] = step->number;
+        f->vertex_place[step->number] = v;
+        tiling->point[v] = step->point;
+    }
+    if (step->edit.kind == MW_EDIT_MOVE && step->vertex != MW_NONE) tiling->point[step->vertex] = step->point;
+    f->fixed_count = step->fixed_count;
+    f->delaunay = step->delaunay;
+    if (f->last >= tiling->tri_count) f->last = 0;
+}
+
+void mw__fabric_rollback(mw_fabric *f)
+{
+    const mw_step *step = &f->step[f->step_count - 1];
+    exchange_tiles(f, step);
+    restore_vertices(f, step);
+    clear_marks(f, f->before + step->journal, f->before_count - step->journal);
+    mw__fabric_drop(f);
+}
+
+void mw__fabric_revert(mw_fabric *f)
+{
+    const mw_step *step = &f->step[f->step_count - 1];
+    exchange_tiles(f, step);
+    restore_vertices(f, step);
+    const mw_before *first;
+    size_t count = mw__fabric_journal(f, &first);
+    find_owners(f, first, count); /* the room is that of the commit */
+    f->flips = 0;
+}
+
+void mw__fabric_drop(mw_fabric *f)
+{
+    f->before_count = f->step[--f->step_count].journal;
+}
+
+void mw__fabric_forget(mw_fabric *f, size_t steps)
+{
+    if (f->step_count <= steps || f->step_count - steps < steps) return; /* so that each is moved once, on average */
+    size_t gone = f->step_count - steps, entries = steps ? f->step[gone].journal : f->before_count;
+    f->before_count -= entries;
+    f->step_count = steps;
+    if (steps == 0) return;
+    memmove(f->before, f->before + entries, f->before_count * sizeof *f->before);
+    memmove(f->step, f->step + gone, steps * sizeof *f->step);
+    for (size_t i = 0; i < steps; i++) f->step[i].journal -= entries;
+}
+
+/* --- what changed ----------------------------------------------------------------------------------------------------- */
+
+void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3])
+{
+    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(tile->user, k)] = f->vertex_number[tile->v[k]];
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const mw_changed_triangle *s = a, *t = b;
+    return (s->triangle > t->triangle) - (s->triangle < t->triangle);
+}
+
+/* The triangles of the journal as they were, sorted; returns how many. */
+static size_t list_before(const mw_fabric *f, const mw_before *first, size_t count, mw_changed_triangle *list)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!is_users(&first[i].tile)) continue;
+        list[n].triangle = first[i].tile.user & MW_USER_MASK;
+        mw__fabric_corners(f, &first[i].tile, list[n++].before);
+    }
+    qsort(list, n, sizeof *list, by_number);
+    return n;
+}
+
+/* Those that are there now and were not: appended, sorted. */
+static size_t list_made(const mw_fabric *f, const mw_before *first, size_t count, mw_changed_triangle *list,
+                        size_t known)
+{
+    size_t n = known;
+    for (size_t i = 0; i < count; i++) {
+        const mw_triangle *now = tile_at(f->tiling, first[i].place);
+        if (!now || !is_users(now)) continue;
+        mw_changed_triangle made = {now->user & MW_USER_MASK, {MW_NONE, MW_NONE, MW_NONE}};
+        if (!bsearch(&made, list, known, sizeof *list, by_number)) list[n++] = made;
+    }
+    qsort(list + known, n - known, sizeof *list, by_number);
+    return n - known;
+}
+
+static bool has_gone(const mw_fabric *f, const mw_changed_triangle *c)
+{
+    return !tile_now(f->tiling, c->triangle);
+}
+
+static bool is_other(const mw_fabric *f, const mw_changed_triangle *c)
+{
+    uint32_t now[3];
+    mw__fabric_corners(f, tile_now(f->tiling, c->triangle), now);
+    return memcmp(now, c->before, sizeof now) != 0;
+}
+
+void mw__fabric_report(const mw_fabric *f, mw_changed_triangle *list, mw_change *change)
+{
+    const mw_before *first;
+    size_t count = mw__fabric_journal(f, &first);
+    mw_changed_triangle *before = list + 2 * count; /* scratch */
+    size_t were = list_before(f, first, count, before), n = 0;
+    memcpy(list, before, were * sizeof *list);
+    change->made = list_made(f, first, count, list, were);
+    memmove(list, list + were, change->made * sizeof *list);
+    n = change->made;
+    for (size_t i = 0; i < were; i++)
+        if (!has_gone(f, &before[i]) && is_other(f, &before[i])) list[n++] = before[i];
+    change->reused = n - change->made;
+    for (size_t i = 0; i < were; i++)
+        if (has_gone(f, &before[i])) list[n++] = before[i];
+    change->freed = n - change->made - change->reused;
+    change->triangle = list;
+    change->flips = f->flips;
+}

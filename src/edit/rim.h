@@ -1,0 +1,60 @@
+/* rim.h - the boundary of tiles that are to be replaced by others with the same corners, or fewer. Private.
+ *
+ * Steps are given counter-clockwise: the tiles to be replaced lie to the left. Their records are the pool, of which the new tiles take what
+ * they need, those with the lowest numbers first; what is left is dropped when the edit is done. */
+#ifndef MW_SRC_RIM_H
+#define MW_SRC_RIM_H
+
+#include "edit/stitch.h"
+
+struct mw_rim_step {
+    uint32_t vertex; /* where the step begins; the next one begins where it ends */
+    uint32_t beyond; /* half-edge on its right side; MW_NONE on the hull         */
+    uint32_t half;   /* half-edge on its left side, of a tile that is replaced   */
+    bool fixed;
+    bool slit; /* `beyond` is replaced too: the step comes twice, once from each side */
+};
+
+/* Tiles to be replaced, all of the user's or all ghosts beside one another. */
+typedef struct mw_pool {
+    uint32_t *tile;
+    size_t count, used;
+    mw_rim_step *
+        slit; /* room for those steps of a chain that are slits, from one side: `half` as it was, `beyond` the new one */
+    size_t slit_count;
+} mw_pool;
+
+/* Journal the tiles of a pool and sort them by number. */
+bool mw__pool_begin(mw_fabric *f, mw_pool *pool);
+
+/* Cut off corners of the chain of n steps wherever it turns left, until it turns left nowhere [Graham 1972], which is right for chains all
+ * of whose vertices are seen from one point or one edge to the left of them [Toussaint, Avis 1982]. step[n].vertex is where it ends.
+ * Returns the number of steps that are left; in the last tile of each the edge of index 2 is step.beyond. Pushes edges between new tiles for
+ * mw__legalise; false when out of memory. */
+bool mw__cut_chain(mw_fabric *f, mw_rim_step *step, size_t *n, mw_pool *pool);
+
+/* Cut the star of a vertex at q, inside the closed ring of n steps, into tiles. */
+bool mw__cut_ring(mw_fabric *f, mw_rim_step *step, size_t n, mw_point q, mw_pool *pool);
+
+/* The numbers of tiles not used lead to the lowest that is, or to `heir`, a number; the tiles have to be dropped. */
+void mw__pool_end(mw_fabric *f, mw_pool *pool, uint32_t heir);
+
+/* Steps round vertex v, which is corner `k` of tile t: of all its tiles, or on the hull from the first to the last. step[i].half is the edge
+ * across from v in its i-th tile; step[n].vertex the end. *spokes: how many edges at v are fixed, and *spoke the places of the first two in the
+ * list. false when out of memory. */
+typedef struct mw_star {
+    size_t n;        /* tiles                                                     */
+    bool open;       /* on the hull                                               */
+    size_t spokes;   /* fixed edges at the vertex                                 */
+    size_t spoke[2]; /* of the first two: the steps that begin at their other ends */
+} mw_star;
+bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star);
+
+/* Room for so many steps in f->rim and tiles in f->pool. */
+bool mw__rim_room(mw_fabric *f, size_t steps);
+
+/* The edge that begins at v, as a half-edge of one of its tiles, from which all others follow counter-clockwise; *open: v is on the
+ * hull. */
+uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open);
+
+#endif

@@ -1,0 +1,80 @@
+/* stitch.h - the smallest changes of a fabric: tiles come, go, get corners and neighbours. Private.
+ *
+ * Functions that may need memory return false when there is none; the edit is then rolled back, whatever is half done. */
+#ifndef MW_SRC_STITCH_H
+#define MW_SRC_STITCH_H
+
+#include "edit/fabric.h"
+
+/* Put the record of a tile into the journal of this edit, before its corners, marks or neighbours beyond a hull edge change. */
+bool mw__journal_more(mw_fabric *f, uint32_t t);
+bool mw__journal_room(mw_fabric *f); /* for one record */
+static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
+{
+    return f->mark[t] & MW_JOURNALED || mw__journal_more(f, t);
+}
+
+/* A tile at the end of the array, not journaled as one that was there; `user` as in the record, without links. MW_NONE when out of
+ * memory or numbers (mw__tile_failure). */
+uint32_t mw__add_tile(mw_fabric *f, uint32_t user);
+
+/* The mark of a tile that is made beside tile t: a number of its own, or that of the ghost. */
+uint32_t mw__user_beside(mw_fabric *f, uint32_t t);
+
+/* Free the number of a tile of the user's, which leads to another one from here on. */
+void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir);
+
+/* Take tiles out of the array; each has been journaled, and none is anyone's neighbour. Sorts the list. */
+bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count);
+
+/* A vertex with a number of its own; the place of one that no tile has any more is free. */
+bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex);
+bool mw__free_vertex(mw_fabric *f, uint32_t vertex);
+
+/* Room for so many numbers in the scratch stack (beyond its count). */
+bool mw__stack_room(mw_fabric *f, size_t more);
+
+/* half and `beyond`, which may be MW_NONE, become neighbours. */
+static MW_INLINE void mw__attach(mw_fabric *f, uint32_t half, uint32_t beyond)
+{
+    mw_triangle *tri = f->tiling->tri;
+    tri[mw__link_triangle(half)].link[mw__link_edge(half)] = beyond;
+    if (beyond != MW_NONE) tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = half;
+}
+
+static MW_INLINE void mw__set_corners(mw_fabric *f, uint32_t t, uint32_t a, uint32_t b, uint32_t c)
+{
+    mw_triangle *tile = &f->tiling->tri[t];
+    tile->v[0] = tile->v[3] = a;
+    tile->v[1] = b;
+    tile->v[2] = c;
+    tile->user &= ~MW_FLIPPED;
+}
+
+/* The three edges of a tile: fixed (bit k) or not. */
+static MW_INLINE void mw__set_fixed(mw_fabric *f, uint32_t t, uint32_t edges)
+{
+    f->mark[t] = (uint8_t)((f->mark[t] & ~MW_FIXED_EDGES) | edges);
+}
+
+/* --- flips (flip.c) --------------------------------------------------------------------------------------------------- */
+
+/* The edge `half` of a convex quadrilateral becomes its other diagonal: a, b, c and b, a, d become a, d, c and d, b, c, the second one in
+ * the place of the tile beyond. */
+bool mw__exchange(mw_fabric *f, uint32_t half);
+
+/* Is the vertex across the edge in the circle of its tile? Not if the edge is fixed or on the hull. */
+bool mw__is_illegal(const mw_fabric *f, uint32_t half);
+
+static MW_INLINE bool mw__push(mw_fabric *f, uint32_t half)
+{
+    if (MW_UNLIKELY(f->stack_count == f->stack_room) && !mw__stack_room(f, 1)) return false;
+    f->stack[f->stack_count++] = half;
+    return true;
+}
+
+/* Flip the edges on the stack, and what becomes illegal by it, until all are legal [Lawson 1977]. Where the mesh is not kept Delaunay,
+ * only edges between tiles that this edit has changed. Empties the stack. */
+bool mw__legalise(mw_fabric *f);
+
+#endif
