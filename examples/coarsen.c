@@ -21,24 +21,22 @@
 static const char usage[] =
     "usage: coarsen TERRAIN --tolerance H [-o OUT] [options]\n"
     "\n"
-    "Find a terrain of few vertices whose height differs from that of each point of TERRAIN by H at most. TERRAIN is a "
-    "mesh\n"
-    "with heights (OFF, OBJ, PLY, STL, .node) or a file of points x,y,z (text, LAS), such as data/jacksboro.csv. The "
-    "vertices\n"
-    "of the result are some of its points, and it covers the same part of the plane.\n"
+    "Find a terrain of few vertices whose height differs from that of each point of TERRAIN by H at most. TERRAIN is "
+    "a\n"
+    "mesh with heights (OFF, OBJ, PLY, STL, .node) or a file of points x,y,z (text, LAS), such as data/jacksboro.csv.\n"
+    "The vertices of the result are some of its points, and it covers the same part of the plane.\n"
     "\n"
     "  -t, --tolerance H    the largest error that is allowed, in the unit of the heights (metres, feet, ...)\n"
     "  -o, --output OUT     write the result as a mesh; its ending tells the format: .ply .off .obj .stl .node .vtk\n"
-    "  -p, --passes N       times that exchanges are tried on all vertices (default 1); 0: vertices are only removed, "
-    "which\n"
-    "                       is faster, and leaves more of them\n"
+    "  -p, --passes N       times that exchanges are tried on all vertices (default 1); 0: vertices are only removed,\n"
+    "                       which is faster, and leaves more of them\n"
     "  -h, --help           this text\n"
     "\n"
-    "Of several points at one place the first counts. What is printed: vertices before and after; how many of the "
-    "original\n"
-    "points were found in the result, and the largest error there, by an independent look at each; what was done, and "
-    "how\n"
-    "fast. Exit codes: 0 done, 2 wrong usage, 3 input that cannot be read or is no terrain, 4 anything else.\n";
+    "Of several points at one place the first counts. Printed are: vertices before and after; the largest error, by "
+    "an\n"
+    "independent look at every point of TERRAIN in the result; what was done, and how fast. Exit codes: 0 done, 2 "
+    "wrong\n"
+    "usage, 3 input that cannot be read or is no terrain, 4 anything else.\n";
 
 typedef struct settings {
     const char *input, *output;

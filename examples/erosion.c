@@ -27,31 +27,26 @@ static const char usage[] =
     "data/jacksboro.csv.\n"
     "Lengths and heights are in one unit, for which metre is written here.\n"
     "\n"
-    "  -o, --output OUT     write the terrain that is left as a mesh; its ending tells the format: .ply .off .obj "
-    ".stl\n"
-    "                       .node .vtk\n"
+    "  -o, --output OUT     write the terrain that is left as a mesh; its ending tells the format:\n"
+    "                       .ply .off .obj .stl .node .vtk\n"
     "  -n, --drops N        drops that fall (default 100000)\n"
-    "  -s, --seed N         other places for them (default 1)\n"
-    "  -r, --rain H         all rain that they bring together, metres on the whole terrain (default 100). More drops "
-    "make\n"
-    "                       the same rain finer\n"
-    "      --capacity C     soil that water carries at 1 m/s down a slope of 1 (45 degrees), cubic metres in each "
-    "cubic\n"
-    "                       metre of water (default 0.05)\n"
+    "  -s, --seed N         of the places where they fall (default 1)\n"
+    "  -r, --rain H         all rain that they bring together, metres on the whole terrain (default 1000);\n"
+    "                       with more drops each is smaller\n"
+    "      --capacity C     soil that water carries at 1 m/s down a slope of 1 (45 degrees), cubic metres in each\n"
+    "                       cubic metre of water (default 0.05)\n"
     "      --erosion E      part of what it could carry more that a drop takes up at a vertex, 0 to 1 (default 0.3)\n"
     "      --deposition D   part of what it cannot carry that it lays down there, 0 to 1 (default 0.3)\n"
-    "      --evaporation V  part of its water that a drop loses at a vertex, 0 to 1 (default 0.02)\n"
+    "      --evaporation V  part of its water that a drop loses at a vertex, 0.0001 to 1 (default 0.02)\n"
     "      --speed S        fastest that water runs, m/s (default 5)\n"
-    "      --change H       the mesh is changed where so much soil was taken or laid down, metres (default: 1/200 of "
-    "the\n"
-    "                       range of heights); 0: never, only heights change\n"
+    "      --change H       the mesh is changed where so much soil was taken or laid down, metres (default: 1/200 of\n"
+    "                       the range of heights); 0: never, then only heights change\n"
     "      --finest L       no edges shorter than this are made, metres (default: a third of the mean edge)\n"
     "  -h, --help           this text\n"
     "\n"
-    "What is printed: what the drops did; the soil, all in cubic metres, where 'unaccounted' is what the books do not\n"
-    "explain of the change of volume (rounding); and how fast it went. Exit codes: 0 done, 2 wrong usage, 3 input "
-    "that\n"
-    "cannot be read or is no terrain, 4 anything else.\n";
+    "Printed are: what the drops did; the soil, in cubic metres, where 'unaccounted' is what the books do not explain\n"
+    "of the change of volume (rounding); and how fast it went. Exit codes: 0 done, 2 wrong usage, 3 input that cannot\n"
+    "be read or is no terrain, 4 anything else.\n";
 
 typedef struct settings {
     const char *input, *output;
@@ -163,31 +158,48 @@ static void make_room(erosion *s, uint32_t vertex)
     s->room = room;
 }
 
-/* Carry out an edit that changes triangles, and carry shares and volume along. Triangles of its vertex are counted as they were
- * before it and as they are after it, for those of a vertex that moves are not listed; the others as listed. */
-static bool reshape(erosion *s, const mw_edit *edit)
+/* Carry out an edit that changes triangles, and carry shares along; returns the vertex, MW_NONE if nothing has changed. Triangles of its
+ * vertex are counted as they were before it and as they are after it, for those of a vertex that moves are not listed; the others as
+ * listed. *volume: by how much the terrain has become more. */
+static uint32_t reshape(erosion *s, const mw_edit *edit, double *volume)
 {
     mw_error error;
     mw_change change;
     bool inserts = edit->kind == MW_EDIT_INSERT;
-    double volume = inserts ? 0 : count_star(s, edit->vertex, -1);
+    *volume = inserts ? 0 : count_star(s, edit->vertex, -1);
     mw_status status = mw_edit_apply(s->editor, edit, &change, &error);
     if (status != MW_OK && status != MW_ERROR_INPUT) fail_with(&error);
     if (status != MW_OK || (inserts && !change.vertex_made)) {
         if (!inserts) count_star(s, edit->vertex, 1);
-        return false;
+        return MW_NONE;
     }
     make_room(s, change.vertex);
     for (size_t i = 0; i < change.made + change.reused + change.freed; i++) {
         const mw_changed_triangle *t = &change.triangle[i];
         uint32_t after[3];
-        if (t->before[0] != MW_NONE && !has(t->before, change.vertex)) volume += count_triangle(s, t->before, -1);
+        if (t->before[0] != MW_NONE && !has(t->before, change.vertex)) *volume += count_triangle(s, t->before, -1);
         if (mw_editor_triangle(s->editor, t->triangle, after) && !has(after, change.vertex))
-            volume += count_triangle(s, after, 1);
+            *volume += count_triangle(s, after, 1);
     }
-    if (!change.vertex_freed) volume += count_star(s, change.vertex, 1);
-    s->reshaped += volume;
-    return true;
+    if (!change.vertex_freed) *volume += count_star(s, change.vertex, 1);
+    s->reshaped += *volume;
+    return change.vertex;
+}
+
+static void set_height(erosion *s, uint32_t v, double z)
+{
+    mw_error error;
+    if (mw_edit_value(s->editor, s->z, v, z, &error)) fail_with(&error);
+    s->heights++;
+}
+
+/* Give a vertex that has come or moved the height with which no soil has come or gone, but leave it between two others. */
+static void keep_soil(erosion *s, uint32_t v, double volume, uint32_t above, uint32_t below)
+{
+    double z = height(s, v), high = height(s, above), low = height(s, below);
+    double wanted = fmin(fmax(z - volume / s->share[v], fmin(low, z)), fmax(high, z));
+    s->reshaped += (wanted - z) * s->share[v];
+    set_height(s, v, wanted);
 }
 
 /* --- the mesh follows the valleys -------------------------------------------------------------------------------- */
@@ -203,24 +215,37 @@ static void middle(const erosion *s, uint32_t a, uint32_t b, double m[2])
 /* Water cuts corners: a vertex of a bed goes a little towards the middle of those before and after it. */
 static void straighten(erosion *s, uint32_t from, uint32_t v, uint32_t to)
 {
-    double p[2], m[2];
+    double p[2], m[2], volume;
     mw_editor_vertex(s->editor, v, p);
     middle(s, from, to, m);
     mw_edit edit = {.kind = MW_EDIT_MOVE, .vertex = v};
     edit.x = p[0] + (m[0] - p[0]) / 4;
     edit.y = p[1] + (m[1] - p[1]) / 4;
-    s->moved += reshape(s, &edit);
+    if (reshape(s, &edit, &volume) == MW_NONE) return;
+    keep_soil(s, v, volume, from, to);
+    s->moved++;
 }
 
 /* A long edge of a bed gets a vertex in its middle, which takes its height from the terrain there. */
 static void refine(erosion *s, uint32_t v, uint32_t to)
 {
-    double m[2];
+    double m[2], volume;
     if (distance(s, v, to) < 2 * s->set.finest) return;
     middle(s, v, to, m);
     mw_edit edit = {.kind = MW_EDIT_INSERT, .x = m[0], .y = m[1], .field = MW_NONE, .value = NAN};
     edit.field = s->z;
-    s->inserted += reshape(s, &edit);
+    uint32_t made = reshape(s, &edit, &volume);
+    if (made == MW_NONE) return;
+    keep_soil(s, made, volume, v, to);
+    s->inserted++;
+}
+
+static bool remove_vertex(erosion *s, uint32_t v)
+{
+    double volume;
+    bool gone = reshape(s, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = v}, &volume) != MW_NONE;
+    s->removed += gone;
+    return gone;
 }
 
 /* Vertices of a bed that have come too close to one another: one goes. */
@@ -230,7 +255,7 @@ static void thin_out(erosion *s, uint32_t from, uint32_t v, uint32_t to)
     for (size_t i = 0; i < r.count; i++) {
         uint32_t w = r.vertex[i];
         if (w == from || w == to || distance(s, v, w) > s->set.finest / 2 || look_round(s, w).border) continue;
-        s->removed += reshape(s, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = w});
+        remove_vertex(s, w);
         return;
     }
 }
@@ -243,16 +268,16 @@ static void deepen(erosion *s, uint32_t from, uint32_t v, uint32_t to)
     if (from != MW_NONE && from != to) straighten(s, from, v, to);
 }
 
-/* Soil was laid down: where the terrain has become flat a vertex has nothing to show any more. */
+/* Soil was laid down. Is a vertex about as high as those round about let expect, and has nothing to show any more? */
 static bool is_buried(const erosion *s, uint32_t v, const ring *r)
 {
-    double z = height(s, v), sum = 0;
+    double sum = 0, weights = 0;
     for (size_t i = 0; i < r->count; i++) {
-        double fall = fabs(height(s, r->vertex[i]) - z);
-        if (fall > s->set.change) return false;
-        sum += fall;
+        double weight = 1 / distance(s, v, r->vertex[i]);
+        sum += weight * height(s, r->vertex[i]);
+        weights += weight;
     }
-    return sum < s->set.change * (double)r->count / 2;
+    return fabs(sum / weights - height(s, v)) < s->set.change / 2;
 }
 
 /* A drop has run from a vertex on to the next one. Returns false if the vertex is gone. */
@@ -264,8 +289,7 @@ static bool follow(erosion *s, uint32_t from, uint32_t v, uint32_t to, const rin
         deepen(s, from, v, to);
     } else {
         s->worn[v] = 0;
-        buried = is_buried(s, v, r) && reshape(s, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = v});
-        s->removed += buried;
+        buried = is_buried(s, v, r) && remove_vertex(s, v);
     }
     return !buried;
 }
@@ -275,14 +299,12 @@ static bool follow(erosion *s, uint32_t from, uint32_t v, uint32_t to, const rin
 /* Raise a vertex by `dz`, with soil of the drop; or lower it. */
 static void change_height(erosion *s, drop *d, uint32_t v, double dz)
 {
-    mw_error error;
     double soil = dz * s->share[v];
     if (dz == 0) return;
-    if (mw_edit_value(s->editor, s->z, v, height(s, v) + dz, &error)) fail_with(&error);
+    set_height(s, v, height(s, v) + dz);
     s->worn[v] -= dz;
     d->soil = soil < d->soil ? d->soil - soil : 0;
     *(dz < 0 ? &s->taken : &s->laid) += fabs(soil);
-    s->heights++;
 }
 
 /* Raise the drop's vertex by so much soil, but by `most` at most. */
@@ -516,7 +538,7 @@ static settings take_arguments(int argc, char **argv)
 {
     settings set = {.drops = 100000,
                     .seed = 1,
-                    .rain = 100,
+                    .rain = 1000,
                     .capacity = 0.05,
                     .erosion = 0.3,
                     .deposition = 0.3,
