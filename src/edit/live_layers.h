@@ -11,9 +11,9 @@
 
 typedef struct mw_live_layers {
     mw_layers *layers;                   /* which these are; NULL: none */
-    mw_fabric fabric[MW_MAX_LAYERS - 1]; /* of each layer, as in layers->layer                               */
-    uint32_t *up[MW_MAX_LAYERS -
-                 1]; /* per place of a vertex of the mesh, or of layer i - 1: its place one layer higher, or MW_NONE */
+    const mw_fabric *mesh;               /* below them                  */
+    mw_fabric fabric[MW_MAX_LAYERS - 1]; /* of each layer, as in layers->layer */
+    uint32_t *up[MW_MAX_LAYERS - 1];     /* per place of a vertex below that layer: its place there, or MW_NONE */
     uint32_t up_room[MW_MAX_LAYERS - 1], below_room[MW_MAX_LAYERS - 1];
     double ratio;
     uint64_t random;
@@ -22,8 +22,10 @@ typedef struct mw_live_layers {
 /* Build layers above a fabric. As mw__layers_create; release in either case. */
 mw_status mw__live_layers_create(mw_live_layers *live, mw_layers *layers, const mw_fabric *mesh,
                                  const mw_layers_options *options, mw_error *error);
-void mw__live_layers_release(mw_live_layers *live);       /* the layers too */
-size_t mw__live_layers_bytes(const mw_live_layers *live); /* beside what mw__layers_bytes tells */
+void mw__live_layers_attach(mw_live_layers *live, mw_layers *layers); /* the layers were copied to this place */
+void mw__live_layers_drop(mw_live_layers *live);                      /* all layers but the mesh go */
+void mw__live_layers_release(mw_live_layers *live);                   /* the layers too */
+size_t mw__live_layers_bytes(const mw_live_layers *live);             /* beside what mw__layers_bytes tells */
 
 /* After vertex v of the mesh came, went, or moved. False: a layer could not follow; it and those above are gone. */
 bool mw__live_layers_insert(mw_live_layers *live, uint32_t v, mw_point p);

@@ -23,6 +23,7 @@
 typedef struct mw_since {
     uint32_t vertices;         /* that there were */
     uint32_t edits, outsiders; /* since then: edits; vertices put outside of the extent that there was */
+    double low[2], high[2];    /* that */
 } mw_since;
 
 typedef struct mw_upkeep {

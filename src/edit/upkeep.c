@@ -1,0 +1,252 @@
+/* upkeep.c - keeping guide and indices near, edit by edit. */
+#include "edit/upkeep.h"
+
+#include "base/clock.h"
+
+/* --- building ---------------------------------------------------------------------------------------------------------- */
+
+static uint32_t live_vertices(const mw_fabric *f)
+{
+    return f->tiling->point_count - f->free_count;
+}
+
+static void begin_anew(mw_upkeep *u, mw_start_kind start)
+{
+    const mw_locator *l = u->locator;
+    u->since[start] = (mw_since){
+        .vertices = live_vertices(u->fabric), .low = {l->low[0], l->low[1]}, .high = {l->high[0], l->high[1]}};
+}
+
+/* Only layers are more than a room below builds. */
+static mw_status build(mw_upkeep *u, mw_index *fresh, mw_live_layers *live, const mw_index_options *options,
+                       mw_error *error)
+{
+    if (fresh->start != MW_START_LAYERS) return mw__index_build(fresh, u->locator, options, error);
+    const mw_layers_options own = {
+        .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
+    return mw__live_layers_create(live, &fresh->layers, u->fabric, &own, error);
+}
+
+static void release(mw_index *index, mw_live_layers *live)
+{
+    if (index->start == MW_START_LAYERS)
+        mw__live_layers_release(live);
+    else
+        mw__index_release(index);
+}
+
+mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_options *options, mw_error *error)
+{
+    static const mw_index_options defaults;
+    if (!mw_start_has_index(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
+    if (!options) options = &defaults;
+    mw_index fresh = {.start = start};
+    mw_live_layers live = {0};
+    double begin = mw__seconds();
+    mw_status status = build(u, &fresh, &live, options, error);
+    if (status) {
+        release(&fresh, &live);
+        return status;
+    }
+    fresh.seconds = mw__seconds() - begin;
+    release(&u->index[start], &u->live);
+    u->index[start] = fresh;
+    u->options[start] = *options;
+    if (start == MW_START_LAYERS) {
+        u->live = live;
+        mw__live_layers_attach(&u->live, &u->index[start].layers);
+    }
+    begin_anew(u, start);
+    return MW_OK;
+}
+
+/* The guide, and what else follows from a look at the tiling. Returns false when out of memory; the old guide stays then. */
+static bool build_guide(mw_upkeep *u)
+{
+    mw_index fresh;
+    mw__locator_survey(u->locator);
+    begin_anew(u, MW_START_AUTO);
+    bool done = mw__locator_guide(u->locator, &fresh);
+    if (done) {
+        mw__index_release(&u->locator->guide);
+        u->locator->guide = fresh;
+    } else {
+        mw__index_release(&fresh);
+    }
+    return done;
+}
+
+mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_fabric *fabric, mw_error *error)
+{
+    *u = (mw_upkeep){.locator = locator, .fabric = fabric};
+    return build_guide(u) ? MW_OK : mw__fail_memory(error);
+}
+
+void mw__upkeep_release(mw_upkeep *u)
+{
+    for (int start = 0; start < MW_START_COUNT; start++) release(&u->index[start], &u->live);
+    if (u->locator) mw__index_release(&u->locator->guide);
+    *u = (mw_upkeep){0};
+}
+
+size_t mw__upkeep_bytes(const mw_upkeep *u)
+{
+    size_t bytes = mw__index_bytes(&u->locator->guide) + mw__live_layers_bytes(&u->live);
+    for (int start = 0; start < MW_START_COUNT; start++) bytes += mw__index_bytes(&u->index[start]);
+    return bytes;
+}
+
+/* --- refreshing -------------------------------------------------------------------------------------------------------- */
+
+static bool is_due(const mw_since *s, uint32_t vertices)
+{
+    enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4 };
+    if (vertices > 2 * (uint64_t)s->vertices || 2 * (uint64_t)vertices < s->vertices) return true;
+    return s->edits > FEW + EDITS_PER_VERTEX * (uint64_t)s->vertices || s->outsiders > FEW + s->vertices / OUTSIDERS;
+}
+
+/* What follows edits: the guide, and indices. */
+static const mw_start_kind kept[] = {MW_START_AUTO, MW_START_GRID, MW_START_TWO_LEVEL_GRID, MW_START_LAYERS};
+enum { KEPT = sizeof kept / sizeof *kept };
+
+static bool is_built(const mw_upkeep *u, mw_start_kind start)
+{
+    return start == MW_START_AUTO || u->index[start].start == start;
+}
+
+/* Build anew what is built. Without memory the old one stays, and it is tried again when it is due again. */
+static void refresh(mw_upkeep *u, mw_start_kind start)
+{
+    if (!is_built(u, start)) return;
+    const mw_index_options options = u->options[start];
+    begin_anew(u, start);
+    bool done = start == MW_START_AUTO ? build_guide(u) : mw__upkeep_build(u, start, &options, NULL) == MW_OK;
+    u->refreshes += done;
+}
+
+/* --- grids ------------------------------------------------------------------------------------------------------------- */
+
+static void offer_to(mw_index *index, const mw_tiling *tiling, uint32_t t)
+{
+    if (index->start == MW_START_GRID) mw__grid_offer(&index->grid, tiling, t);
+    if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_offer(&index->two_level_grid, tiling, t);
+}
+
+static void offer(mw_upkeep *u, uint32_t t)
+{
+    const mw_tiling *tiling = u->fabric->tiling;
+    offer_to(&u->locator->guide, tiling, t);
+    offer_to(&u->index[MW_START_GRID], tiling, t);
+    offer_to(&u->index[MW_START_TWO_LEVEL_GRID], tiling, t);
+}
+
+static uint32_t corner_of(const mw_triangle *tile, uint32_t v)
+{
+    return tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
+}
+
+/* All tiles round a vertex that is in some: counter-clockwise, and where that ends at the hull, clockwise too. */
+static void offer_round(mw_upkeep *u, uint32_t v)
+{
+    const mw_triangle *tri = u->fabric->tiling->tri;
+    uint32_t first = mw__fabric_tile(u->fabric, v), t = first, link;
+    do {
+        offer(u, t);
+        link = tri[t].link[mw__prev(corner_of(&tri[t], v))];
+        t = mw__link_triangle(link);
+    } while (link != MW_NONE && t != first);
+    if (link != MW_NONE) return;
+    for (t = first; (link = tri[t].link[corner_of(&tri[t], v)]) != MW_NONE;) {
+        t = mw__link_triangle(link);
+        offer(u, t);
+    }
+}
+
+/* Numbers that were given out by an edit that was undone lead to a triangle that is there again. */
+static void redirect_names(mw_upkeep *u, const mw_before *first, size_t count)
+{
+    mw_tiling *tiling = u->fabric->tiling;
+    uint32_t heir = MW_NONE;
+    for (size_t i = 0; i < count && heir == MW_NONE; i++)
+        if (first[i].place < tiling->tri_count) heir = mw__tile_name(tiling, first[i].place);
+    for (size_t i = 0; i < count && heir != MW_NONE; i++) {
+        uint32_t number = first[i].tile.user & MW_USER_MASK;
+        if (first[i].tile.v[0] == MW_NONE || first[i].tile.user & MW_GHOST) continue;
+        if (number >= tiling->number_count) tiling->tile_of[number] = MW_GONE | heir;
+    }
+}
+
+/* --- layers ------------------------------------------------------------------------------------------------------------ */
+
+static bool is_there(const mw_fabric *f, uint32_t v)
+{
+    return v < f->tiling->point_count && f->tiling->owner[v] != MW_NONE;
+}
+
+/* What became of the vertex of an edit: the layers follow it. */
+static bool follow(mw_upkeep *u, const mw_step *step, bool undone)
+{
+    const mw_fabric *f = u->fabric;
+    uint32_t v = step->vertex;
+    bool there = is_there(f, v);
+    switch (step->edit.kind) {
+    case MW_EDIT_INSERT:
+        if (undone) return there || mw__live_layers_remove(&u->live, v);
+        if (f->vertex_count == step->vertices) return true; /* there was one already */
+        return mw__live_layers_insert(&u->live, v, f->tiling->point[v]);
+    case MW_EDIT_REMOVE:
+        return there ? mw__live_layers_insert(&u->live, v, f->tiling->point[v]) : mw__live_layers_remove(&u->live, v);
+    case MW_EDIT_MOVE: return mw__live_layers_move(&u->live, v, f->tiling->point[v]);
+    default: return true;
+    }
+}
+
+/* --- after an edit ----------------------------------------------------------------------------------------------------- */
+
+/* The locator's extent is that of all places where vertices are or were. An index knows but the one it was built for. */
+static void note_place(mw_upkeep *u, mw_point p)
+{
+    double *low = u->locator->low, *high = u->locator->high;
+    for (int i = 0; i < KEPT; i++) {
+        mw_since *s = &u->since[kept[i]];
+        s->outsiders += p.x < s->low[0] || p.y < s->low[1] || p.x > s->high[0] || p.y > s->high[1];
+    }
+    low[0] = fmin(low[0], p.x);
+    low[1] = fmin(low[1], p.y);
+    high[0] = fmax(high[0], p.x);
+    high[1] = fmax(high[1], p.y);
+}
+
+void mw__upkeep_edit(mw_upkeep *u, bool undone)
+{
+    const mw_fabric *f = u->fabric;
+    mw_tiling *tiling = f->tiling;
+    const mw_step *step = &f->step[f->step_count - 1];
+    const mw_before *first;
+    size_t count = mw__fabric_journal(f, &first);
+    if (step->edit.kind == MW_EDIT_VALUE) return;
+    u->locator->epoch++;
+    if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
+    if (undone) redirect_names(u, first, count);
+    for (size_t i = 0; i < count; i++)
+        if (first[i].place < tiling->tri_count) offer(u, first[i].place);
+    uint32_t v = step->vertex;
+    if (v != MW_NONE && is_there(f, v)) {
+        note_place(u, tiling->point[v]);
+        if (step->edit.kind == MW_EDIT_MOVE) offer_round(u, v);
+    }
+    if (v != MW_NONE && u->live.layers && !follow(u, step, undone)) refresh(u, MW_START_LAYERS);
+    for (int i = 0; i < KEPT; i++) {
+        u->since[kept[i]].edits++;
+        if (is_due(&u->since[kept[i]], live_vertices(f))) refresh(u, kept[i]);
+    }
+}
+
+void mw__upkeep_compact(mw_upkeep *u)
+{
+    u->locator->epoch = ((u->locator->epoch >> 32) + 1) << 32;
+    u->fabric->tiling->name_count = u->fabric->tiling->number_count;
+    mw__live_layers_drop(&u->live); /* they know vertices by places that are others now */
+    for (int i = 0; i < KEPT; i++) refresh(u, kept[i]);
+    refresh(u, MW_START_CURVE);
+}
