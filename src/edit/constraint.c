@@ -23,7 +23,7 @@ uint32_t mw__fabric_edge(const mw_fabric *f, uint32_t from, uint32_t to)
 static bool is_border(const mw_fabric *f, uint32_t half)
 {
     uint32_t other = mw__beyond(f, half);
-    if (other == MW_NONE) return !f->convex;
+    if (other == MW_NONE) return !f->convex && mw__is_users(f, mw__link_triangle(half));
     return mw__is_users(f, mw__link_triangle(half)) != mw__is_users(f, mw__link_triangle(other));
 }
 
@@ -63,6 +63,12 @@ static mw_status refuse_crossing(const mw_fabric *f, uint32_t half, mw_error *er
     uint32_t a = f->vertex_number[mw__corner(f, half)], b = f->vertex_number[mw__corner(f, mw__half_next(half))];
     return mw__fail_at(error, -1, a, "the constraint from vertex %" PRIu32 " to %" PRIu32 " or border is in the way", a,
                        b);
+}
+
+static mw_status refuse_leaving(const mw_fabric *f, uint32_t from, mw_error *error)
+{
+    return mw__fail_at(error, -1, f->vertex_number[from], "at vertex %" PRIu32 " the way leaves the mesh",
+                       f->vertex_number[from]);
 }
 
 /* --- the channel ------------------------------------------------------------------------------------------------------ */
@@ -171,8 +177,7 @@ static bool set_piece(mw_fabric *f, uint32_t half, bool fixed)
 static mw_status constrain_edge(mw_fabric *f, uint32_t half, mw_error *error)
 {
     bool border = is_border(f, half);
-    if (!border && !mw__is_users(f, mw__link_triangle(half)))
-        return mw__fail(error, MW_ERROR_INPUT, "the way leaves the mesh");
+    if (!border && !mw__is_users(f, mw__link_triangle(half))) return refuse_leaving(f, mw__corner(f, half), error);
     if (border || mw__is_fixed(f, half)) return MW_OK;
     return set_piece(f, half, true) && mw__legalise(f) ? MW_OK : mw__fail_memory(error);
 }
@@ -190,13 +195,12 @@ static mw_status release_edge(mw_fabric *f, uint32_t half, mw_error *error)
 static mw_status constrain_piece(mw_fabric *f, uint32_t from, uint32_t to, uint32_t *end, mw_error *error)
 {
     exit_of_star exit = leave(f, from, to);
-    if (exit.half == MW_NONE) return mw__fail(error, MW_ERROR_INPUT, "the way leaves the mesh");
+    if (exit.half == MW_NONE) return refuse_leaving(f, from, error);
     f->last = mw__link_triangle(exit.half);
     *end = exit.vertex;
     uint32_t half = exit.half;
     if (*end == MW_NONE) {
-        if (!mw__is_users(f, mw__link_triangle(half)))
-            return mw__fail(error, MW_ERROR_INPUT, "the way leaves the mesh");
+        if (!mw__is_users(f, mw__link_triangle(half))) return refuse_leaving(f, from, error);
         mw_status status = dig(f, from, to, exit.half, end, &half, error);
         if (status) return status;
     }

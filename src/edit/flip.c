@@ -79,7 +79,7 @@ mw_status mw__fabric_mend(mw_fabric *f, mw_error *error)
 mw_status mw__fabric_flip(mw_fabric *f, uint32_t from, uint32_t to, mw_error *error)
 {
     uint32_t half = mw__fabric_edge(f, from, to), number[2] = {f->vertex_number[from], f->vertex_number[to]};
-    if (half == MW_NONE)
+    if (half == MW_NONE || (!mw__is_users(f, mw__link_triangle(half)) && !mw__is_fixed(f, half)))
         return mw__fail_at(error, -1, number[0], "vertices %" PRIu32 " and %" PRIu32 " are not joined by an edge",
                            number[0], number[1]);
     uint32_t other = mw__beyond(f, half);

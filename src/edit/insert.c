@@ -77,11 +77,22 @@ static mw_status halve(mw_fabric *f, uint32_t half, uint32_t v, uint32_t *more, 
     return mw__push(f, mw__link(t, 0)) && mw__push(f, mw__link(*more, 0)) ? MW_OK : mw__fail_memory(error);
 }
 
+/* Of the two sides of an edge, that of the lower number: which one the walk came to must not show. */
+static uint32_t lower_side(const mw_fabric *f, uint32_t half)
+{
+    uint32_t other = mw__beyond(f, half);
+    if (other == MW_NONE) return half;
+    uint32_t one = f->tiling->tri[mw__link_triangle(half)].user & ~MW_FLIPPED;
+    uint32_t two = f->tiling->tri[mw__link_triangle(other)].user & ~MW_FLIPPED;
+    return one <= two ? half : other;
+}
+
 static mw_status split_edge(mw_fabric *f, uint32_t half, uint32_t v, mw_error *error)
 {
+    half = lower_side(f, half);
     uint32_t other = mw__beyond(f, half), t = mw__link_triangle(half), t1, n1;
     bool users = mw__is_users(f, t),
-         border = other == MW_NONE ? !f->convex : users != mw__is_users(f, mw__link_triangle(other));
+         border = other == MW_NONE ? !f->convex && users : users != mw__is_users(f, mw__link_triangle(other));
     if (!users && !border) return refuse_outside(f->tiling->point[v], error);
     if (mw__is_fixed(f, half) && !border) f->fixed_count++;
     mw_status status = halve(f, half, v, &t1, error);

@@ -40,10 +40,10 @@ static mw_status shrink_hull(mw_fabric *f, const mw_star *star, mw_error *error)
 {
     mw_pool pool = {.tile = f->pool, .count = star->n};
     size_t left = star->n;
-    uint32_t heir = number_beside(f, star->n);
+    uint32_t heir = number_beside(f, star->n), number = f->step[f->step_count - 1].edit.vertex;
     if (!mw__pool_begin(f, &pool) || !mw__cut_chain(f, f->rim, &left, &pool)) return mw__fail_memory(error);
     if (f->tiling->tri_count == pool.count - pool.used)
-        return mw__fail(error, MW_ERROR_INPUT, "without the vertex no triangle would be left");
+        return mw__fail_at(error, -1, number, "without vertex %" PRIu32 " no triangle would be left", number);
     for (size_t i = 0; i < left; i++) {
         uint32_t beyond = f->rim[i].beyond;
         if (beyond == MW_NONE) continue;
