@@ -1,7 +1,7 @@
 /* editor.c - making an editor, and carrying out edits. */
 #include "edit/editor.h"
 
-#include "edit/stitch.h"
+#include "edit/rim.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -159,34 +159,44 @@ static bool field_room(mw_editor *editor)
     return true;
 }
 
-/* The vertex of tile t that is nearest to q: its number. */
-static uint32_t nearest_corner(const mw_fabric *f, uint32_t t, mw_point q)
-{
-    const uint32_t *v = f->tiling->tri[t].v;
-    const mw_point *p = f->tiling->point;
-    uint32_t best = v[0];
-    for (int k = 1; k < 3; k++)
-        if (mw__square_length(p[v[k]], q) < mw__square_length(p[best], q)) best = v[k];
-    return f->vertex_number[best];
-}
-
-/* Give the next vertex, at q, its values: interpolated in the mesh as it is before the edit; outside, those of a vertex near by. */
+/* Give the next vertex, at q, its values: interpolated in the mesh as it is before the edit. */
 static void set_values(mw_editor *editor, const mw_edit *edit)
 {
     mw_fabric *f = &editor->fabric;
     mw_mesh *view = &editor->view;
     mw_location at = mw_locate(&editor->locator, &editor->cursor, edit->x, edit->y);
     f->last = editor->cursor.last;
-    uint32_t corner = nearest_corner(f, f->last, (mw_point){edit->x, edit->y});
+    editor->borrows = at.triangle == MW_NONE;
     for (uint32_t i = 0; i < view->field_count; i++) {
         double *values = view->field[i].values, *value = &values[f->vertex_count];
         if (i == edit->field && !isnan(edit->value))
             *value = edit->value;
-        else if (at.triangle == MW_NONE)
-            *value = values[corner];
         else
             mw_interpolate(view, values, &at, 1, value);
     }
+}
+
+/* Of vertices v (MW_NONE: none) and w the one nearer to p, of equally near ones that of the lower number. */
+static uint32_t nearer(const mw_fabric *f, mw_point p, uint32_t v, uint32_t w)
+{
+    if (v == MW_NONE) return w;
+    double one = mw__square_length(f->tiling->point[v], p), two = mw__square_length(f->tiling->point[w], p);
+    return two < one || (two == one && f->vertex_number[w] < f->vertex_number[v]) ? w : v;
+}
+
+/* Beyond the hull that there was a vertex has the values of the nearest that is joined to it. */
+static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t vertex)
+{
+    const mw_fabric *f = &editor->fabric;
+    bool open;
+    uint32_t v = f->vertex_place[vertex], best = MW_NONE;
+    for (uint32_t at = mw__star_first(f, v, &open); at != MW_NONE; at = mw__beyond(f, mw__half_prev(at))) {
+        best = nearer(f, f->tiling->point[v], best, mw__corner(f, mw__half_next(at)));
+        best = nearer(f, f->tiling->point[v], best, mw__corner(f, mw__half_prev(at)));
+    }
+    for (uint32_t i = 0; i < editor->view.field_count; i++)
+        if (i != edit->field || isnan(edit->value))
+            editor->view.field[i].values[vertex] = editor->view.field[i].values[f->vertex_number[best]];
 }
 
 /* --- edits ------------------------------------------------------------------------------------------------------------ */
@@ -202,6 +212,7 @@ static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *chang
     mw_fabric *f = &editor->fabric;
     mw_point q = {edit->x, edit->y};
     uint32_t vertex = MW_NONE, before = f->vertex_count, t;
+    editor->borrows = false;
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     mw_cursor *cursor = &editor->cursor;
     cursor->last = f->last;
@@ -285,12 +296,12 @@ static bool log_room(mw_editor *editor)
 static bool report_room(mw_editor *editor)
 {
     const mw_before *first;
-    size_t count = 3 * mw__fabric_journal(&editor->fabric, &first);
-    if (count <= editor->changed_room) return true;
-    mw_changed_triangle *changed = mw__realloc(editor->changed, count + count / 2, sizeof *changed);
+    size_t count = 3 * mw__fabric_journal(&editor->fabric, &first), room = count + count / 2 + 16;
+    if (editor->changed && count <= editor->changed_room) return true;
+    mw_changed_triangle *changed = mw__realloc(editor->changed, room, sizeof *changed);
     if (!changed) return false;
     editor->changed = changed;
-    editor->changed_room = count + count / 2;
+    editor->changed_room = room;
     return true;
 }
 
@@ -316,6 +327,7 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
         mw__editor_look(editor);
         return status;
     }
+    if (own.vertex_made && editor->borrows) borrow_values(editor, edit, own.vertex);
     keep(editor, edit);
     if (change) {
         *change = own;

@@ -14,6 +14,7 @@ struct mw_editor {
     size_t field_room; /* values of each field there is room for                        */
     mw_upkeep upkeep;
     mw_cursor cursor; /* finds where to insert */
+    bool borrows;     /* the vertex inserted last lies outside: it has the values of another one */
     bool keeps_log;
     size_t undo, undoable;
     mw_edit *log;
