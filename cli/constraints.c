@@ -46,7 +46,7 @@ static int stem_of(const char *path, const char *const *endings)
     return (int)length;
 }
 
-bool constraints_share_node(const char *path, const char *output)
+static bool share_node(const char *path, const char *output)
 {
     static const char *const poly[] = {".poly", ".poly.gz", NULL}, *const node[] = {".node", ".ele", NULL};
     char beside[4096], written[4096];
@@ -55,6 +55,13 @@ bool constraints_share_node(const char *path, const char *output)
     return snprintf(beside, sizeof beside, "%.*s.node", stem, path) < size &&
            snprintf(written, sizeof written, "%.*s.node", stem_of(output, node), output) < size &&
            files_same_output(beside, written);
+}
+
+int constraints_check_node(const char *path, const char *output)
+{
+    if (!share_node(path, output)) return 0;
+    complain("%s: its points may stand in the .node file that would be written: choose another output", path);
+    return END_USAGE;
 }
 
 /* About where two segments cross. */

@@ -11,6 +11,10 @@ _meshwalk_options() {
         triangulate) echo "--constraints --keep --split --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details $query $stream $common" ;;
         sample) echo "--field --outside $query $stream $common" ;;
+        edit)
+            echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
+            echo "--start --cells --layers --format --stats --json $common"
+            ;;
         star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
         probe)
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
@@ -62,6 +66,7 @@ _meshwalk_names() {
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
         --keep) echo 'auto hull inside' ;;
+        --delaunay) echo 'auto make never' ;;
         --class)
             echo 'never-classified unclassified ground low-vegetation medium-vegetation high-vegetation building'
             echo 'low-noise water rail road wire-guard conductor tower connector bridge-deck high-noise'
@@ -79,7 +84,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample star probe walk bench --help --version'
+        names='info check triangulate locate sample edit star probe walk bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
@@ -94,7 +99,7 @@ _meshwalk() {
     fi
     case $before in
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field) return ;;
-        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds) return ;;
+        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

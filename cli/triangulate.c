@@ -258,11 +258,8 @@ static int check_settings(const triangulate_settings *s, const char *points)
     if (end) return end;
     end = mesh_output_check("triangulate", output, s->format);
     if (end) return end;
-    if (s->constraints && mesh_output_is_node(output, s->format) && constraints_share_node(s->constraints, output)) {
-        complain("%s: its points may stand in the .node file that would be written: choose another output",
-                 s->constraints);
-        return END_USAGE;
-    }
+    if (s->constraints && mesh_output_is_node(output, s->format)) end = constraints_check_node(s->constraints, output);
+    if (end) return end;
     return files_check(output, inputs, points && s->constraints ? 2 : 1);
 }
 

@@ -3,7 +3,7 @@
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 
-commands=(info check triangulate locate sample star probe walk bench)
+commands=(info check triangulate locate sample edit star probe walk bench)
 
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
@@ -34,6 +34,14 @@ run locate --any=yes a b; refused 2 "'--any' takes no argument"
 run locate a; refused 2 "wants MESH POINTS, not 1 argument;"
 run locate a b c; refused 2 "wants MESH POINTS, not 3 arguments"
 run locate '' b; refused 2 "empty name"
+run edit a b; refused 2 "edit: -o MESH is missing"
+run edit a -o b.off; refused 2 "wants MESH EDITS -o OUT, not 1 argument"
+run edit a b -o -; refused 2 "edit: a mesh on standard output wants --format"
+run edit a b -o c; refused 2 "c: the name tells no format"
+run edit - - -o c.off; refused 2 "can be read once"
+run edit a b -o c.off --delaunay mak; refused 2 "unknown way of --delaunay 'mak'; did you mean 'make'\?"
+run edit a b -o c.off --cells 1073741825; refused 2 "'--cells' wants at most 2\^30"
+run edit a b -o c.off --undo -1; refused 2 "'--undo' wants a whole number"
 run info a b; refused 2 "wants MESH, not 2 arguments"
 run locate - -; refused 2 "can be read once"
 run triangulate a; refused 2 "-o MESH is missing"
@@ -161,6 +169,14 @@ for option in kind keep; do
     holds "help and completion of --$option differ" \
         test "$(complete_words meshwalk triangulate --$option '')" == "$(listed $option)"
     holds "the help lists names of --$option" test -n "$(listed $option)"
+done
+run edit --help
+holds "help and completion of edit --format differ" \
+    test "$(complete_words meshwalk edit --format '')" == "$(row format)"
+for option in delaunay walk start; do
+    holds "help and completion of edit --$option differ" \
+        test "$(complete_words meshwalk edit --$option '')" == "$(listed $option)"
+    holds "the help lists names of edit --$option" test -n "$(listed $option)"
 done
 run bench --help
 for option in format enclose; do
