@@ -10,21 +10,78 @@
 
 /* --- from a tiling ---------------------------------------------------------------------------------------------------- */
 
-/* Copies of a mesh's arrays, where the tiling has borrowed them. */
-static bool own_arrays(mw_tiling *tiling)
+/* A quarter more, so that n additions copy O(n) in all. */
+static size_t enlarged(size_t room)
 {
-    if (!tiling->borrowed) return true;
-    mw_triangle *tri = mw__alloc_lines(tiling->tri_count, sizeof *tri);
-    mw_point *point = mw__alloc_lines(tiling->point_count, sizeof *point);
-    if (!tri || !point) {
-        free(tri);
-        free(point);
+    return room + room / 4 + 16;
+}
+
+/* An array that begins with a cache line, which realloc would not keep, in a larger room; the old one goes unless it is borrowed. */
+static void *enlarge_lines(void *old, bool borrowed, size_t count, size_t room, size_t size)
+{
+    void *more = mw__alloc_lines(room, size);
+    if (!more) return NULL;
+    memcpy(more, old, count * size);
+    if (!borrowed) free(old);
+    return more;
+}
+
+static bool more_tiles(mw_fabric *f)
+{
+    mw_tiling *tiling = f->tiling;
+    uint32_t room = (uint32_t)enlarged(tiling->tri_count);
+    uint8_t *mark = mw__realloc(f->mark, room, sizeof *mark);
+    if (!mark) return false;
+    f->mark = mark;
+    mw_triangle *tri = enlarge_lines(tiling->tri, tiling->borrowed, tiling->tri_count, room, sizeof *tri);
+    if (!tri) return false;
+    tiling->tri = tri;
+    memset(mark + f->tile_room, 0, room - f->tile_room);
+    f->tile_room = room;
+    return true;
+}
+
+static bool more_numbers(mw_fabric *f)
+{
+    size_t room = enlarged(f->number_room);
+    uint32_t *tile_of = mw__realloc(f->tiling->tile_of, room, sizeof *tile_of);
+    if (!tile_of) return false;
+    f->tiling->tile_of = tile_of;
+    f->number_room = (uint32_t)room;
+    return true;
+}
+
+static bool more_points(mw_fabric *f)
+{
+    mw_tiling *tiling = f->tiling;
+    size_t room = enlarged(tiling->point_count);
+    uint32_t *number = mw__realloc(f->vertex_number, room, sizeof *number);
+    if (!number) return false;
+    f->vertex_number = number;
+    uint32_t *owner = mw__realloc(tiling->owner, room, sizeof *owner);
+    if (!owner) return false;
+    tiling->owner = owner;
+    mw_point *point = enlarge_lines(tiling->point, tiling->borrowed, tiling->point_count, room, sizeof *point);
+    if (!point) return false;
+    tiling->point = point;
+    f->point_room = (uint32_t)room;
+    return true;
+}
+
+/* The tiling's arrays, or copies of the mesh's where it has borrowed them, with room for more. */
+static bool own_arrays(mw_fabric *f)
+{
+    mw_tiling *tiling = f->tiling;
+    mw_triangle *tri = tiling->tri;
+    bool borrowed = tiling->borrowed;
+    if (!more_tiles(f)) return false;
+    if (!more_points(f)) {
+        if (borrowed) { /* neither is the tiling's */
+            free(tiling->tri);
+            tiling->tri = tri;
+        }
         return false;
     }
-    memcpy(tri, tiling->tri, tiling->tri_count * sizeof *tri);
-    memcpy(point, tiling->point, tiling->point_count * sizeof *point);
-    tiling->tri = tri;
-    tiling->point = point;
     tiling->borrowed = false;
     return true;
 }
@@ -55,14 +112,12 @@ static mw_status check(const mw_tiling *tiling, const mw_mesh *mesh, mw_error *e
 static bool make_numbers(mw_fabric *f, const mw_mesh *mesh)
 {
     mw_tiling *tiling = f->tiling;
-    tiling->number_count = f->number_room = mesh->tri_count;
-    f->vertex_count = f->vertex_room = f->point_room = tiling->point_count;
-    f->tile_room = tiling->tri_count;
-    tiling->tile_of = mw__alloc(tiling->number_count, sizeof *tiling->tile_of);
-    f->vertex_place = mw__alloc(f->vertex_count, sizeof *f->vertex_place);
-    f->vertex_number = mw__alloc(f->vertex_count, sizeof *f->vertex_number);
-    f->mark = mw__calloc(f->tile_room, sizeof *f->mark);
-    if (!tiling->tile_of || !f->vertex_place || !f->vertex_number || !f->mark) return false;
+    f->number_room = mesh->tri_count;
+    f->vertex_room = (uint32_t)enlarged(tiling->point_count);
+    f->vertex_place = mw__alloc(f->vertex_room, sizeof *f->vertex_place);
+    if (!f->vertex_place || !more_numbers(f)) return false;
+    tiling->number_count = mesh->tri_count;
+    f->vertex_count = tiling->point_count;
     for (uint32_t t = 0; t < tiling->tri_count; t++)
         if (!(tiling->tri[t].user & MW_GHOST)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
     for (uint32_t v = 0; v < f->vertex_count; v++) {
@@ -89,7 +144,7 @@ mw_status mw__fabric_create(mw_fabric *f, mw_tiling *tiling, const mw_mesh *mesh
     *f = (mw_fabric){.tiling = tiling, .convex = tiling->ghost_count == 0};
     mw_status status = check(tiling, mesh, error);
     if (status) return status;
-    if (!own_arrays(tiling) || !make_numbers(f, mesh)) return mw__fail_memory(error);
+    if (!own_arrays(f) || !make_numbers(f, mesh)) return mw__fail_memory(error);
     fix_border(f);
     return MW_OK;
 }
@@ -120,65 +175,7 @@ size_t mw__fabric_bytes(const mw_fabric *f)
            f->rim_room * (sizeof *f->rim + sizeof *f->pool);
 }
 
-/* --- room ------------------------------------------------------------------------------------------------------------- */
-
-/* A quarter more, so that n additions copy O(n) in all. */
-static size_t enlarged(size_t room)
-{
-    return room + room / 4 + 16;
-}
-
-/* The same for an array that begins with a cache line, which realloc would not keep. */
-static void *enlarge_lines(void *old, size_t count, size_t room, size_t size)
-{
-    void *more = mw__alloc_lines(room, size);
-    if (!more) return NULL;
-    memcpy(more, old, count * size);
-    free(old);
-    return more;
-}
-
-static bool more_tiles(mw_fabric *f)
-{
-    mw_tiling *tiling = f->tiling;
-    uint32_t room = (uint32_t)enlarged(f->tile_room);
-    uint8_t *mark = mw__realloc(f->mark, room, sizeof *mark);
-    if (!mark) return false;
-    f->mark = mark;
-    mw_triangle *tri = enlarge_lines(tiling->tri, tiling->tri_count, room, sizeof *tri);
-    if (!tri) return false;
-    tiling->tri = tri;
-    memset(mark + f->tile_room, 0, room - f->tile_room);
-    f->tile_room = room;
-    return true;
-}
-
-static bool more_numbers(mw_fabric *f)
-{
-    size_t room = enlarged(f->number_room);
-    uint32_t *tile_of = mw__realloc(f->tiling->tile_of, room, sizeof *tile_of);
-    if (!tile_of) return false;
-    f->tiling->tile_of = tile_of;
-    f->number_room = (uint32_t)room;
-    return true;
-}
-
-static bool more_points(mw_fabric *f)
-{
-    mw_tiling *tiling = f->tiling;
-    size_t room = enlarged(f->point_room);
-    uint32_t *number = mw__realloc(f->vertex_number, room, sizeof *number);
-    if (!number) return false;
-    f->vertex_number = number;
-    uint32_t *owner = mw__realloc(tiling->owner, room, sizeof *owner);
-    if (!owner) return false;
-    tiling->owner = owner;
-    mw_point *point = enlarge_lines(tiling->point, tiling->point_count, room, sizeof *point);
-    if (!point) return false;
-    tiling->point = point;
-    f->point_room = (uint32_t)room;
-    return true;
-}
+/* --- scratch, and the journal ------------------------------------------------------------------------------------------------------------- */
 
 bool mw__stack_room(mw_fabric *f, size_t more)
 {

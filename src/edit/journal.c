@@ -62,10 +62,9 @@ static void find_bereft(mw_fabric *f, const mw_before *first, size_t count)
     for (size_t i = 0; i < count; i++) {
         if (!is_users(&first[i].tile)) continue;
         uint32_t number = first[i].tile.user & MW_USER_MASK;
-        const mw_triangle *now = tile_now(f->tiling, number);
         for (int k = 0; k < 3; k++) {
             uint32_t v = first[i].tile.v[k];
-            if (owner[v] != number || has_corner(now, v)) continue;
+            if (owner[v] != number || has_corner(tile_now(f->tiling, number), v)) continue;
             owner[v] = MW_NONE;
             f->stack[f->stack_count++] = v;
         }

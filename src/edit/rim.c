@@ -38,10 +38,11 @@ uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open)
     }
 }
 
-bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
+/* Steps round v from its edge `first` on, until they close or end at the hull. */
+static bool collect_from(mw_fabric *f, uint32_t first, mw_star *star)
 {
+    uint32_t at = first, link;
     *star = (mw_star){0};
-    uint32_t first = mw__star_first(f, v, &star->open), at = first, link;
     do {
         if (!mw__rim_room(f, star->n + 2)) return false;
         uint32_t across = mw__half_next(at), last = mw__half_prev(at);
@@ -53,10 +54,19 @@ bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
         f->pool[star->n++] = mw__link_triangle(at);
         f->rim[star->n].vertex = mw__corner(f, last);
         link = mw__beyond(f, last);
-        if (link == MW_NONE && mw__is_fixed(f, last) && star->spokes++ < 2) star->spoke[star->spokes - 1] = star->n;
+        star->open = link == MW_NONE;
+        if (star->open && mw__is_fixed(f, last) && star->spokes++ < 2) star->spoke[star->spokes - 1] = star->n;
         at = link; /* which begins at v */
     } while (link != MW_NONE && link != first);
     return true;
+}
+
+bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
+{
+    uint32_t tile = mw__fabric_tile(f, v);
+    bool open;
+    if (!collect_from(f, mw__link(tile, corner_of(&f->tiling->tri[tile], v)), star)) return false;
+    return !star->open || collect_from(f, mw__star_first(f, v, &open), star);
 }
 
 /* --- tiles from the pool ---------------------------------------------------------------------------------------------- */
