@@ -114,6 +114,21 @@ size_t mw__live_layers_bytes(const mw_live_layers *live)
     return bytes;
 }
 
+static uint32_t vertices_of(const mw_live_layers *live, uint32_t i)
+{
+    if (i == 0) return live->layers->vertices;
+    return live->layers->layer[i - 1].tiling.point_count - live->layers->layer[i - 1].vacant;
+}
+
+bool mw__live_layers_even(const mw_live_layers *live)
+{
+    for (uint32_t i = 1; i < live->layers->count; i++) {
+        double expected = fmax(3, live->ratio * vertices_of(live, i - 1)), size = vertices_of(live, i);
+        if (size > 2 * expected || 2 * size < expected) return false;
+    }
+    return true;
+}
+
 /* --- following a vertex ------------------------------------------------------------------------------------------------ */
 
 /* Room for entry `i`; new ones are MW_NONE. */

@@ -27,6 +27,9 @@ void mw__live_layers_drop(mw_live_layers *live);                      /* all lay
 void mw__live_layers_release(mw_live_layers *live);                   /* the layers too */
 size_t mw__live_layers_bytes(const mw_live_layers *live);             /* beside what mw__layers_bytes tells */
 
+/* Has each layer between half and twice as many vertices as the chance of them lets expect? */
+bool mw__live_layers_even(const mw_live_layers *live);
+
 /* After vertex v of the mesh came, went, or moved. False: a layer could not follow; it and those above are gone. */
 bool mw__live_layers_insert(mw_live_layers *live, uint32_t v, mw_point p);
 bool mw__live_layers_remove(mw_live_layers *live, uint32_t v);

@@ -12,9 +12,7 @@ static uint32_t live_vertices(const mw_fabric *f)
 
 static void begin_anew(mw_upkeep *u, mw_start_kind start)
 {
-    const mw_locator *l = u->locator;
-    u->since[start] = (mw_since){
-        .vertices = live_vertices(u->fabric), .low = {l->low[0], l->low[1]}, .high = {l->high[0], l->high[1]}};
+    u->since[start] = (mw_since){.vertices = live_vertices(u->fabric)};
 }
 
 /* Only layers are more than a room below builds. */
@@ -203,14 +201,19 @@ static bool follow(mw_upkeep *u, const mw_step *step, bool undone)
 
 /* --- after an edit ----------------------------------------------------------------------------------------------------- */
 
-/* The locator's extent is that of all places where vertices are or were. An index knows but the one it was built for. */
+static bool covers(const mw_index *index, mw_point p)
+{
+    if (index->start == MW_START_GRID) return mw__lattice_covers(&index->grid.lattice, p);
+    return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_covers(&index->two_level_grid, p);
+}
+
+/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
 static void note_place(mw_upkeep *u, mw_point p)
 {
     double *low = u->locator->low, *high = u->locator->high;
-    for (int i = 0; i < KEPT; i++) {
-        mw_since *s = &u->since[kept[i]];
-        s->outsiders += p.x < s->low[0] || p.y < s->low[1] || p.x > s->high[0] || p.y > s->high[1];
-    }
+    u->since[MW_START_AUTO].outsiders += !covers(&u->locator->guide, p);
+    u->since[MW_START_GRID].outsiders += !covers(&u->index[MW_START_GRID], p);
+    u->since[MW_START_TWO_LEVEL_GRID].outsiders += !covers(&u->index[MW_START_TWO_LEVEL_GRID], p);
     low[0] = fmin(low[0], p.x);
     low[1] = fmin(low[1], p.y);
     high[0] = fmax(high[0], p.x);
@@ -235,7 +238,8 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
         note_place(u, tiling->point[v]);
         if (step->edit.kind == MW_EDIT_MOVE) offer_round(u, v);
     }
-    if (v != MW_NONE && u->live.layers && !follow(u, step, undone)) refresh(u, MW_START_LAYERS);
+    if (v != MW_NONE && u->live.layers && !(follow(u, step, undone) && mw__live_layers_even(&u->live)))
+        refresh(u, MW_START_LAYERS);
     for (int i = 0; i < KEPT; i++) {
         u->since[kept[i]].edits++;
         if (is_due(&u->since[kept[i]], live_vertices(f))) refresh(u, kept[i]);

@@ -9,8 +9,9 @@
  *   layers   follow each vertex [Devillers 2002]: see live_layers.h.
  *   a curve  holds places of tiles, which say less and less. It is built anew only on request.
  *
- * Guide, grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built, or half; when a quarter
- * as many were put outside the extent that they were built for; and after four edits for each vertex there was. That is O(1) for each edit.
+ * Guide, grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built, or half; after four edits
+ * for each vertex there was; grids also when a quarter as many vertices were put beyond their rims; layers when one has half or twice as
+ * many vertices as its chance of them lets expect. That is O(1) for each edit.
  * Where memory is short the old ones stay, and layers that cannot follow are dropped: all of this is only a guide, no answer depends on it. */
 #ifndef MW_SRC_UPKEEP_H
 #define MW_SRC_UPKEEP_H
@@ -22,8 +23,7 @@
 /* When was it built? */
 typedef struct mw_since {
     uint32_t vertices;         /* that there were */
-    uint32_t edits, outsiders; /* since then: edits; vertices put outside of the extent that there was */
-    double low[2], high[2];    /* that */
+    uint32_t edits, outsiders; /* since then: edits; vertices put where it has no cells */
 } mw_since;
 
 typedef struct mw_upkeep {

@@ -41,6 +41,13 @@ static MW_INLINE double mw__lattice_at(const mw_lattice *lattice, int k, uint32_
     return lattice->middle[k] + away;
 }
 
+/* Does p lie in a cell, and not beyond the rim? */
+static MW_INLINE bool mw__lattice_covers(const mw_lattice *lattice, mw_point p)
+{
+    double x = (p.x - lattice->middle[0]) * lattice->scale[0], y = (p.y - lattice->middle[1]) * lattice->scale[1];
+    return fabs(x) <= lattice->half[0] && fabs(y) <= lattice->half[1];
+}
+
 /* The middle of a cell. */
 static MW_INLINE mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell)
 {

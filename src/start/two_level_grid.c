@@ -116,20 +116,31 @@ bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
     return done;
 }
 
-/* An empty cell near a crowded one had the grid of that; now it gets a tile of its own. */
+/* Is the grid that a cell has its own? An empty cell may have that of a crowded one near by. */
+static bool is_own(const mw_two_level_grid *grid, uint32_t cell, const mw_fine_grid *fine)
+{
+    return mw__lattice_cell(&grid->lattice, (mw_point){fine->lattice.middle[0], fine->lattice.middle[1]}) == cell;
+}
+
 void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t)
 {
     uint32_t cell = mw__lattice_cell(&grid->lattice, mw__tile_middle(tiling, t)), entry = grid->coarse[cell];
-    if (!(entry & MW_FINE)) {
+    const mw_fine_grid *fine = entry & MW_FINE ? &grid->grid[entry - MW_FINE] : NULL;
+    if (!fine)
         mw__lattice_offer(&grid->lattice, grid->coarse, tiling, t);
-        return;
-    }
-    const mw_fine_grid *fine = &grid->grid[entry - MW_FINE];
-    mw_point middle = {fine->lattice.middle[0], fine->lattice.middle[1]};
-    if (mw__lattice_cell(&grid->lattice, middle) == cell)
+    else if (is_own(grid, cell, fine))
         mw__lattice_offer(&fine->lattice, grid->fine + fine->first, tiling, t);
     else
         grid->coarse[cell] = mw__tile_name(tiling, t);
+}
+
+bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p)
+{
+    if (!mw__lattice_covers(&grid->lattice, p)) return false;
+    uint32_t cell = mw__lattice_cell(&grid->lattice, p), entry = grid->coarse[cell];
+    if (!(entry & MW_FINE)) return true;
+    const mw_fine_grid *fine = &grid->grid[entry - MW_FINE];
+    return is_own(grid, cell, fine) && mw__lattice_covers(&fine->lattice, p);
 }
 
 void mw__two_level_grid_release(mw_two_level_grid *grid)
