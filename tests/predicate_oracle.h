@@ -172,7 +172,7 @@ __attribute__((unused)) static int oracle_compare_distance_to(oracle *o, const d
 /* Does value stand for the exact number result * 2^exponent: the same sign, and a relative error of at most 2^-50 where
  * the number is within the normal doubles? Beyond them, DBL_MAX and at most DBL_MIN are what is expected, up to the
  * same error. */
-static bool oracle_agrees(oracle *o, long exponent, double value)
+__attribute__((unused)) static bool oracle_agrees(oracle *o, long exponent, double value)
 {
     if (oracle_sign(mpz_sgn(o->result)) != (value > 0) - (value < 0)) return false;
     if (value == 0) return true;

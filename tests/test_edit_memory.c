@@ -1,0 +1,205 @@
+/* test_edit_memory.c - every allocation of an editor fails once: the call says so, nothing has changed, and the same call
+ * succeeds afterwards. */
+/* wrap: malloc calloc realloc aligned_alloc */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "edit_twin.h"
+#include "memory.h"
+
+/* --- calls that fail as often as they allocate ------------------------------------------------------------------------------ */
+
+typedef struct call {
+    twin *t;
+    const mw_edit *edit; /* NULL: undo */
+    mw_change change;
+    mw_editor_options *options;
+    mw_editor *made;
+    mw_mesh *mesh;
+} call;
+
+typedef mw_status job(call *c, mw_error *error);
+
+static long failures_seen;
+
+/* Let allocation 0, 1, 2, ... of the job fail until it gets through; it may also do without. */
+static mw_status exhaust(job *run, call *c)
+{
+    for (long k = 0;; k++) {
+        mw_error error = {0};
+        allocations_left = k;
+        mw_status status = run(c, &error);
+        bool failed = allocations_left < 0;
+        allocations_left = -1;
+        if (status != MW_ERROR_MEMORY) return status;
+        REQUIRE(failed);
+        REQUIRE(error.status == MW_ERROR_MEMORY && strcmp(error.message, "out of memory") == 0);
+        if (c->t) check_same(c->t);
+        failures_seen++;
+    }
+}
+
+static mw_status edit_job(call *c, mw_error *error)
+{
+    return mw_edit_apply(c->t->editor, c->edit, &c->change, error);
+}
+
+static mw_status undo_job(call *c, mw_error *error)
+{
+    return mw_edit_undo(c->t->editor, &c->change, error);
+}
+
+static mw_status create_job(call *c, mw_error *error)
+{
+    return mw_editor_create(c->mesh, c->options, &c->made, error);
+}
+
+static mw_status mesh_job(call *c, mw_error *error)
+{
+    mw_status status = mw_editor_mesh(c->t->editor, NULL, NULL, &c->mesh, error);
+    REQUIRE((c->mesh != NULL) == (status == MW_OK));
+    return status;
+}
+
+static mw_status compact_job(call *c, mw_error *error)
+{
+    return mw_editor_compact(c->t->editor, NULL, NULL, error);
+}
+
+static mw_status index_job(call *c, mw_error *error)
+{
+    for (int start = 0; start < MW_START_COUNT; start++) {
+        const mw_index *index = NULL;
+        if (!mw_start_has_index((mw_start_kind)start)) continue;
+        mw_status status = mw_editor_index(c->t->editor, (mw_start_kind)start, NULL, &index, error);
+        if (status) return status;
+        REQUIRE(index != NULL);
+    }
+    return MW_OK;
+}
+
+static mw_status constraints_job(call *c, mw_error *error)
+{
+    size_t count;
+    uint32_t *edge = mw_editor_constraints(c->t->editor, &count);
+    if (!edge) return mw__fail_memory(error);
+    REQUIRE(count == c->t->fixed_count);
+    free(edge);
+    return MW_OK;
+}
+
+/* --- sessions ------------------------------------------------------------------------------------------------------------------ */
+
+static mw_mesh *square_mesh(bool hole)
+{
+    uint64_t random = 3;
+    arrays a = grid_mesh(4, 0, &random);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < a.triangle_count; i++)
+        if (!hole || i / 2 != 5) memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 12);
+    a.triangle_count = kept;
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    arrays_free(&a);
+    return mesh;
+}
+
+static mw_edit any_edit(const twin *t, uint64_t *random, uint32_t step, uint32_t steps)
+{
+    uint32_t chance = mw__random_below(random, 20), growing = step < steps / 2;
+    mw_edit e = {.vertex = mw__random_below(random, t->vertex_range),
+                 .other = mw__random_below(random, t->vertex_range)};
+    e.x = mw__random_below(random, 81) / 16.0 - 0.5;
+    e.y = mw__random_below(random, 81) / 16.0 - 0.5;
+    e.value = mw__random_below(random, 2) ? (double)NAN : step;
+    e.kind = chance < (growing ? 11 : 3) ? MW_EDIT_INSERT
+             : chance < 13               ? MW_EDIT_REMOVE
+             : chance < 16               ? MW_EDIT_MOVE
+             : chance < 18               ? MW_EDIT_CONSTRAIN
+             : chance < 19               ? MW_EDIT_RELEASE
+                                         : MW_EDIT_VALUE;
+    if (e.kind == MW_EDIT_RELEASE && t->fixed_count) {
+        e.vertex = t->fixed[0];
+        e.other = t->fixed[1];
+    }
+    return e;
+}
+
+static void run_session(bool hole, bool indexed, uint64_t seed)
+{
+    enum { STEPS = 700 };
+    twin t;
+    readers r = {0};
+    uint64_t random = case_seed = seed;
+    mw_editor_options options = {.delaunay = 1, .undo = SIZE_MAX, .log = 1};
+    case_name = "session";
+    twin_open(&t, square_mesh(hole), &options);
+    call c = {.t = &t, .options = &options};
+    if (indexed) assert_int_equal(exhaust(index_job, &c), MW_OK);
+    readers_open(&r, &t, indexed, seed);
+    for (case_step = 0; case_step < STEPS; case_step++) {
+        mw_edit e = case_edit = any_edit(&t, &random, (uint32_t)case_step, STEPS);
+        outcome expected = foretell(&t, &e);
+        c.edit = &e;
+        mw_status status = exhaust(edit_job, &c);
+        REQUIRE(status == MW_OK || status == MW_ERROR_INPUT);
+        REQUIRE(expected == EITHER || (status == MW_OK) == (expected == DONE));
+        if (status == MW_OK) {
+            twin then = twin_copy(&t);
+            take_over(&t, &e, &c.change);
+            if (case_step % 8 == 3) {
+                assert_int_equal(exhaust(undo_job, &c), MW_OK);
+                twin_undone(&t, &then, &c.change);
+            }
+            twin_close(&then);
+        }
+        check_same(&t);
+        if (case_step % 32 == 0) check_all(&t);
+        if (case_step % 64 == 0) check_places(&t, &r);
+    }
+    assert_int_equal(exhaust(mesh_job, &c), MW_OK);
+    mw_mesh_destroy(c.mesh);
+    assert_int_equal(exhaust(constraints_job, &c), MW_OK);
+    check_replay(&t, &options);
+    assert_int_equal(exhaust(compact_job, &c), MW_OK);
+    twin_close(&t);
+}
+
+static void test_sessions(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        failures_seen = 0;
+        run_session(seed % 2, seed > 2, seed);
+        print_message("seed %llu: %ld allocations failed\n", (unsigned long long)seed, failures_seen);
+        assert_true(failures_seen > 50);
+    }
+}
+
+static void test_create(void **state)
+{
+    (void)state;
+    const uint32_t edges[] = {0, 1, 1, 2};
+    for (int i = 0; i < 8; i++) {
+        mw_editor_options options = {.delaunay = i % 4 / 2, .log = 1, .undo = 4};
+        if (i >= 4) options.constraints = edges, options.constraint_count = 2;
+        call c = {.mesh = square_mesh(i % 2), .options = &options};
+        set_fields(c.mesh);
+        failures_seen = 0;
+        assert_int_equal(exhaust(create_job, &c), MW_OK);
+        assert_true(failures_seen > 5);
+        mw_editor_destroy(c.made);
+        mw_mesh_destroy(c.mesh);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sessions),
+        cmocka_unit_test(test_create),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
