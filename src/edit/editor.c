@@ -214,6 +214,8 @@ static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *chang
     uint32_t vertex = MW_NONE, before = f->vertex_count, t;
     editor->borrows = false;
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
+    if (!isnan(edit->value) && edit->field >= editor->view.field_count && editor->view.field_count > 0)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     mw_cursor *cursor = &editor->cursor;
     cursor->last = f->last;
     cursor->epoch = editor->locator.epoch;
