@@ -86,7 +86,7 @@ static mw_status close_line(mw_fabric *f, const mw_star *star, mw_error *error)
     uint32_t left, right;
     bool border = star->open ? !f->convex : mw__is_users(f, tiles[0]) != mw__is_users(f, tiles[middle]);
     if (!close_side(f, steps, middle, &one, &left) || !close_side(f, steps + middle + 1, rest, &two, &right) ||
-        (left == MW_NONE && right == MW_NONE))
+        left == MW_NONE) /* the first side has a tile, at least */
         return mw__fail_memory(error);
     mw__attach(f, left, right);
     if (!border) f->fixed_count--;
