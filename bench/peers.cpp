@@ -22,3 +22,13 @@ const engine_code *peers_engine(engine_id id)
         if (const engine_code *code = find(id)) return code;
     return nullptr;
 }
+
+const editing_code *peers_editor(editor_id id)
+{
+#ifdef MW_PEER_CGAL
+    return bench::cgal_editor(id);
+#else
+    (void)id;
+    return nullptr;
+#endif
+}

@@ -3,6 +3,7 @@
 #ifndef MW_BENCH_PEERS_H
 #define MW_BENCH_PEERS_H
 
+#include "cli/editing.h"
 #include "cli/engine.h"
 #include "harness.h"
 
@@ -22,6 +23,9 @@ const engine_code *embree_engine(engine_id id);
 const engine_code *geos_engine(engine_id id);
 const engine_code *boost_engine(engine_id id);
 const engine_code *python_engine(engine_id id);
+
+// Of 'meshwalk bench edit'.
+const editing_code *cgal_editor(editor_id id);
 
 // Memory in use, of libraries that do not tell how much they take; and how much more it is than before.
 inline size_t heap_bytes()

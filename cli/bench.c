@@ -15,10 +15,8 @@ static const struct {
     int (*run)(const bench_settings *s, const char *table);
     bool contest; /* of engines, in rounds */
 } measurements[] = {
-    {"paper", bench_paper, false},
-    {"near-vertices", bench_near, false},
-    {"peers", bench_peers, true},
-    {"scale", bench_scale, true},
+    {"paper", bench_paper, false}, {"near-vertices", bench_near, false}, {"peers", bench_peers, true},
+    {"scale", bench_scale, true},  {"edit", bench_edit, true},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 
@@ -47,12 +45,15 @@ static const option bench_options[] = {
      "F1 to G3 meshes, taken as they are; nothing is published for them, but for the models of G1 to G3",
      NULL},
     {"engines", 0, OPTION_TEXT, offsetof(bench_settings, engines), "LIST",
-     "engines that peers and scale measure, as in meshwalk,geos (default: all there are; of scale, meshwalk):",
+     "engines that peers and scale measure, as in meshwalk,geos (default: all there are; of scale, meshwalk; of edit "
+     "see "
+     "above):",
      &engine_choices},
     {"tasks", 0, OPTION_TEXT, offsetof(bench_settings, tasks), "LIST",
-     "what peers and scale measure (default: the first five; of scale, random and the last two):", &task_choices},
+     "what peers and scale measure (default: the first five; of scale, random and the last two; of edit see above):",
+     &task_choices},
     {"rounds", 0, OPTION_COUNT, offsetof(bench_settings, rounds), "N",
-     "rounds of peers and scale, whose median counts (default: 0, five)", NULL},
+     "rounds of peers, scale and edit, whose median counts (default: 0, five)", NULL},
     {"no-times", 0, OPTION_FLAG, offsetof(bench_settings, no_times), NULL, "count only", NULL},
     {"format", 0, OPTION_CHOICE, offsetof(bench_settings, format), "NAME",
      "how to print the figures (default: table):", &format_choices},
@@ -108,7 +109,7 @@ int bench_sizes(const char *list, size_list *sizes)
 static int run_measurement(size_t i, const bench_settings *s, const char *table)
 {
     if (!measurements[i].contest && (s->engines || s->tasks || s->rounds)) {
-        complain("bench %s: --engines, --tasks and --rounds are for 'bench peers' and 'bench scale'",
+        complain("bench %s: --engines, --tasks and --rounds are for 'bench peers', 'bench scale' and 'bench edit'",
                  measurements[i].name);
         return END_USAGE;
     }
@@ -155,7 +156,14 @@ const command bench_command = {
         "with the exact one. 'meshwalk bench scale [SET]' measures from ten thousand vertices to a hundred million. "
         "SET is "
         "one of uniform, grid, gaussian, clusters, arcs, rectangle, rings, slivers and offset, or several of them with "
-        "commas between.",
+        "commas between.\n\n"
+        "'meshwalk bench edit [SET]' measures what changes of a mesh take, and location between them, beside CGAL, and "
+        "beside trees that are built anew. Its tasks are insert, insert-sorted, remove, move-near, move-far, mixed, "
+        "rebuild and session, its engines meshwalk, meshwalk-layers, meshwalk-grid, cgal, cgal-hierarchy, and in "
+        "rebuild "
+        "meshwalk-anew, embree, geos and boost; the default is all of both. --queries is how many edits are timed "
+        "(default: "
+        "50000, at most half of the vertices). SET is of uniform, clusters, gaussian, arcs and rectangle.",
     .options = tables,
     .settings_size = sizeof(bench_settings),
     .run = run,

@@ -35,5 +35,6 @@ int bench_paper(const bench_settings *s, const char *table);
 int bench_near(const bench_settings *s, const char *set);
 int bench_peers(const bench_settings *s, const char *set);
 int bench_scale(const bench_settings *s, const char *set);
+int bench_edit(const bench_settings *s, const char *set);
 
 #endif

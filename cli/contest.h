@@ -35,6 +35,9 @@ void contest_release(contest_table *table);
 /* Print the rows in a format of bench.h. */
 void contest_print(const contest_table *table, const contest_plan *plan, int format, text *t);
 
+/* What a figure says nothing without: processor, compiler, versions of the libraries of these engines, date. */
+void contest_machine(uint32_t engines, text *t);
+
 /* Draw the rows of a table that is not empty. Returns 0 or an exit code after a complaint. */
 int contest_plot(const contest_table *table, const char *path);
 

@@ -30,7 +30,7 @@ static void processor(text *t)
 }
 
 /* Processor, compiler, versions, date: a figure without them tells nothing. */
-static void machine(const contest_plan *plan, text *t)
+void contest_machine(uint32_t set, text *t)
 {
     char date[32];
     struct tm day;
@@ -47,8 +47,8 @@ static void machine(const contest_plan *plan, text *t)
     text_string(t, ", not optimised");
 #endif
     text_printf(t, "; meshwalk %s", mw_version());
-    engines_versions(t, plan->engines);
-    text_printf(t, "; %zu queries, %zu rounds; %s\n", plan->queries, plan->rounds, date);
+    engines_versions(t, set);
+    text_printf(t, "; %s", date);
 }
 
 /* --- rows -------------------------------------------------------------------------------------------------------- */
@@ -157,7 +157,8 @@ void contest_print(const contest_table *table, const contest_plan *plan, int for
         return;
     }
     if (format == FORMAT_TSV) text_string(t, "# ");
-    machine(plan, t);
+    contest_machine(plan->engines, t);
+    text_printf(t, "; %zu queries, %zu rounds\n", plan->queries, plan->rounds);
     if (format == FORMAT_TSV)
         print_tsv(table, t);
     else

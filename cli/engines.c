@@ -105,12 +105,17 @@ static int take_name(const char *word, void *self)
     return END_USAGE;
 }
 
-int engines_tasks_named(const char *list, uint32_t *set)
+int engines_choose(const char *list, const choices *names, uint32_t *set)
 {
-    naming n = {.choices = &task_choices};
+    naming n = {.choices = names};
     int end = bench_each_word(list, take_name, &n);
     *set = n.set;
     return end;
+}
+
+int engines_tasks_named(const char *list, uint32_t *set)
+{
+    return engines_choose(list, &task_choices, set);
 }
 
 static bool is_in(uint32_t set, engine_id id)
@@ -120,11 +125,9 @@ static bool is_in(uint32_t set, engine_id id)
 
 int engines_named(const char *list, uint32_t *set)
 {
-    naming n = {.choices = &engine_choices};
-    int end = bench_each_word(list, take_name, &n);
-    *set = n.set;
+    int end = engines_choose(list, &engine_choices, set);
     for (engine_id id = 0; id < ENGINES && end == 0; id++)
-        if (is_in(n.set, id) && !engines_code(id)) {
+        if (is_in(*set, id) && !engines_code(id)) {
             engines_missing(UINT32_C(1) << id);
             end = END_USAGE;
         }

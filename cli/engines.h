@@ -24,6 +24,9 @@ const engine_code *engines_code(engine_id id);
 /* Ours; NULL for a peer. */
 const engine_code *engine_own(engine_id id);
 
+/* The names in a list between commas, as bits. Complains of others; returns 0 or an exit code. */
+int engines_choose(const char *list, const choices *names, uint32_t *set);
+
 /* Sets of engines and tasks, as bits, by their names between commas. Complain of other names, and of engines that are not to
  * be had; return 0 or an exit code. */
 int engines_named(const char *list, uint32_t *set);
