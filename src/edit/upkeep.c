@@ -2,6 +2,7 @@
 #include "edit/upkeep.h"
 
 #include "base/clock.h"
+#include "edit/rim.h"
 
 /* --- building ---------------------------------------------------------------------------------------------------------- */
 
@@ -124,40 +125,56 @@ static void refresh(mw_upkeep *u, mw_start_kind start)
 
 /* --- grids ------------------------------------------------------------------------------------------------------------- */
 
-static void offer_to(mw_index *index, const mw_tiling *tiling, uint32_t t)
+static void offer_to(mw_index *index, const mw_tiling *tiling, uint32_t t, uint64_t changed)
 {
-    if (index->start == MW_START_GRID) mw__grid_offer(&index->grid, tiling, t);
-    if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_offer(&index->two_level_grid, tiling, t);
+    if (index->start == MW_START_GRID) mw__grid_offer(&index->grid, tiling, t, changed);
+    if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_offer(&index->two_level_grid, tiling, t, changed);
 }
 
-static void offer(mw_upkeep *u, uint32_t t)
+static void offer(mw_upkeep *u, uint32_t t, uint64_t changed)
 {
     const mw_tiling *tiling = u->fabric->tiling;
-    offer_to(&u->locator->guide, tiling, t);
-    offer_to(&u->index[MW_START_GRID], tiling, t);
-    offer_to(&u->index[MW_START_TWO_LEVEL_GRID], tiling, t);
+    offer_to(&u->locator->guide, tiling, t, changed);
+    offer_to(&u->index[MW_START_GRID], tiling, t, changed);
+    offer_to(&u->index[MW_START_TWO_LEVEL_GRID], tiling, t, changed);
 }
 
-static uint32_t corner_of(const mw_triangle *tile, uint32_t v)
+/* The next of the half-edges that leave a vertex, counter-clockwise. */
+static uint32_t next_round(const mw_fabric *f, uint32_t half)
 {
-    return tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
+    return mw__beyond(f, mw__half_prev(half));
 }
 
-/* All tiles round a vertex that is in some: counter-clockwise, and where that ends at the hull, clockwise too. */
-static void offer_round(mw_upkeep *u, uint32_t v)
+/* The set of names of the tiles that the edit changed: those in its journal, and those round a vertex that was moved (v, or MW_NONE). */
+static uint64_t changed_names(const mw_fabric *f, const mw_before *first, size_t count, uint32_t v)
 {
-    const mw_triangle *tri = u->fabric->tiling->tri;
-    uint32_t first = mw__fabric_tile(u->fabric, v), t = first, link;
+    uint64_t changed = 0;
+    for (size_t i = 0; i < count; i++)
+        if (first[i].tile.v[0] != MW_NONE) changed |= mw__name_bit(first[i].tile.user);
+    if (v == MW_NONE) return changed;
+    bool open;
+    uint32_t begin = mw__star_first(f, v, &open), at = begin;
     do {
-        offer(u, t);
-        link = tri[t].link[mw__prev(corner_of(&tri[t], v))];
-        t = mw__link_triangle(link);
-    } while (link != MW_NONE && t != first);
-    if (link != MW_NONE) return;
-    for (t = first; (link = tri[t].link[corner_of(&tri[t], v)]) != MW_NONE;) {
-        t = mw__link_triangle(link);
-        offer(u, t);
-    }
+        changed |= mw__name_bit(f->tiling->tri[mw__link_triangle(at)].user);
+        at = next_round(f, at);
+    } while (at != MW_NONE && at != begin);
+    return changed;
+}
+
+/* The grids learn of the tiles that are there now in the place of those. */
+static void offer_changed(mw_upkeep *u, const mw_before *first, size_t count, uint32_t v)
+{
+    const mw_fabric *f = u->fabric;
+    uint64_t changed = changed_names(f, first, count, v);
+    for (size_t i = 0; i < count; i++)
+        if (first[i].place < f->tiling->tri_count) offer(u, first[i].place, changed);
+    if (v == MW_NONE) return;
+    bool open;
+    uint32_t begin = mw__star_first(f, v, &open), at = begin;
+    do {
+        offer(u, mw__link_triangle(at), changed);
+        at = next_round(f, at);
+    } while (at != MW_NONE && at != begin);
 }
 
 /* Numbers that were given out by an edit that was undone lead to a triangle that is there again. */
@@ -231,13 +248,9 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     u->locator->epoch++;
     if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
     if (undone) redirect_names(u, first, count);
-    for (size_t i = 0; i < count; i++)
-        if (first[i].place < tiling->tri_count) offer(u, first[i].place);
     uint32_t v = step->vertex;
-    if (v != MW_NONE && is_there(f, v)) {
-        note_place(u, tiling->point[v]);
-        if (step->edit.kind == MW_EDIT_MOVE) offer_round(u, v);
-    }
+    if (v != MW_NONE && is_there(f, v)) note_place(u, tiling->point[v]);
+    offer_changed(u, first, count, step->edit.kind == MW_EDIT_MOVE ? v : MW_NONE);
     if (v != MW_NONE && u->live.layers && !(follow(u, step, undone) && mw__live_layers_even(&u->live)))
         refresh(u, MW_START_LAYERS);
     for (int i = 0; i < KEPT; i++) {

@@ -14,8 +14,8 @@ typedef struct mw_grid {
  * of these; if not, the vertices are too crowded for a grid, and it is left unfinished. Returns false when out of memory. */
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
                      uint32_t stride, bool *even);
-/* Tile t of the tiling that the grid was made from was changed: where its middle is, lead to it if it is the nearest. */
-void mw__grid_offer(mw_grid *grid, const mw_tiling *tiling, uint32_t t);
+/* See mw__lattice_offer. */
+void mw__grid_offer(mw_grid *grid, const mw_tiling *tiling, uint32_t t, uint64_t changed);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);
 

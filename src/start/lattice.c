@@ -40,10 +40,12 @@ void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queu
     }
 }
 
-void mw__lattice_offer(const mw_lattice *lattice, uint32_t *entry, const mw_tiling *tiling, uint32_t t)
+void mw__lattice_offer(const mw_lattice *lattice, uint32_t *entry, const mw_tiling *tiling, uint32_t t,
+                       uint64_t changed)
 {
     float off;
     uint32_t cell = mw__lattice_cell_off(lattice, mw__tile_middle(tiling, t), &off);
+    if (!(changed & mw__name_bit(entry[cell]))) return;
     uint32_t rival = mw__tile_named(tiling, entry[cell]);
     mw_point middle = mw__tile_middle(tiling, rival);
     float rivals = mw__lattice_off(lattice, cell % lattice->columns, cell / lattice->columns, middle);

@@ -122,14 +122,14 @@ static bool is_own(const mw_two_level_grid *grid, uint32_t cell, const mw_fine_g
     return mw__lattice_cell(&grid->lattice, (mw_point){fine->lattice.middle[0], fine->lattice.middle[1]}) == cell;
 }
 
-void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t)
+void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t, uint64_t changed)
 {
     uint32_t cell = mw__lattice_cell(&grid->lattice, mw__tile_middle(tiling, t)), entry = grid->coarse[cell];
     const mw_fine_grid *fine = entry & MW_FINE ? &grid->grid[entry - MW_FINE] : NULL;
     if (!fine)
-        mw__lattice_offer(&grid->lattice, grid->coarse, tiling, t);
+        mw__lattice_offer(&grid->lattice, grid->coarse, tiling, t, changed);
     else if (is_own(grid, cell, fine))
-        mw__lattice_offer(&fine->lattice, grid->fine + fine->first, tiling, t);
+        mw__lattice_offer(&fine->lattice, grid->fine + fine->first, tiling, t, changed);
     else
         grid->coarse[cell] = mw__tile_name(tiling, t);
 }

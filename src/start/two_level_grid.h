@@ -24,8 +24,8 @@ typedef struct mw_two_level_grid {
  * tiling. Returns false when out of memory. */
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
                                const double high[2], uint32_t cells);
-/* As mw__grid_offer. */
-void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t);
+/* See mw__lattice_offer. */
+void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t, uint64_t changed);
 /* Does p lie in a cell of its own level, and not beyond the rim of a grid? */
 bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p);
 void mw__two_level_grid_release(mw_two_level_grid *grid);
