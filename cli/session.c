@@ -74,7 +74,8 @@ static int edit(session *s, const char *path, const mw_edit_line *line)
     mw_error error;
     mw_change change = {.vertex = MW_NONE};
     const char *kind = mw_edit_name(line->edit.kind);
-    if (mw_edit_apply(s->editor, &line->edit, &change, &error) != MW_OK) return refused(s, path, line, kind, &error);
+    mw_change *told = s->output[SESSION_CHANGES].out ? &change : NULL;
+    if (mw_edit_apply(s->editor, &line->edit, told, &error) != MW_OK) return refused(s, path, line, kind, &error);
     s->edits[line->edit.kind]++;
     if (line->edit.kind == MW_EDIT_VALUE) change.vertex = line->edit.vertex;
     change_row(s, line->line, kind, &change);
