@@ -10,10 +10,10 @@
 
 /* --- from a tiling ---------------------------------------------------------------------------------------------------- */
 
-/* A quarter more, so that n additions copy O(n) in all. */
+/* Twice as much, so that n additions copy O(n) in all; what is not used yet takes addresses, no memory. */
 static size_t enlarged(size_t room)
 {
-    return room + room / 4 + 16;
+    return 2 * room + 16;
 }
 
 /* An array that begins with a cache line, which realloc would not keep, in a larger room; the old one goes unless it is borrowed. */
@@ -113,7 +113,7 @@ static bool make_numbers(mw_fabric *f, const mw_mesh *mesh)
 {
     mw_tiling *tiling = f->tiling;
     f->number_room = mesh->tri_count;
-    f->vertex_room = (uint32_t)enlarged(tiling->point_count);
+    f->vertex_room = tiling->point_count;
     f->vertex_place = mw__alloc(f->vertex_room, sizeof *f->vertex_place);
     if (!f->vertex_place || !more_numbers(f)) return false;
     tiling->number_count = mesh->tri_count;
@@ -166,11 +166,8 @@ void mw__fabric_release(mw_fabric *f)
 size_t mw__fabric_bytes(const mw_fabric *f)
 {
     const mw_tiling *t = f->tiling;
-    size_t spare = (f->tile_room - t->tri_count) * sizeof *t->tri +
-                   (f->number_room - t->number_count) * sizeof *t->tile_of +
-                   (f->point_room - t->point_count) * (sizeof *t->point + sizeof *t->owner);
-    return spare + f->tile_room * sizeof *f->mark + f->vertex_room * sizeof *f->vertex_place +
-           f->point_room * sizeof *f->vertex_number + f->free_room * sizeof *f->free_place +
+    return t->tri_count * sizeof *f->mark + f->vertex_count * sizeof *f->vertex_place +
+           t->point_count * sizeof *f->vertex_number + f->free_room * sizeof *f->free_place +
            f->before_room * sizeof *f->before + f->step_room * sizeof *f->step + f->stack_room * sizeof *f->stack +
            f->rim_room * (sizeof *f->rim + sizeof *f->pool);
 }

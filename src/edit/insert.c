@@ -56,8 +56,7 @@ static mw_status split_tile(mw_fabric *f, uint32_t t, uint32_t v, mw_error *erro
     mw__attach(f, mw__link(t, 1), mw__link(t1, 2));
     mw__attach(f, mw__link(t1, 1), mw__link(t2, 2));
     mw__attach(f, mw__link(t2, 1), mw__link(t, 2));
-    bool done = mw__push(f, mw__link(t, 0)) && mw__push(f, mw__link(t1, 0)) && mw__push(f, mw__link(t2, 0));
-    return done ? MW_OK : mw__fail_memory(error);
+    return MW_OK;
 }
 
 /* The tile with edge a, b and apex c becomes c, a, v, and a new one b, c, v, which is set to *more. */
@@ -74,7 +73,7 @@ static mw_status halve(mw_fabric *f, uint32_t half, uint32_t v, uint32_t *more, 
     mw__attach(f, mw__link(t, 0), old.link[prev]);
     mw__attach(f, mw__link(*more, 0), old.link[next]);
     mw__attach(f, mw__link(t, 2), mw__link(*more, 1));
-    return mw__push(f, mw__link(t, 0)) && mw__push(f, mw__link(*more, 0)) ? MW_OK : mw__fail_memory(error);
+    return MW_OK;
 }
 
 /* Of the two sides of an edge, that of the lower number: which one the walk came to must not show. */
@@ -87,7 +86,8 @@ static uint32_t lower_side(const mw_fabric *f, uint32_t half)
     return one <= two ? half : other;
 }
 
-static mw_status split_edge(mw_fabric *f, uint32_t half, uint32_t v, mw_error *error)
+/* *first: the first tile round v, counter-clockwise. */
+static mw_status split_edge(mw_fabric *f, uint32_t half, uint32_t v, uint32_t *first, mw_error *error)
 {
     half = lower_side(f, half);
     uint32_t other = mw__beyond(f, half), t = mw__link_triangle(half), t1, n1;
@@ -100,11 +100,13 @@ static mw_status split_edge(mw_fabric *f, uint32_t half, uint32_t v, mw_error *e
     if (other == MW_NONE) {
         mw__attach(f, mw__link(t, 1), MW_NONE);
         mw__attach(f, mw__link(t1, 2), MW_NONE);
+        *first = t1;
         return MW_OK;
     }
     uint32_t n = mw__link_triangle(other);
     status = halve(f, other, v, &n1, error);
     if (status) return status;
+    *first = t;
     mw__attach(f, mw__link(t, 1), mw__link(n1, 2));
     mw__attach(f, mw__link(t1, 2), mw__link(n, 1));
     return MW_OK;
@@ -133,11 +135,11 @@ static uint32_t hull_before(const mw_fabric *f, uint32_t half)
     return at;
 }
 
-/* A tile for each hull edge that q sees; `half` is one of them. */
-static mw_status grow_hull(mw_fabric *f, uint32_t half, mw_point q, uint32_t v, mw_error *error)
+/* A tile for each hull edge that q sees; `half` is one of them. *last: the last one made, which is the first round v. */
+static mw_status grow_hull(mw_fabric *f, uint32_t half, mw_point q, uint32_t v, uint32_t *last, mw_error *error)
 {
     for (uint32_t before = hull_before(f, half); sees(f, q, before); before = hull_before(f, half)) half = before;
-    uint32_t last = MW_NONE;
+    *last = MW_NONE;
     do {
         uint32_t next = hull_after(f, half), at = mw__link_triangle(half);
         if (!mw__journal(f, at)) return mw__fail_memory(error);
@@ -147,9 +149,8 @@ static mw_status grow_hull(mw_fabric *f, uint32_t half, mw_point q, uint32_t v, 
         uint32_t k = mw__link_edge(half);
         set_tile(f, t, tile->v[k + 1], tile->v[k], v, mw__is_fixed(f, half));
         mw__attach(f, mw__link(t, 0), half);
-        if (last != MW_NONE) mw__attach(f, mw__link(t, 1), mw__link(last, 2));
-        if (!mw__push(f, mw__link(t, 0))) return mw__fail_memory(error);
-        last = t;
+        if (*last != MW_NONE) mw__attach(f, mw__link(t, 1), mw__link(*last, 2));
+        *last = t;
         half = next;
     } while (sees(f, q, half));
     return MW_OK;
@@ -157,32 +158,70 @@ static mw_status grow_hull(mw_fabric *f, uint32_t half, mw_point q, uint32_t v, 
 
 /* --- the insertion ---------------------------------------------------------------------------------------------------- */
 
-static bool flip_round(mw_fabric *f)
+/* A vertex as seen from the new one: its position relative to it, and the square of its distance. */
+typedef struct sight {
+    double x, y, lift;
+    uint32_t vertex;
+} sight;
+
+static MW_INLINE sight sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
 {
-    while (f->stack_count > 0) {
-        uint32_t half = f->stack[--f->stack_count];
-        if (!f->delaunay || !mw__is_illegal(f, half)) continue;
-        uint32_t t = mw__link_triangle(half), n = mw__link_triangle(mw__beyond(f, half));
-        if (!mw__exchange(f, half) || !mw__push(f, mw__link(t, 0)) || !mw__push(f, mw__link(n, 0))) return false;
-        f->flips++;
-    }
-    return true;
+    double x = f->tiling->point[vertex].x - q.x, y = f->tiling->point[vertex].y - q.y;
+    return (sight){x, y, x * x + y * y, vertex};
 }
 
-static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
+/* Is q in the circle of a, b, c? mw__incircle, with what is the same from one test to the next kept. */
+static MW_INLINE bool in_circle(const mw_fabric *f, const sight *a, const sight *b, const sight *c, mw_point q)
+{
+    double bc = b->x * c->y, cb = c->x * b->y, ca = c->x * a->y, ac = a->x * c->y, ab = a->x * b->y, ba = b->x * a->y;
+    double det = a->lift * (bc - cb) + b->lift * (ca - ac) + c->lift * (ab - ba);
+    double permanent =
+        a->lift * (fabs(bc) + fabs(cb)) + b->lift * (fabs(ca) + fabs(ac)) + c->lift * (fabs(ab) + fabs(ba));
+    bool small = a->lift + b->lift + c->lift < MW_INCIRCLE_LIFTS;
+    if (MW_LIKELY(small && fabs(det) > MW_INCIRCLE_ERROR * permanent + MW_UNDERFLOW_ERROR)) return det > 0;
+    const mw_point *p = f->tiling->point;
+    return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
+}
+
+/* Go round q once, from tile `first`, which has no tile of q before it if q is on the hull. Where the tile beyond an edge has q in its circle
+ * the edge is flipped, and the one before it is next; else the one after it. */
+static bool flip_round(mw_fabric *f, uint32_t first, mw_point q)
+{
+    const mw_triangle *tile = &f->tiling->tri[first];
+    sight a = sight_of(f, tile->v[0], q), b = sight_of(f, tile->v[1], q);
+    for (uint32_t t = first;;) {
+        uint32_t beyond = f->tiling->tri[t].link[0];
+        if (beyond != MW_NONE && !(f->mark[t] & 1)) {
+            sight d = sight_of(f, mw__apex(f, beyond), q);
+            if (in_circle(f, &b, &a, &d, q)) {
+                if (!mw__exchange(f, mw__link(t, 0))) return false;
+                f->flips++;
+                b = d;
+                continue;
+            }
+        }
+        uint32_t next = f->tiling->tri[t].link[1];
+        if (next == MW_NONE || mw__link_triangle(next) == first) return true;
+        t = mw__link_triangle(next);
+        a = b;
+        b = sight_of(f, f->tiling->tri[t].v[1], q);
+    }
+}
+
+static mw_status put_outside(mw_fabric *f, uint32_t *t, mw_point q, uint32_t v, mw_error *error)
 {
     if (!f->convex) return refuse_outside(q, error);
-    uint32_t half = mw__link(t, 0);
+    uint32_t half = mw__link(*t, 0);
     while (mw__beyond(f, half) != MW_NONE || !sees(f, q, half)) half = mw__half_next(half);
-    return grow_hull(f, half, q, v, error);
+    return grow_hull(f, half, q, v, t, error);
 }
 
-/* Put v, whose place is q, into tile t, where the walk found it; side[k] is 0 where q lies on edge k. */
-static mw_status put_inside(mw_fabric *f, uint32_t t, const double side[3], mw_point q, uint32_t v, mw_error *error)
+/* Put v, whose place is q, into tile *t, where the walk found it; side[k] is 0 where q lies on edge k. *t becomes the first tile round v. */
+static mw_status put_inside(mw_fabric *f, uint32_t *t, const double side[3], mw_point q, uint32_t v, mw_error *error)
 {
     for (uint32_t k = 0; k < 3; k++)
-        if (side[k] == 0) return split_edge(f, mw__link(t, k), v, error);
-    return mw__is_users(f, t) ? split_tile(f, t, v, error) : refuse_outside(q, error);
+        if (side[k] == 0) return split_edge(f, mw__link(*t, k), v, t, error);
+    return mw__is_users(f, *t) ? split_tile(f, *t, v, error) : refuse_outside(q, error);
 }
 
 /* The sides of q on the edges of tile t; the corner where q lies, 3 if it is at none. */
@@ -212,7 +251,7 @@ mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vert
         if (!mw__add_vertex(f, q, vertex)) return mw__fail_memory(error);
         f->step[f->step_count - 1].vertex = *vertex;
     }
-    mw_status status = inside ? put_inside(f, t, side, q, *vertex, error) : put_outside(f, t, q, *vertex, error);
-    if (!status && !flip_round(f)) status = mw__fail_memory(error);
+    mw_status status = inside ? put_inside(f, &t, side, q, *vertex, error) : put_outside(f, &t, q, *vertex, error);
+    if (!status && f->delaunay && !flip_round(f, t, q)) status = mw__fail_memory(error);
     return status;
 }
