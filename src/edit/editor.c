@@ -233,8 +233,18 @@ static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *chang
     return MW_OK;
 }
 
-static mw_status change_vertex(mw_fabric *f, const mw_edit *edit, mw_change *change, mw_error *error)
+/* A tile to begin at to look for q: `near` if it is, else what the guide says. */
+static uint32_t first_tile(mw_editor *editor, uint32_t near, mw_point q)
 {
+    mw_cursor *cursor = &editor->cursor;
+    cursor->last = near;
+    cursor->epoch = editor->locator.epoch;
+    return mw__first_tile(&editor->locator, cursor, near, q, &cursor->random, NULL);
+}
+
+static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    mw_fabric *f = &editor->fabric;
     uint32_t v = mw__vertex_there(f, edit->vertex);
     if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
     change->vertex = edit->vertex;
@@ -243,7 +253,8 @@ static mw_status change_vertex(mw_fabric *f, const mw_edit *edit, mw_change *cha
         return mw__fabric_remove(f, v, error);
     }
     if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
-    return mw__fabric_move(f, v, (mw_point){edit->x, edit->y}, error);
+    mw_point q = {edit->x, edit->y};
+    return mw__fabric_move(f, v, q, first_tile(editor, mw__fabric_tile(f, v), q), error);
 }
 
 static mw_status change_edge(mw_fabric *f, const mw_edit *edit, mw_change *change, mw_error *error)
@@ -273,7 +284,7 @@ static mw_status carry_out(mw_editor *editor, const mw_edit *edit, mw_change *ch
     switch (edit->kind) {
     case MW_EDIT_INSERT: return insert(editor, edit, change, error);
     case MW_EDIT_REMOVE:
-    case MW_EDIT_MOVE: return change_vertex(&editor->fabric, edit, change, error);
+    case MW_EDIT_MOVE: return change_vertex(editor, edit, change, error);
     case MW_EDIT_FLIP:
     case MW_EDIT_CONSTRAIN:
     case MW_EDIT_RELEASE: return change_edge(&editor->fabric, edit, change, error);

@@ -129,7 +129,8 @@ void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t ve
  * one. `t`: where to begin to look for q (insert.c). */
 mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
 mw_status mw__fabric_remove(mw_fabric *f, uint32_t vertex, mw_error *error);
-mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, mw_error *error);
+/* `t`: where to begin to look for q if the vertex cannot stay in its star; MW_NONE: there. */
+mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error);
 mw_status mw__fabric_flip(mw_fabric *f, uint32_t from, uint32_t to, mw_error *error);
 mw_status mw__fabric_constrain(mw_fabric *f, uint32_t from, uint32_t to, bool release, uint32_t *pieces,
                                mw_error *error);

@@ -159,7 +159,7 @@ static bool edit(mw_live_layers *live, uint32_t i, following what, uint32_t *v, 
     if (!mw__fabric_begin(f, &(mw_edit){.kind = kind[what], .x = p.x, .y = p.y})) return false;
     mw_status status = what == INSERT   ? mw__fabric_insert(f, p, tile, v, NULL)
                        : what == REMOVE ? mw__fabric_remove(f, *v, NULL)
-                                        : mw__fabric_move(f, *v, p, NULL);
+                                        : mw__fabric_move(f, *v, p, MW_NONE, NULL);
     if (status || !mw__fabric_commit(f)) {
         mw__fabric_rollback(f);
         return false;

@@ -168,7 +168,7 @@ static mw_status shift(mw_fabric *f, const mw_star *star, uint32_t v, mw_point q
     return mw__legalise(f) ? MW_OK : mw__fail_memory(error);
 }
 
-mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, mw_error *error)
+mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error)
 {
     mw_step *step = &f->step[f->step_count - 1];
     mw_star star;
@@ -181,7 +181,7 @@ mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, mw_error *e
     if (status) return status;
     f->tiling->point[vertex] = q;
     uint32_t at = vertex;
-    status = mw__fabric_insert(f, q, f->last, &at, error);
+    status = mw__fabric_insert(f, q, t < f->tiling->tri_count ? t : f->last, &at, error);
     if (!status && at != vertex)
         status =
             mw__fail_at(error, -1, f->vertex_number[at], "vertex %" PRIu32 " lies there already", f->vertex_number[at]);
