@@ -7,6 +7,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
+#include "edit/editor.h"
 #include "memory.h"
 #include "meshes.h"
 
@@ -308,6 +309,68 @@ static void test_sessions(void **state)
         }
 }
 
+/* A layer is the Delaunay triangulation of vertices that are there below, each known from there. */
+static void check_layer(const mw_live_layers *live, uint32_t i)
+{
+    const mw_layer *layer = &live->layers->layer[i];
+    const mw_tiling *tiling = &layer->tiling, *beneath = i ? &live->layers->layer[i - 1].tiling : live->mesh->tiling;
+    const mw_point *p = tiling->point;
+    for (uint32_t t = 0; t < tiling->tri_count; t++) {
+        const mw_triangle *tile = &tiling->tri[t];
+        assert_true(mw__orient2d(p[tile->v[0]], p[tile->v[1]], p[tile->v[2]]) > 0);
+        for (uint32_t k = 0; k < 3; k++) {
+            if (tile->link[k] == MW_NONE) continue;
+            uint32_t across = mw__apex(&live->fabric[i], tile->link[k]);
+            assert_true(mw__incircle(p[tile->v[0]], p[tile->v[1]], p[tile->v[2]], p[across]) <= 0);
+        }
+    }
+    uint32_t there = 0, below_there = 0;
+    for (uint32_t v = 0; v < tiling->point_count; v++) {
+        if (tiling->owner[v] == MW_NONE) continue;
+        there++;
+        uint32_t below = layer->below[v];
+        assert_true(below < beneath->point_count && beneath->owner[below] != MW_NONE);
+        assert_true(beneath->point[below].x == p[v].x && beneath->point[below].y == p[v].y);
+        assert_int_equal(live->up[i][below], v);
+    }
+    for (uint32_t v = 0; v < beneath->point_count; v++)
+        below_there += v < live->up_room[i] && live->up[i][v] != MW_NONE;
+    assert_int_equal(there, below_there);
+    assert_int_equal(there, tiling->point_count - layer->vacant);
+}
+
+/* Layers follow insertions, removals, moves, and what takes these back; some are given up or built anew on the way. */
+static void test_layers_follow(void **state)
+{
+    (void)state;
+    uint64_t seed = 705, random = seed, checked = 0;
+    printf("seed %llu\n", (unsigned long long)seed);
+    for (int kind = 0; kind < MESHES; kind++)
+        for (int size = 0; size < 2; size++) {
+            mw_editor *editor = make_editor(kind, size ? 500 : 20, (mw_editor_options){.undo = 50}, &random);
+            const mw_index *index;
+            mw_index_options kept = {.ratio = 0.3, .layers = 5};
+            assert_int_equal(mw_editor_index(editor, MW_START_LAYERS, &kept, &index, NULL), MW_OK);
+            for (int i = 0; i < 400; i++) {
+                allocations_left = size == 0 && i % 10 == 0 ? mw__random_below(&random, 10) : -1;
+                random_edit(editor, kind, 3 + (uint32_t)i / 100, &random);
+                allocations_left = -1;
+                const mw_live_layers *live = &editor->upkeep.live;
+                assert_ptr_equal(live->layers, &index->layers);
+                for (uint32_t k = 0; k + 1 < live->layers->count; k++) check_layer(live, k);
+                checked += live->layers->count - 1;
+                mw_index_info info;
+                mw_editor_info now;
+                mw_index_describe(index, &info);
+                mw_editor_describe(editor, &now);
+                assert_true(info.vertices[0] <= now.vertices);
+            }
+            mw_editor_destroy(editor);
+        }
+    assert_true(checked > 8000); /* most of the time there are layers */
+    printf("%llu layers checked\n", (unsigned long long)checked);
+}
+
 /* Where memory fails in the middle of edits, they fail or not; what is kept up is kept or stays behind; answers are right. */
 static void test_memory(void **state)
 {
@@ -344,6 +407,13 @@ static uint64_t visits(const mw_editor *editor, mw_cursor *cursor, const double 
     return cursor->counters.triangles_visited;
 }
 
+static void insert_within(mw_editor *editor, double x, double y, double side, uint64_t *random)
+{
+    x += side * random_unit(random);
+    y += side * random_unit(random);
+    assert_int_equal(mw_edit_insert(editor, x, y, NULL, NULL), MW_OK);
+}
+
 /* A cursor stays in a corner of the mesh. Its triangle goes by removals round about, by insertions that are undone, by flips; far away much
  * happens, so that tiles change their places. It begins where its triangle was. */
 static void test_cursors_recover(void **state)
@@ -351,7 +421,7 @@ static void test_cursors_recover(void **state)
     (void)state;
     uint64_t seed = 703, random = seed;
     printf("seed %llu\n", (unsigned long long)seed);
-    enum { VERTICES = 20000, NEAR = 40, ROUNDS = 200 };
+    enum { VERTICES = 20000, NEAR = 60, ROUNDS = 200 };
     mw_editor *editor = make_editor(UNIFORM, VERTICES, (mw_editor_options){.undo = 1000}, &random);
     const mw_locator *locator = mw_editor_locator(editor);
     mw_cursor cursor;
@@ -369,18 +439,13 @@ static void test_cursors_recover(void **state)
         int steps = round % 7;
         for (int i = 0; i < steps && mw_editor_triangle(editor, gone, v); i++)
             assert_int_equal(mw_edit_remove(editor, v[i % 3], NULL, NULL), MW_OK);
-        if (round % 2 == 0)
-            for (int i = 0; i < 5; i++)
-                assert_int_equal(mw_edit_insert(editor, q[0] + 0.1 * random_unit(&random),
-                                                q[1] + 0.1 * random_unit(&random), NULL, NULL),
-                                 MW_OK);
+        for (int i = 0; i < 5 && round % 2 == 0; i++) insert_within(editor, q[0], q[1], 0.1, &random);
         for (int i = 0; i < 20; i++) {
-            assert_int_equal(mw_edit_insert(editor, 8 + 8 * random_unit(&random), 8 * random_unit(&random), NULL, NULL),
-                             MW_OK);
+            insert_within(editor, 8, 1, 7, &random);
             mw_edit_remove(editor, random_vertex(editor, &random), NULL, NULL);
         }
         if (round % 3 == 0) {
-            mw_edit_insert(editor, q[0] + 1e-3 * random_unit(&random), q[1] + 1e-3 * random_unit(&random), NULL, NULL);
+            insert_within(editor, q[0], q[1], 1e-3, &random);
             visits(editor, &cursor, q); /* ends in a triangle that is made, then taken back */
             assert_int_equal(mw_edit_undo(editor, NULL, NULL), MW_OK);
         }
@@ -489,10 +554,8 @@ static void test_kept_near(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sessions),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_cursors_recover),
-        cmocka_unit_test(test_kept_near),
+        cmocka_unit_test(test_sessions),        cmocka_unit_test(test_layers_follow), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_cursors_recover), cmocka_unit_test(test_kept_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
