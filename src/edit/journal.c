@@ -231,6 +231,22 @@ static int by_number(const void *a, const void *b)
     return (s->triangle > t->triangle) - (s->triangle < t->triangle);
 }
 
+/* By number. Most edits change few, which come nearly in order; others many. */
+static void sort(mw_changed_triangle *list, size_t n)
+{
+    enum { FEW = 32 };
+    if (n > FEW) {
+        qsort(list, n, sizeof *list, by_number);
+        return;
+    }
+    for (size_t i = 1; i < n; i++) {
+        mw_changed_triangle moving = list[i];
+        size_t k = i;
+        for (; k > 0 && list[k - 1].triangle > moving.triangle; k--) list[k] = list[k - 1];
+        list[k] = moving;
+    }
+}
+
 /* The triangles of the journal as they were, sorted; returns how many. */
 static size_t list_before(const mw_fabric *f, const mw_before *first, size_t count, mw_changed_triangle *list)
 {
@@ -240,7 +256,7 @@ static size_t list_before(const mw_fabric *f, const mw_before *first, size_t cou
         list[n].triangle = first[i].tile.user & MW_USER_MASK;
         mw__fabric_corners(f, &first[i].tile, list[n++].before);
     }
-    qsort(list, n, sizeof *list, by_number);
+    sort(list, n);
     return n;
 }
 
@@ -255,7 +271,7 @@ static size_t list_made(const mw_fabric *f, const mw_before *first, size_t count
         mw_changed_triangle made = {now->user & MW_USER_MASK, {MW_NONE, MW_NONE, MW_NONE}};
         if (!bsearch(&made, list, known, sizeof *list, by_number)) list[n++] = made;
     }
-    qsort(list + known, n - known, sizeof *list, by_number);
+    sort(list + known, n - known);
     return n - known;
 }
 
