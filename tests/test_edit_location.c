@@ -352,7 +352,7 @@ static void test_layers_follow(void **state)
             mw_index_options kept = {.ratio = 0.3, .layers = 5};
             assert_int_equal(mw_editor_index(editor, MW_START_LAYERS, &kept, &index, NULL), MW_OK);
             for (int i = 0; i < 400; i++) {
-                allocations_left = size == 0 && i % 10 == 0 ? mw__random_below(&random, 10) : -1;
+                if (size == 0 && i % 10 == 0) allocations_left = mw__random_below(&random, 10);
                 random_edit(editor, kind, 3 + (uint32_t)i / 100, &random);
                 allocations_left = -1;
                 const mw_live_layers *live = &editor->upkeep.live;
