@@ -45,10 +45,12 @@ static int refused(session *s, const char *path, const mw_edit_line *line, const
 
 /* --- what an edit changed ------------------------------------------------------------------------------------------- */
 
-static void numbers_cell(text *row, const mw_changed_triangle *triangle, size_t count)
+/* The numbers of so many triangles of a change. */
+static void numbers_cell(text *row, const mw_change *c, size_t first, size_t count)
 {
     text_string(row, ",");
-    for (size_t i = 0; i < count; i++) text_printf(row, i ? " %" PRIu32 : "%" PRIu32, triangle[i].triangle);
+    for (size_t i = first; i < first + count; i++)
+        text_printf(row, i > first ? " %" PRIu32 : "%" PRIu32, c->triangle[i].triangle);
 }
 
 static void change_row(session *s, int64_t line, const char *kind, const mw_change *c)
@@ -58,9 +60,9 @@ static void change_row(session *s, int64_t line, const char *kind, const mw_chan
     text_printf(row, "%" PRId64 ",%s", line, kind);
     row_count(row, c->vertex != MW_NONE, c->vertex);
     text_string(row, c->vertex_made ? ",made" : c->vertex_freed ? ",freed" : ",");
-    numbers_cell(row, c->triangle, c->made);
-    numbers_cell(row, c->triangle + c->made, c->reused);
-    numbers_cell(row, c->triangle + c->made + c->reused, c->freed);
+    numbers_cell(row, c, 0, c->made);
+    numbers_cell(row, c, c->made, c->reused);
+    numbers_cell(row, c, c->made + c->reused, c->freed);
     row_count(row, true, c->flips);
     row_count(row, true, c->pieces);
     row_end(row);
