@@ -41,11 +41,12 @@ static bool lies_ahead(const mw_fabric *f, uint32_t from, uint32_t to, uint32_t 
     return mw__orient2d(p[from], p[to], p[v]) == 0 && mw__dot2d(p[from], p[to], p[v]) > 0;
 }
 
+/* f->last is a tile of `from`. */
 static exit_of_star leave(const mw_fabric *f, uint32_t from, uint32_t to)
 {
     const mw_point *p = f->tiling->point;
     bool open;
-    uint32_t first = mw__star_first(f, from, &open), at = first;
+    uint32_t first = mw__star_from(f, from, f->last, &open), at = first;
     do {
         uint32_t across = mw__half_next(at), last = mw__half_prev(at);
         uint32_t a = mw__corner(f, across), b = mw__corner(f, last);
@@ -179,7 +180,7 @@ static mw_status constrain_edge(mw_fabric *f, uint32_t half, mw_error *error)
     bool border = is_border(f, half);
     if (!border && !mw__is_users(f, mw__link_triangle(half))) return refuse_leaving(f, mw__corner(f, half), error);
     if (border || mw__is_fixed(f, half)) return MW_OK;
-    return set_piece(f, half, true) && mw__legalise(f) ? MW_OK : mw__fail_memory(error);
+    return set_piece(f, half, true) ? MW_OK : mw__fail_memory(error);
 }
 
 static mw_status release_edge(mw_fabric *f, uint32_t half, mw_error *error)
@@ -191,12 +192,11 @@ static mw_status release_edge(mw_fabric *f, uint32_t half, mw_error *error)
     return set_piece(f, half, false) ? MW_OK : mw__fail_memory(error);
 }
 
-/* The next piece, from `from` to *end. */
+/* The next piece, from `from` to *end, of which f->last is a tile then. */
 static mw_status constrain_piece(mw_fabric *f, uint32_t from, uint32_t to, uint32_t *end, mw_error *error)
 {
     exit_of_star exit = leave(f, from, to);
     if (exit.half == MW_NONE) return refuse_leaving(f, from, error);
-    f->last = mw__link_triangle(exit.half);
     *end = exit.vertex;
     uint32_t half = exit.half;
     if (*end == MW_NONE) {
@@ -204,6 +204,7 @@ static mw_status constrain_piece(mw_fabric *f, uint32_t from, uint32_t to, uint3
         mw_status status = dig(f, from, to, exit.half, end, &half, error);
         if (status) return status;
     }
+    f->last = mw__link_triangle(half);
     return constrain_edge(f, half, error);
 }
 
@@ -219,24 +220,29 @@ static mw_status release_piece(mw_fabric *f, uint32_t from, uint32_t to, uint32_
     return release_edge(f, exit.half, error);
 }
 
-/* Edges released may have to be flipped, but only when all are found: what a flip turns away could be on the way. */
+/* Edges released may have to be flipped. */
 static mw_status push_way(mw_fabric *f, uint32_t from, uint32_t to, mw_error *error)
 {
     while (from != to) {
         exit_of_star exit = leave(f, from, to);
         if (!mw__push(f, exit.half)) return mw__fail_memory(error);
+        f->last = mw__link_triangle(exit.half);
         from = exit.vertex;
     }
-    return mw__legalise(f) ? MW_OK : mw__fail_memory(error);
+    return MW_OK;
 }
 
+/* Flips come last: what one turns away could be on the way. Channels share no tile, so half-edges on the stack stay what they are. */
 mw_status mw__fabric_constrain(mw_fabric *f, uint32_t from, uint32_t to, bool release, uint32_t *pieces,
                                mw_error *error)
 {
     *pieces = 0;
+    f->last = mw__fabric_tile(f, from);
     for (uint32_t at = from, end = MW_NONE; at != to; at = end, (*pieces)++) {
         mw_status status = release ? release_piece(f, at, to, &end, error) : constrain_piece(f, at, to, &end, error);
         if (status) return status;
     }
-    return release && f->delaunay ? push_way(f, from, to, error) : MW_OK;
+    f->last = mw__fabric_tile(f, from);
+    mw_status status = release && f->delaunay ? push_way(f, from, to, error) : MW_OK;
+    return status || mw__legalise(f) ? status : mw__fail_memory(error);
 }

@@ -27,8 +27,13 @@ static uint32_t corner_of(const mw_triangle *tile, uint32_t v)
 
 uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open)
 {
+    return mw__star_from(f, v, mw__fabric_tile(f, v), open);
+}
+
+uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t first, bool *open)
+{
     const mw_tiling *tiling = f->tiling;
-    uint32_t first = mw__fabric_tile(f, v), at = mw__link(first, corner_of(&tiling->tri[first], v));
+    uint32_t at = mw__link(first, corner_of(&tiling->tri[first], v));
     for (;;) {
         uint32_t link = tiling->tri[mw__link_triangle(at)].link[mw__link_edge(at)];
         *open = link == MW_NONE;

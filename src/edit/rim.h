@@ -56,5 +56,7 @@ bool mw__rim_room(mw_fabric *f, size_t steps);
 /* The edge that begins at v, as a half-edge of one of its tiles, from which all others follow counter-clockwise; *open: v is on the
  * hull. */
 uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open);
+/* The same, given a tile of v: in the middle of an edit, when the lowest of each vertex is not known. */
+uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t tile, bool *open);
 
 #endif
