@@ -119,6 +119,7 @@ mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options
     mw_editor *editor = mw__calloc(1, sizeof *editor);
     if (!editor) return mw__fail_memory(error);
     editor->keeps_log = options->log != 0;
+    editor->threads = options->threads;
     editor->undo = options->undo;
     mw_status status = make(editor, mesh, options, error);
     if (status)

@@ -16,6 +16,7 @@ struct mw_editor {
     mw_cursor cursor; /* finds where to insert */
     bool borrows;     /* the vertex inserted last lies outside: it has the values of another one */
     bool keeps_log;
+    uint32_t threads; /* as in the options */
     size_t undo, undoable;
     mw_edit *log;
     size_t log_count, log_room;

@@ -31,8 +31,9 @@ static bool renumber(const mw_fabric *f, renumbering *r)
     return true;
 }
 
-static mw_status make_mesh(const mw_fabric *f, const renumbering *r, mw_mesh **out, mw_error *error)
+static mw_status make_mesh(const mw_editor *editor, const renumbering *r, mw_mesh **out, mw_error *error)
 {
+    const mw_fabric *f = &editor->fabric;
     mw_point *point = mw__alloc(r->vertices, sizeof *point);
     uint32_t(*triangle)[3] = mw__alloc(r->triangles, sizeof *triangle);
     mw_status status = MW_OK;
@@ -47,7 +48,7 @@ static mw_status make_mesh(const mw_fabric *f, const renumbering *r, mw_mesh **o
         }
         mw_arrays arrays = {
             .points = &point->x, .point_count = r->vertices, .triangles = triangle, .triangle_count = r->triangles};
-        status = mw_mesh_create(&arrays, NULL, out, error);
+        status = mw_mesh_create(&arrays, &(mw_mesh_options){.threads = editor->threads}, out, error);
     } else {
         status = mw__fail_memory(error);
     }
@@ -85,7 +86,7 @@ static void tell(const mw_fabric *f, const renumbering *r, uint32_t *triangles, 
 static mw_status make(const mw_editor *editor, renumbering *r, mw_mesh **out, mw_error *error)
 {
     if (!renumber(&editor->fabric, r)) return mw__fail_memory(error);
-    mw_status status = make_mesh(&editor->fabric, r, out, error);
+    mw_status status = make_mesh(editor, r, out, error);
     if (!status) status = add_fields(editor, r, *out, error);
     if (status) {
         mw_mesh_destroy(*out);
