@@ -72,26 +72,26 @@ static void corners_of(const mw_editor *editor, uint32_t triangle, double corner
     for (int k = 0; k < 3; k++) mw_editor_vertex(editor, v[k], corners + 2 * k);
 }
 
+/* Nothing is asked about what changed, as CGAL tells nothing: the number of a new vertex is the next one. */
 static double run(void *self, const script *s, double *corners)
 {
     own *o = self;
-    mw_change change;
     mw_status status = MW_OK;
     uint32_t inserted = (uint32_t)s->point_count;
     const mw_locator *locator = mw_editor_locator(o->editor);
     double clock = tally_clock();
     for (const script_step *step = s->steps; step < s->steps + s->count && status == MW_OK; step++) {
+        const double *p = step->point;
         switch (step->kind) {
         case SCRIPT_INSERT:
-            status = mw_edit_insert(o->editor, step->point[0], step->point[1], &change, NULL);
-            if (status == MW_OK) o->vertex[inserted++] = change.vertex;
+            status = mw_edit_insert(o->editor, p[0], p[1], NULL, NULL);
+            o->vertex[inserted] = inserted;
+            inserted++;
             break;
-        case SCRIPT_REMOVE: status = mw_edit_remove(o->editor, o->vertex[step->vertex], &change, NULL); break;
-        case SCRIPT_MOVE:
-            status = mw_edit_move(o->editor, o->vertex[step->vertex], step->point[0], step->point[1], &change, NULL);
-            break;
+        case SCRIPT_REMOVE: status = mw_edit_remove(o->editor, o->vertex[step->vertex], NULL, NULL); break;
+        case SCRIPT_MOVE: status = mw_edit_move(o->editor, o->vertex[step->vertex], p[0], p[1], NULL, NULL); break;
         case SCRIPT_LOCATE:
-            corners_of(o->editor, mw_locate(locator, &o->cursor, step->point[0], step->point[1]).triangle, corners);
+            corners_of(o->editor, mw_locate(locator, &o->cursor, p[0], p[1]).triangle, corners);
             corners += 6;
             break;
         }
