@@ -232,7 +232,7 @@ run edit m.off e.txt -o - --format off --answers a.csv; exits 0; prints_line '^O
 run edit m.off e.txt -o o.off --answers a.csv --log -; exits 0; prints 'insert 0.5 0.25'
 rm a.csv o.off
 # Full disks, small disks, closed pipes, signals: as for the other commands.
-stream 3 60000 >long.txt
+awk 'BEGIN { srand(9); for (i = 0; i < 18000; i++) print i % 3 ? "insert" : "locate", rand(), rand() }' >long.txt
 if [[ -w /dev/full ]]; then
     for option in --answers --changes --log --numbers; do
         run edit m.off e.txt -o o.off $option /dev/full; exits 4; says 'No space left on device'; rm -f o.off
