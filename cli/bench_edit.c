@@ -52,6 +52,27 @@ static int check_settings(const bench_settings *s)
     return options_limit("rounds", s->rounds, 1000, NULL);
 }
 
+/* Scripts want one that follows edits; the rest has ours in any case. */
+static int check_plan(const editing_plan *plan)
+{
+    if (plan->tasks >> EDITING_REBUILD) return 0;
+    for (editor_id id = 0; id < EDITORS; id++)
+        if (plan->editors >> id & 1 && editors[id].edits) return 0;
+    complain("none of these engines takes any of these tasks");
+    return END_USAGE;
+}
+
+static int take_engines(const char *list, uint32_t *set)
+{
+    int end = engines_choose(list, &editor_choices, set);
+    for (editor_id id = 0; id < EDITORS && end == 0; id++)
+        if (*set >> id & 1 && !editings_there(id)) {
+            engines_missing(UINT32_C(1) << editors[id].engine);
+            end = END_USAGE;
+        }
+    return end;
+}
+
 static int take_settings(run *r, const char *names)
 {
     const bench_settings *s = r->settings;
@@ -64,9 +85,10 @@ static int take_settings(run *r, const char *names)
     };
     int end = check_settings(s);
     if (end == 0 && s->sizes) end = bench_sizes(s->sizes, &r->sizes);
-    if (end == 0 && s->engines) end = engines_choose(s->engines, &editor_choices, &r->plan.editors);
+    if (end == 0 && s->engines) end = take_engines(s->engines, &r->plan.editors);
     if (end == 0 && s->tasks) end = engines_choose(s->tasks, &editing_choices, &r->plan.tasks);
     if (end == 0) end = bench_each_word(names, check_set, NULL);
+    if (end == 0) end = check_plan(&r->plan);
     return end ? end : files_try_output(s->common.output, NULL);
 }
 
