@@ -114,6 +114,16 @@ static mw_status read_points(const char *path, mw_error *error)
     return status;
 }
 
+static mw_status read_edits(const char *path, mw_error *error)
+{
+    mw_edit_reader *reader;
+    mw_edit_line line = {.kind = MW_EDIT_LINE_UNDO};
+    mw_status status = mw_edits_open(path, NULL, &reader, error);
+    while (!status && line.kind != MW_EDIT_LINE_NONE) status = mw_edits_read(reader, &line, error);
+    mw_edits_close(reader);
+    return status;
+}
+
 static double points[300];
 static uint32_t triangles[300];
 
@@ -179,6 +189,14 @@ static void test_read_points(void **state)
     files_clear();
 }
 
+static void test_read_edits(void **state)
+{
+    (void)state;
+    files_write_text("edits.txt", "insert 1 2 3\nlocate 1 2\nundo\n");
+    fail_each(read_edits, "edits.txt");
+    files_clear();
+}
+
 static void test_write(void **state)
 {
     (void)state;
@@ -192,6 +210,6 @@ static void test_write(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_points),
-                                       cmocka_unit_test(test_write)};
+                                       cmocka_unit_test(test_read_edits), cmocka_unit_test(test_write)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }
