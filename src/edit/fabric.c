@@ -245,10 +245,22 @@ static int descending(const void *a, const void *b)
     return (s < t) - (s > t);
 }
 
+/* Most often there are two. */
+static void sort_down(uint32_t *tiles, size_t count)
+{
+    if (count > 2) {
+        qsort(tiles, count, sizeof *tiles, descending);
+    } else if (count == 2 && tiles[0] < tiles[1]) {
+        uint32_t lower = tiles[0];
+        tiles[0] = tiles[1];
+        tiles[1] = lower;
+    }
+}
+
 bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
 {
     mw_tiling *tiling = f->tiling;
-    qsort(tiles, count, sizeof *tiles, descending); /* so that the last tile is none that has yet to go */
+    sort_down(tiles, count); /* so that the last tile is none that has yet to go */
     for (size_t i = 0; i < count; i++) {
         uint32_t t = tiles[i], last = tiling->tri_count - 1;
         if (!mw__is_users(f, t)) tiling->ghost_count--;

@@ -49,11 +49,11 @@ static bool is_changed(const mw_fabric *f, uint32_t half)
            f->mark[mw__link_triangle(other)] & MW_JOURNALED;
 }
 
-bool mw__legalise(mw_fabric *f)
+static MW_INLINE bool legalise(mw_fabric *f, bool within)
 {
     while (f->stack_count > 0) {
         uint32_t half = f->stack[--f->stack_count];
-        if (!f->delaunay && !is_changed(f, half)) continue;
+        if (within && !is_changed(f, half)) continue;
         if (!mw__is_illegal(f, half)) continue;
         uint32_t t = mw__link_triangle(half), n = mw__link_triangle(mw__beyond(f, half));
         if (!mw__exchange(f, half)) return false;
@@ -63,6 +63,16 @@ bool mw__legalise(mw_fabric *f)
             return false;
     }
     return true;
+}
+
+bool mw__legalise(mw_fabric *f)
+{
+    return f->delaunay ? legalise(f, false) : legalise(f, true);
+}
+
+bool mw__legalise_within(mw_fabric *f)
+{
+    return legalise(f, true);
 }
 
 mw_status mw__fabric_mend(mw_fabric *f, mw_error *error)

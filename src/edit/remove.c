@@ -27,10 +27,11 @@ static uint32_t number_beside(const mw_fabric *f, size_t steps)
 
 /* --- the three cases -------------------------------------------------------------------------------------------------- */
 
+/* The tiles round a star are still Delaunay without its vertex: only the edges within are looked at. */
 static mw_status close_ring(mw_fabric *f, const mw_star *star, mw_point q, mw_error *error)
 {
     mw_pool pool = {.tile = f->pool, .count = star->n};
-    if (!mw__pool_begin(f, &pool) || !mw__cut_ring(f, f->rim, star->n, q, &pool) || !mw__legalise(f))
+    if (!mw__pool_begin(f, &pool) || !mw__cut_ring(f, f->rim, star->n, q, &pool) || !mw__legalise_within(f))
         return mw__fail_memory(error);
     mw__pool_end(f, &pool, MW_NONE);
     return mw__drop_tiles(f, pool.tile + pool.used, pool.count - pool.used) ? MW_OK : mw__fail_memory(error);
