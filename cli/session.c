@@ -5,6 +5,7 @@
 #include "row.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -128,7 +129,7 @@ static int locate(session *s, const char *path, const mw_edit_line *line)
     if (s->heights != MW_NONE) {
         double z;
         mw_editor_interpolate(s->editor, s->heights, &at, 1, &z);
-        row_double(row, at.triangle != MW_NONE, z);
+        row_double(row, !isnan(z), z);
     }
     row_end(row);
     write_row(s, SESSION_ANSWERS);
