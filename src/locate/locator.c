@@ -81,9 +81,10 @@ static void find_extent(const mw_tiling *tiling, double low[2], double high[2])
  * curve, if they lie so. The grid is small, for half a byte a triangle, and of little work: a larger one makes queries up to
  * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. Tiles that are edited do not keep to a
  * curve; there crowded cells are grids themselves. */
+enum { TRIANGLES_PER_CELL = 8 };
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
-    enum { TRIANGLES_PER_CELL = 8, STRIDE = 2 };
+    enum { STRIDE = 2 };
     const mw_tiling *tiling = &locator->tiling;
     bool even;
     *guide = (mw_index){0};
@@ -113,6 +114,7 @@ void mw__locator_survey(mw_locator *locator)
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
+    locator->cell2 = width / (tiling->tri_count / TRIANGLES_PER_CELL + 1) * height;
     locator->pace = expect_pace(tiling->tri_count, width, height);
 }
 

@@ -143,14 +143,15 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
 /* --- the departure ----------------------------------------------------------------------------------------------- */
 
 /* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads nearer. A long edge would not
- * tell: many small tiles may lie beside it. */
-static MW_INLINE bool is_close(const mw_tiling *tiling, uint32_t t, mw_point q)
+ * tell, as many small tiles may lie beside it; nor does a tile as large as a cell, such as there are along the hull. */
+static MW_INLINE bool is_close(const mw_locator *locator, uint32_t t, mw_point q)
 {
     enum { LENGTHS = 3 };
+    const mw_tiling *tiling = &locator->tiling;
     const uint32_t *v = tiling->tri[t].v;
     mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
     double shortest = fmin(mw__distance2(a, b), fmin(mw__distance2(b, c), mw__distance2(c, a)));
-    return mw__distance2(a, q) <= LENGTHS * LENGTHS * shortest;
+    return mw__distance2(a, q) <= fmin(LENGTHS * LENGTHS * shortest, locator->cell2);
 }
 
 /* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
@@ -173,7 +174,7 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_CENTRE: return mw__tile_named(tiling, locator->centre);
     case MW_START_AUTO:
         if (locator->guide.start == MW_START_AUTO) return near_or_sample(locator, cursor, last, q, random);
-        if (!is_close(tiling, last, q)) return mw__index_tile(tiling, &locator->guide, q);
+        if (!is_close(locator, last, q)) return mw__index_tile(tiling, &locator->guide, q);
         break;
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:

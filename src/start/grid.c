@@ -55,7 +55,7 @@ static bool fill_gaps(mw_grid *grid, const mw_tiling *tiling, const float *dista
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
                      uint32_t stride, bool *even)
 {
-    grid->lattice = mw__lattice(low, high, cells ? cells : mw__lattice_choose(tiling));
+    grid->lattice = mw__lattice_of(tiling, low, high, cells ? cells : mw__lattice_choose(tiling));
     cells = mw__lattice_cells(&grid->lattice);
     grid->tile = mw__alloc_lines(cells, sizeof *grid->tile);
     float *distance = mw__alloc_lines(cells, sizeof *distance);

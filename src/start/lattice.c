@@ -13,11 +13,105 @@ mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells
         uint32_t lines = k == 0 ? lattice.columns : lattice.rows;
         double scale = lines / 2.0 / half[k];
         lattice.middle[k] = low[k] / 2 + high[k] / 2;
-        lattice.scale[k] = isfinite(scale) ? scale : 0; /* no width, or too little: all in the line in the middle */
+        lattice.along[k][k] = isfinite(scale) ? scale : 0; /* no width, or too little: all in the line in the middle */
         lattice.half[k] = lines / 2.0;
     }
     return lattice;
 }
+
+mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell)
+{
+    const double *a = lattice->along[0], *b = lattice->along[1];
+    double u = cell % lattice->columns + 0.5 - lattice->half[0], v = cell / lattice->columns + 0.5 - lattice->half[1];
+    double x = a[0] != 0 ? u / a[0] : 0, y = b[1] != 0 ? v / b[1] : 0;
+    if (a[1] != 0 || b[0] != 0) { /* the axes are at right angles */
+        double aa = a[0] * a[0] + a[1] * a[1], bb = b[0] * b[0] + b[1] * b[1];
+        x = u * a[0] / aa + v * b[0] / bb;
+        y = u * a[1] / aa + v * b[1] / bb;
+    }
+    return (mw_point){lattice->middle[0] + x, lattice->middle[1] + y};
+}
+
+/* --- cells in the shape of the tiles ---------------------------------------------------------------------------------- */
+
+/* Add the tensor of a tile's edges, sum of e e^T, to xx, xy, yy: divided by its trace, times the tile's area, so that each place counts the
+ * same. */
+static void add_shape(const mw_tiling *tiling, uint32_t t, double shape[3])
+{
+    const mw_point *p = tiling->point;
+    const uint32_t *v = tiling->tri[t].v;
+    double xx = 0, xy = 0, yy = 0;
+    for (int k = 0; k < 3; k++) {
+        double x = p[v[k + 1]].x - p[v[k]].x, y = p[v[k + 1]].y - p[v[k]].y;
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+    }
+    double weight = mw__orient2d_double(p[v[0]], p[v[1]], p[v[2]]) / (xx + yy);
+    if (!(weight > 0 && weight < INFINITY)) return;
+    shape[0] += xx * weight;
+    shape[1] += xy * weight;
+    shape[2] += yy * weight;
+}
+
+/* The direction in which tiles are long, and how many times longer than across. Looks at a few. */
+static double find_shape(const mw_tiling *tiling, double direction[2])
+{
+    enum { PROBES = 1024 };
+    double shape[3] = {0};
+    for (uint32_t i = 0; i < PROBES && i < tiling->tri_count; i++)
+        add_shape(tiling, (uint32_t)((uint64_t)i * tiling->tri_count / PROBES % tiling->tri_count), shape);
+    if (!(shape[0] + shape[2] > 0 && shape[0] + shape[2] < INFINITY)) return 1; /* beyond the doubles */
+    double half = (shape[0] - shape[2]) / 2, root = hypot(half, shape[1]), sum = shape[0] + shape[2];
+    double angle = atan2(shape[1], half) / 2;
+    direction[0] = cos(angle);
+    direction[1] = sin(angle);
+    double least = (shape[0] * shape[2] - shape[1] * shape[1]) / (sum / 2 + root); /* by the product of both */
+    return least > 0 ? sqrt((sum / 2 + root) / least) : INFINITY;
+}
+
+/* Extent of the tiling's vertices along two axes, seen from `middle`. */
+static void find_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], double low[2],
+                        double high[2])
+{
+    low[0] = low[1] = INFINITY;
+    high[0] = high[1] = -INFINITY;
+    for (uint32_t v = 0; v < tiling->point_count; v++) {
+        if (tiling->owner[v] == MW_NONE) continue;
+        double x = tiling->point[v].x - middle[0], y = tiling->point[v].y - middle[1];
+        for (int k = 0; k < 2; k++) {
+            double at = x * axis[k][0] + y * axis[k][1];
+            low[k] = fmin(low[k], at);
+            high[k] = fmax(high[k], at);
+        }
+    }
+}
+
+mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
+{
+    static const double common = 4, most = 0x1p20; /* tiles that are less long than the first are common */
+    mw_lattice lattice = mw__lattice(low, high, cells);
+    double d[2], aspect = fmin(find_shape(tiling, d), most);
+    if (!(aspect > common)) return lattice;
+    const double axis[2][2] = {{-d[1] * aspect, d[0] * aspect}, {d[0], d[1]}};
+    double least[2], greatest[2];
+    find_extent(tiling, lattice.middle, axis, least, greatest);
+    for (int k = 0; k < 2; k++)
+        if (!(greatest[k] - least[k] > 0 && greatest[k] - least[k] < INFINITY)) return lattice;
+    mw_lattice slanted = mw__lattice(least, greatest, cells);
+    double u = slanted.middle[0] / (aspect * aspect), v = slanted.middle[1];
+    slanted.middle[0] = lattice.middle[0] + u * axis[0][0] + v * axis[1][0];
+    slanted.middle[1] = lattice.middle[1] + u * axis[0][1] + v * axis[1][1];
+    for (int k = 0; k < 2; k++) {
+        double scale = slanted.along[k][k];
+        slanted.along[k][0] = scale * axis[k][0];
+        slanted.along[k][1] = scale * axis[k][1];
+        if (!isfinite(scale * axis[k][0]) || !isfinite(scale * axis[k][1])) return lattice;
+    }
+    return slanted;
+}
+
+/* --- what cells hold -------------------------------------------------------------------------------------------------- */
 
 /* From the cells that have an entry outwards, ring by ring: each cell is reached first from one at the least distance in
  * rings, which is where a spiral search round it would end. */

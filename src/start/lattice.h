@@ -4,13 +4,17 @@
 
 #include "domain/tiling.h"
 
+/* Column and row of p: along[k] . (p - middle) + half[k], half[k] being half the number of columns or rows. */
 typedef struct mw_lattice {
-    double middle[2], scale[2], half[2]; /* cell of x: (x - middle) * scale + half, half the number of columns */
+    double middle[2], along[2][2], half[2];
     uint32_t columns, rows;
 } mw_lattice;
 
 /* At most `cells` (1 to MW_MAX_CELLS) about square ones over the extent low..high, which may be flat. */
 mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells);
+
+/* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so too. */
+mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
 
 /* As many as there may be tiles. */
 #define MW_MAX_CELLS (UINT32_C(1) << 30)
@@ -26,52 +30,49 @@ static MW_INLINE uint32_t mw__lattice_line(double position, uint32_t lines)
     return position > 0 ? position < lines - 1 ? (uint32_t)position : lines - 1 : 0;
 }
 
-/* The cell of p, row by row. Points outside the extent belong to the cells at its rim. Distances from the middle do not
- * overflow within any extent. */
-static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p)
+/* How far p is off the middle, in cells. Does not overflow within any extent. */
+static MW_INLINE void mw__lattice_offset(const mw_lattice *lattice, mw_point p, double offset[2])
 {
-    double x = (p.x - lattice->middle[0]) * lattice->scale[0] + lattice->half[0];
-    double y = (p.y - lattice->middle[1]) * lattice->scale[1] + lattice->half[1];
-    return mw__lattice_line(y, lattice->rows) * lattice->columns + mw__lattice_line(x, lattice->columns);
+    double x = p.x - lattice->middle[0], y = p.y - lattice->middle[1];
+    offset[0] = x * lattice->along[0][0] + y * lattice->along[0][1];
+    offset[1] = x * lattice->along[1][0] + y * lattice->along[1][1];
 }
 
-static MW_INLINE double mw__lattice_at(const mw_lattice *lattice, int k, uint32_t line)
+/* The cell of p, row by row. Points outside the extent belong to the cells at its rim. */
+static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p)
 {
-    double away = lattice->scale[k] > 0 ? (line + 0.5 - lattice->half[k]) / lattice->scale[k] : 0;
-    return lattice->middle[k] + away;
+    double at[2];
+    mw__lattice_offset(lattice, p, at);
+    return mw__lattice_line(at[1] + lattice->half[1], lattice->rows) * lattice->columns +
+           mw__lattice_line(at[0] + lattice->half[0], lattice->columns);
 }
 
 /* Does p lie in a cell, and not beyond the rim? */
 static MW_INLINE bool mw__lattice_covers(const mw_lattice *lattice, mw_point p)
 {
-    double x = (p.x - lattice->middle[0]) * lattice->scale[0], y = (p.y - lattice->middle[1]) * lattice->scale[1];
-    return fabs(x) <= lattice->half[0] && fabs(y) <= lattice->half[1];
+    double at[2];
+    mw__lattice_offset(lattice, p, at);
+    return fabs(at[0]) <= lattice->half[0] && fabs(at[1]) <= lattice->half[1];
 }
 
 /* The middle of a cell. */
-static MW_INLINE mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell)
-{
-    return (mw_point){mw__lattice_at(lattice, 0, cell % lattice->columns),
-                      mw__lattice_at(lattice, 1, cell / lattice->columns)};
-}
+mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell);
 
 /* The square of how far p is off the middle of a cell, in widths of a cell; NaN is as far as can be. */
 static MW_INLINE float mw__lattice_off(const mw_lattice *lattice, uint32_t column, uint32_t row, mw_point p)
 {
-    double x = (p.x - lattice->middle[0]) * lattice->scale[0] + lattice->half[0];
-    double y = (p.y - lattice->middle[1]) * lattice->scale[1] + lattice->half[1];
-    float dx = (float)(x - column) - 0.5f, dy = (float)(y - row) - 0.5f;
+    double at[2];
+    mw__lattice_offset(lattice, p, at);
+    float dx = (float)(at[0] + lattice->half[0] - column) - 0.5f, dy = (float)(at[1] + lattice->half[1] - row) - 0.5f;
     return dx * dx + dy * dy;
 }
 
 /* The cell of p, and how far p is off its middle. */
 static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_point p, float *off)
 {
-    double x = (p.x - lattice->middle[0]) * lattice->scale[0] + lattice->half[0];
-    double y = (p.y - lattice->middle[1]) * lattice->scale[1] + lattice->half[1];
-    uint32_t column = mw__lattice_line(x, lattice->columns), row = mw__lattice_line(y, lattice->rows);
-    *off = mw__lattice_off(lattice, column, row, p);
-    return row * lattice->columns + column;
+    uint32_t cell = mw__lattice_cell(lattice, p);
+    *off = mw__lattice_off(lattice, cell % lattice->columns, cell / lattice->columns, p);
+    return cell;
 }
 
 /* The middle of a tile, rounded. */
