@@ -374,12 +374,16 @@ static inline void fix_first(twin *t, const mw_editor_options *options)
     free(sides);
 }
 
+/* Threads have nothing to do in meshes this small, and wait for one another all the time. */
+__attribute__((weak)) void omp_set_num_threads(int count);
+
 /* Of a mesh that the twin then owns; it gets two fields. */
 static inline void twin_open(twin *t, mw_mesh *mesh, const mw_editor_options *options)
 {
     mw_error error = {0};
     mw_mesh_info info;
     *t = (twin){.first = mesh};
+    if (omp_set_num_threads) omp_set_num_threads(1);
     set_fields(mesh);
     twin_read_first(t, mesh);
     REQUIRE(mw_mesh_describe(mesh, &info, NULL) == MW_OK);
