@@ -39,7 +39,8 @@ typedef struct session {
     double *queries;
     mw_location *found, *expected;
     beginning beginnings[BEGINNINGS];
-    double edits, edit_ns; /* so far; each of the last ones */
+    double edits; /* so far */
+    double ns;    /* of each of the last ones; or of compacting */
 } session;
 
 static int fail(const session *s, const mw_error *error)
@@ -78,7 +79,7 @@ static int edit_until(session *s, double edits)
         if (mw_edit_apply(s->editor, &edit, &change, &error) != MW_OK) return fail(s, &error);
         if (edit.kind == MW_EDIT_INSERT) s->alive[s->alive_count++] = change.vertex;
     }
-    s->edit_ns = 1e9 * (tally_clock() - clock) / fmax(1, edits - before);
+    s->ns = 1e9 * (tally_clock() - clock) / fmax(1, edits - before);
     return 0;
 }
 
@@ -143,13 +144,14 @@ static int count(session *s, double triangles[BEGINNINGS])
     return end;
 }
 
-static int take_rows(const session *s, const double *microseconds, const double *triangles, editing_table *table)
+static int take_rows(const session *s, const char *what, const double *microseconds, const double *triangles,
+                     editing_table *table)
 {
     mw_editor_info info;
     mw_editor_describe(s->editor, &info);
-    editing_row row = editings_row(s->plan, EDITING_SESSION, "edits");
+    editing_row row = editings_row(s->plan, EDITING_SESSION, what);
     row.edits = s->edits;
-    row.ns = s->edits > 0 ? s->edit_ns : NAN;
+    row.ns = s->edits > 0 ? s->ns : NAN;
     row.bytes = (double)info.bytes;
     int end = editings_add(table, &row);
     for (size_t k = 0; k < BEGINNINGS && end == 0; k++) {
@@ -164,13 +166,14 @@ static int take_rows(const session *s, const double *microseconds, const double 
     return end;
 }
 
-static int look(session *s, editing_table *table)
+/* what: was done before. */
+static int look(session *s, const char *what, editing_table *table)
 {
     double microseconds[BEGINNINGS], triangles[BEGINNINGS];
     dataset_draw(&s->data, s->queries, TIMED_QUERIES, &s->random);
     int end = count(s, triangles);
     if (end == 0) end = rounds_time(BEGINNINGS, rounds_share(TIMED_QUERIES), time_one, s, microseconds);
-    return end ? end : take_rows(s, microseconds, triangles, table);
+    return end ? end : take_rows(s, what, microseconds, triangles, table);
 }
 
 /* --- the session
@@ -222,19 +225,31 @@ static int prepare(session *s, size_t edits)
     return make_indices(s);
 }
 
-/* Ten edits for each vertex; a look at first, and each time that there are ten
- * times as many as at the one before. */
+/* What edits have scattered in memory is put in order again. */
+static int compact(session *s)
+{
+    mw_error error;
+    double clock = tally_clock();
+    if (mw_editor_compact(s->editor, NULL, NULL, &error) != MW_OK) return fail(s, &error);
+    s->ns = 1e9 * (tally_clock() - clock);
+    return 0;
+}
+
+/* Ten edits for each vertex; a look at first, and each time that there are ten times as many as at the one before; and one when all has
+ * been compacted. */
 int editings_session(const editing_plan *p, editing_table *table)
 {
     size_t all = 10 * p->vertices;
     session s = {.plan = p, .random = ~p->seed};
     progress_phase("editing for long", p->name);
     int end = prepare(&s, all);
-    if (end == 0) end = look(&s, table);
+    if (end == 0) end = look(&s, "edits", table);
     for (size_t edits = all / 1000 ? all / 1000 : 1; end == 0 && edits <= all; edits *= 10) {
         end = edit_until(&s, (double)edits);
-        if (end == 0) end = look(&s, table);
+        if (end == 0) end = look(&s, "edits", table);
     }
+    if (end == 0) end = compact(&s);
+    if (end == 0) end = look(&s, "compact", table);
     mw_editor_destroy(s.editor);
     mw_index_destroy(s.stale);
     dataset_release(&s.data);

@@ -40,10 +40,10 @@ holds "what is missing is told with the way to get it" \
 run bench edit uniform --sizes 300 --tasks rebuild --engines meshwalk,meshwalk-anew "${small[@]}"; exits 0; says_nothing; sound 7
 holds "three strides, two of each" \
     test "$(awk -F '\t' '$6 != "" && NR > 2 { printf "%s ", $4 }' "$logs/out")" == '1 1 10 10 100 100 '
-# A session: the edits and seven ways to begin, at first and after 3, 30, 300 and 3000 edits.
-run bench edit uniform --sizes 300 --tasks session "${small[@]}"; exits 0; sound 40
+# A session: the edits and seven ways to begin, at first and after 3, 30, 300 and 3000 edits, and compacted.
+run bench edit uniform --sizes 300 --tasks session "${small[@]}"; exits 0; sound 48
 holds "its edits" test "$(column 4)" == '0 3 30 300 3000 '
-holds "its beginnings" test "$(column 5)" == 'auto edits grid grid-not-kept-up last layers sample two-level-grid '
+holds "its beginnings" test "$(column 5)" == 'auto compact edits grid grid-not-kept-up last layers sample two-level-grid '
 
 run bench edit uniform --sizes 200 --tasks insert --engines meshwalk --rounds 1; exits 0
 prints_line '^task +dataset +vertices +edits +engine +ns +triangles +bytes +wrong +ratio$'
