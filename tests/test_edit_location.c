@@ -449,6 +449,12 @@ static void test_cursors_recover(void **state)
             visits(editor, &cursor, q); /* ends in a triangle that is made, then taken back */
             assert_int_equal(mw_edit_undo(editor, NULL, NULL), MW_OK);
         }
+        if (round % 5 == 0) { /* the same by a vertex that comes from anywhere, and goes back there */
+            assert_int_equal(mw_edit_move(editor, random_vertex(editor, &random), q[0] + 1e-3, q[1] + 1e-3, NULL, NULL),
+                             MW_OK);
+            visits(editor, &cursor, q);
+            assert_int_equal(mw_edit_undo(editor, NULL, NULL), MW_OK);
+        }
         uint64_t n = visits(editor, &cursor, q);
         most = n > most ? n : most;
     }

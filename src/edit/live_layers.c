@@ -1,5 +1,4 @@
-/* live_layers.c - the layered hierarchy, followed through insertions, removals and moves [Devillers 2002, "The Delaunay hierarchy", sec. 4
- * and 5].
+/* live_layers.c - the layered hierarchy, followed through insertions, removals and moves [Devillers 2002, "The Delaunay hierarchy"].
  *
  * The layers are built as they are above a mesh at rest (start/layers.c), then each becomes a fabric. By expectation a vertex has 1 / (1 -
  * ratio) - 1 copies above the mesh, one in 39 where nothing is said; only such are looked for and triangulated, so what an edit costs here is

@@ -177,17 +177,23 @@ static void offer_changed(mw_upkeep *u, const mw_before *first, size_t count, ui
     } while (at != MW_NONE && at != begin);
 }
 
-/* Numbers that were given out by an edit that was undone lead to a triangle that is there again. */
-static void redirect_names(mw_upkeep *u, const mw_before *first, size_t count)
+/* A tile that there is now, beside one that there was before an edit was undone. */
+static uint32_t tile_beside(const mw_tiling *tiling, const mw_triangle *gone)
 {
-    mw_tiling *tiling = u->fabric->tiling;
-    uint32_t heir = MW_NONE;
-    for (size_t i = 0; i < count && heir == MW_NONE; i++)
-        if (first[i].place < tiling->tri_count) heir = mw__tile_name(tiling, first[i].place);
-    for (size_t i = 0; i < count && heir != MW_NONE; i++) {
-        uint32_t number = first[i].tile.user & MW_USER_MASK;
-        if (first[i].tile.v[0] == MW_NONE || first[i].tile.user & MW_GHOST) continue;
-        if (number >= tiling->number_count) tiling->tile_of[number] = MW_GONE | heir;
+    for (uint32_t k = 0; k < 3; k++)
+        if (gone->link[k] != MW_NONE && mw__link_triangle(gone->link[k]) < tiling->tri_count)
+            return mw__link_triangle(gone->link[k]);
+    return 0;
+}
+
+/* Numbers that were given out by an edit that was undone lead to triangles beside those that had them. */
+static void redirect_names(mw_tiling *tiling, const mw_before *first, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const mw_triangle *gone = &first[i].tile;
+        uint32_t number = gone->user & MW_USER_MASK;
+        if (gone->v[0] == MW_NONE || gone->user & MW_GHOST || number < tiling->number_count) continue;
+        tiling->tile_of[number] = MW_GONE | mw__tile_name(tiling, tile_beside(tiling, gone));
     }
 }
 
@@ -247,7 +253,7 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     if (step->edit.kind == MW_EDIT_VALUE) return;
     u->locator->epoch++;
     if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
-    if (undone) redirect_names(u, first, count);
+    if (undone) redirect_names(tiling, first, count);
     uint32_t v = step->vertex;
     if (v != MW_NONE && is_there(f, v)) note_place(u, tiling->point[v]);
     offer_changed(u, first, count, step->edit.kind == MW_EDIT_MOVE ? v : MW_NONE);

@@ -4,8 +4,8 @@
  * each start. They name tiles that edits take away or reshape:
  *
  *   grids    hold names of tiles. A name leads to the triangle of that number, or to one that took its place, so it never goes wrong,
- *            only farther off. An edit puts the tiles it changed into the cells of their middles where they are nearer than what is there:
- *            O(1) for each.
+ *            only farther off. Where a cell leads to a tile that an edit has changed, and there is one now whose middle is in the cell,
+ *            it gets that, or the nearest of them to its own middle: O(1) for each tile.
  *   layers   follow each vertex [Devillers 2002]: see live_layers.h.
  *   a curve  holds places of tiles, which say less and less. It is built anew only on request.
  *
