@@ -243,6 +243,14 @@ static void note_place(mw_upkeep *u, mw_point p)
     high[1] = fmax(high[1], p.y);
 }
 
+/* Where no vertex comes, names of what is gone lead near enough for the guide, and to look at its cells would be most of what it costs to
+ * remove a vertex. An index that was asked for is kept as near as can be. */
+static bool wants_offers(const mw_upkeep *u, mw_edit_kind kind)
+{
+    return kind == MW_EDIT_INSERT || kind == MW_EDIT_MOVE || is_built(u, MW_START_GRID) ||
+           is_built(u, MW_START_TWO_LEVEL_GRID);
+}
+
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
 {
     const mw_fabric *f = u->fabric;
@@ -256,7 +264,7 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     if (undone) redirect_names(tiling, first, count);
     uint32_t v = step->vertex;
     if (v != MW_NONE && is_there(f, v)) note_place(u, tiling->point[v]);
-    offer_changed(u, first, count, step->edit.kind == MW_EDIT_MOVE ? v : MW_NONE);
+    if (wants_offers(u, step->edit.kind)) offer_changed(u, first, count, step->edit.kind == MW_EDIT_MOVE ? v : MW_NONE);
     if (v != MW_NONE && u->live.layers && !(follow(u, step, undone) && mw__live_layers_even(&u->live)))
         refresh(u, MW_START_LAYERS);
     for (int i = 0; i < KEPT; i++) {
