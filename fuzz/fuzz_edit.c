@@ -58,6 +58,7 @@ static void edit_from(input *in, uint32_t what, twin *t)
     e.y = coordinate(place >> 4);
     e.vertex = one % (t->vertex_range + 1);
     if (e.kind >= MW_EDIT_FLIP) e.other = place % (t->vertex_range + 1);
+    if (e.kind == MW_EDIT_VALUE && bare) e.kind = MW_EDIT_RELEASE;
     if (e.kind == MW_EDIT_VALUE) e.value = one;
     twin_apply(t, &e, what >> 7);
 }
@@ -117,8 +118,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_editor_options options = {.delaunay = (int)(next(&in) % 3), .undo = KEPT, .log = 1};
     mw_mesh *mesh = mesh_from(&in);
     if (!mesh) return 0;
-    uint32_t constraint[2], v[3];
-    if (next(&in) & 1) {
+    uint32_t constraint[2], v[3], more = next(&in);
+    bare = more >> 1 & 1;
+    if (more & 1) {
         mw_mesh_triangle(mesh, 0, v);
         constraint[0] = v[0];
         constraint[1] = v[1];

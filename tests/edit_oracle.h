@@ -121,6 +121,7 @@ typedef struct twin {
     double *point;
     uint8_t *state;     /* of each vertex                                         */
     uint32_t *triangle; /* three vertices each; the first MW_NONE: it is gone     */
+    uint32_t fields;    /* of the mesh: TWIN_FIELDS or none                       */
     double *value[TWIN_FIELDS];
     uint32_t *fixed; /* the constraints: two vertices each, the lower first    */
     size_t fixed_count;
@@ -377,14 +378,16 @@ static inline void fix_first(twin *t, const mw_editor_options *options)
 /* Threads have nothing to do in meshes this small, and wait for one another all the time. */
 __attribute__((weak)) void omp_set_num_threads(int count);
 
-/* Of a mesh that the twin then owns; it gets two fields. */
+/* Of a mesh that the twin then owns; it gets two fields, unless it is to be bare. */
+static bool bare;
+
 static inline void twin_open(twin *t, mw_mesh *mesh, const mw_editor_options *options)
 {
     mw_error error = {0};
     mw_mesh_info info;
-    *t = (twin){.first = mesh};
+    *t = (twin){.first = mesh, .fields = bare ? 0 : TWIN_FIELDS};
     if (omp_set_num_threads) omp_set_num_threads(1);
-    set_fields(mesh);
+    if (!bare) set_fields(mesh);
     twin_read_first(t, mesh);
     REQUIRE(mw_mesh_describe(mesh, &info, NULL) == MW_OK);
     t->convex = info.convex;
@@ -445,7 +448,7 @@ static inline void same_vertex(const twin *t, uint32_t v)
         REQUIRE(memcmp(p, at(t, v), sizeof p) == 0);
     else
         REQUIRE(p[0] == -7 && p[1] == -7);
-    for (uint32_t f = 0; f < TWIN_FIELDS; f++) {
+    for (uint32_t f = 0; f < t->fields; f++) {
         double value = mw_editor_value(t->editor, f, v);
         if (!expected)
             REQUIRE(isnan(value));
@@ -667,7 +670,7 @@ static inline void check_mesh_given(const twin *t, const mw_mesh *mesh, const ui
         if (vertices[v] == MW_NONE) continue;
         mw_mesh_vertex(mesh, vertices[v], p);
         REQUIRE(memcmp(p, at(t, v), sizeof p) == 0);
-        for (int f = 0; f < TWIN_FIELDS; f++) {
+        for (uint32_t f = 0; f < t->fields; f++) {
             const double *values = mw_mesh_field(mesh, twin_field[f]);
             REQUIRE(values != NULL && memcmp(&values[vertices[v]], &t->value[f][v], sizeof(double)) == 0);
         }
@@ -786,7 +789,7 @@ static inline void check_location(const twin *t, const mw_location *l, const dou
     }
     REQUIRE(fabs(sum - 1) < 1e-9);
     double got, value = 0;
-    for (uint32_t f = 0; f < TWIN_FIELDS; f++, value = 0) {
+    for (uint32_t f = 0; f < t->fields; f++, value = 0) {
         for (int k = 0; k < 3; k++)
             if (l->weight[k] != 0) value += l->weight[k] * t->value[f][corners_of(t, l->triangle)[k]];
         mw_editor_interpolate(t->editor, f, l, 1, &got);

@@ -282,7 +282,7 @@ static inline void absorb(twin *t, const mw_change *change, bool undone)
 static inline void read_vertex(twin *t, uint32_t v)
 {
     REQUIRE(mw_editor_vertex(t->editor, v, t->point + 2 * (size_t)v) == 1);
-    for (uint32_t f = 0; f < TWIN_FIELDS; f++) t->value[f][v] = mw_editor_value(t->editor, f, v);
+    for (uint32_t f = 0; f < t->fields; f++) t->value[f][v] = mw_editor_value(t->editor, f, v);
 }
 
 static inline bool is_still(const mw_change *change)
@@ -297,7 +297,7 @@ static inline bool is_still(const mw_change *change)
 static inline void check_interpolated(const twin *t, const twin *before, const mw_edit *e, uint32_t v,
                                       uint32_t triangle)
 {
-    for (uint32_t f = 0; f < TWIN_FIELDS; f++) {
+    for (uint32_t f = 0; f < t->fields; f++) {
         double value = t->value[f][v], low = INFINITY, high = -INFINITY;
         bool unknown = false;
         if (f == e->field && !isnan(e->value)) {
@@ -464,6 +464,7 @@ static inline void take_over(twin *t, const mw_edit *e, const mw_change *change)
         break;
     default: after_constrain(t, e, change); break;
     }
+    for (size_t i = 0; i < change->made; i++) REQUIRE(turn_of(t, change->triangle[i].triangle) > 0);
     if (!before.delaunay && e->kind == MW_EDIT_INSERT) REQUIRE(change->flips == 0);
     twin_close(&before);
 }
@@ -561,7 +562,7 @@ static inline void twin_compact(twin *t)
     t->triangle_range = t->triangles;
     for (uint32_t v = 0; v < t->vertices; v++) {
         mw_mesh_vertex(mesh, v, t->point + 2 * (size_t)v);
-        for (int f = 0; f < TWIN_FIELDS; f++) t->value[f][v] = mw_mesh_field(mesh, twin_field[f])[v];
+        for (uint32_t f = 0; f < t->fields; f++) t->value[f][v] = mw_mesh_field(mesh, twin_field[f])[v];
     }
     for (uint32_t k = 0; k < t->triangles; k++) mw_mesh_triangle(mesh, k, t->triangle + 3 * (size_t)k);
     mw_mesh_destroy(mesh);

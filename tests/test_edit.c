@@ -185,7 +185,7 @@ static void try_all(run *r)
     for (uint32_t v = 0; v <= r->now.vertex_range; v++) {
         try_edit(r, (mw_edit){.kind = MW_EDIT_REMOVE, .vertex = v});
         try_places(r, MW_EDIT_MOVE, v, v % 3 ? 1 : 0.5);
-        try_edit(r, (mw_edit){.kind = MW_EDIT_VALUE, .vertex = v, .field = v % 2, .value = -3});
+        if (!bare) try_edit(r, (mw_edit){.kind = MW_EDIT_VALUE, .vertex = v, .field = v % 2, .value = -3});
     }
     try_pairs(r, MW_EDIT_FLIP);
     try_pairs(r, MW_EDIT_CONSTRAIN);
@@ -234,6 +234,7 @@ static mw_edit any_edit(const twin *t, uint64_t *random)
         e.vertex = edge[0];
         e.other = edge[1];
     }
+    if (e.kind == MW_EDIT_VALUE && bare) e.kind = MW_EDIT_CONSTRAIN;
     if (e.kind == MW_EDIT_VALUE && isnan(e.value)) e.value = 1;
     if (e.kind == MW_EDIT_FLIP && t->delaunay && mw__random_below(random, 8)) e.kind = MW_EDIT_REMOVE;
     return e;
@@ -246,6 +247,7 @@ static void edit_in_a_row(const scene *s, uint64_t seed)
     readers r;
     uint64_t random = case_seed = seed;
     uint32_t done = 0;
+    bare = seed % 3 == 0;
     open_scene(s, &t);
     readers_open(&r, &t, seed % 2, seed);
     for (case_step = 0; case_step < 4 * ROW && done < ROW; case_step++) {
@@ -274,6 +276,7 @@ static void edit_in_a_row(const scene *s, uint64_t seed)
     check_all(&t);
     check_places(&t, &r);
     twin_close(&t);
+    bare = false;
 }
 
 static void test_rows(void **state)
@@ -281,6 +284,76 @@ static void test_rows(void **state)
     (void)state;
     print_message("seeds 1 to 600\n");
     for (uint64_t seed = 1; seed <= 600; seed++) edit_in_a_row(&scenes[seed % SCENES], seed);
+}
+
+/* --- long constraints ----------------------------------------------------------------------------------------------------------- */
+
+/* Some on a lattice, so that ways meet vertices, the others anywhere. */
+static mw_mesh *spread_mesh(uint64_t *random, uint32_t n)
+{
+    double places[2 * 120];
+    uint32_t span = mw__random_below(random, 2) ? 12 : 1 << 20;
+    mw_mesh *mesh;
+    mw_error error;
+    for (uint32_t i = 0; i < 2 * n; i++) places[i] = mw__random_below(random, span);
+    expect_ok(mw_delaunay(places, n, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    return mesh;
+}
+
+static void lay_constraints(uint64_t seed)
+{
+    enum { MOST = 30 };
+    twin t, then[MOST];
+    uint64_t random = case_seed = seed;
+    uint32_t done = 0;
+    case_name = "long constraints";
+    mw_editor_options options = {.delaunay = seed % 4 ? 0 : 2, .log = 1, .undo = SIZE_MAX};
+    twin_open(&t, spread_mesh(&random, 120), &options);
+    for (case_step = 0; case_step < 60 && done < MOST; case_step++) {
+        mw_edit e = {.kind = MW_EDIT_CONSTRAIN, .vertex = mw__random_below(&random, 120)};
+        e.other = mw__random_below(&random, 120);
+        if (case_step % 4 == 3 && t.fixed_count) { /* a piece, or more */
+            e.kind = MW_EDIT_RELEASE;
+            e.vertex = t.fixed[0];
+            e.other = t.fixed[1];
+        }
+        then[done] = twin_copy(&t);
+        if (twin_apply(&t, &e, false) == MW_OK)
+            done++;
+        else
+            twin_close(&then[done]);
+        check_all(&t);
+    }
+    check_replay(&t, &options);
+    while (done > 0) {
+        twin_undo(&t, &then[--done]);
+        twin_close(&then[done]);
+    }
+    check_all(&t);
+    twin_close(&t);
+}
+
+/* A way of two pieces, the first of which turns over the lowest triangle of the vertex between them. */
+static void lay_two_pieces(void)
+{
+    const double p[] = {5.5, 3.5, 7.5, 1, 2.5, 3.5, 1.5, 3, 4.5, 0.5, 3.5, 7, 2, 3.5, 5, 4.5, 7.5, 0, 2.5, 6, 3, 5.5};
+    mw_mesh *mesh;
+    mw_error error;
+    twin t;
+    expect_ok(mw_delaunay(p, 11, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    twin_open(&t, mesh, NULL);
+    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_CONSTRAIN, .vertex = 1, .other = 9}, false), MW_OK);
+    check_all(&t);
+    assert_int_equal(t.fixed_count, 2);
+    twin_close(&t);
+}
+
+static void test_long_constraints(void **state)
+{
+    (void)state;
+    print_message("seeds 1 to 60\n");
+    for (uint64_t seed = 1; seed <= 60; seed++) lay_constraints(seed);
+    lay_two_pieces();
 }
 
 /* --- what is refused, and how it is said ---------------------------------------------------------------------------------------- */
@@ -593,10 +666,10 @@ static void test_duplicates(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_edit),  cmocka_unit_test(test_rows),     cmocka_unit_test(test_bad_meshes),
-        cmocka_unit_test(test_arguments),  cmocka_unit_test(test_refusals), cmocka_unit_test(test_undo_limit),
-        cmocka_unit_test(test_hub),        cmocka_unit_test(test_grow),     cmocka_unit_test(test_magnitudes),
-        cmocka_unit_test(test_duplicates),
+        cmocka_unit_test(test_each_edit),  cmocka_unit_test(test_rows),       cmocka_unit_test(test_long_constraints),
+        cmocka_unit_test(test_bad_meshes), cmocka_unit_test(test_arguments),  cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_undo_limit), cmocka_unit_test(test_hub),        cmocka_unit_test(test_grow),
+        cmocka_unit_test(test_magnitudes), cmocka_unit_test(test_duplicates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

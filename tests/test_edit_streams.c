@@ -57,6 +57,26 @@ static void clustered(uint64_t *random, double *q)
     }
 }
 
+/* Where products of differences are no numbers any more. */
+static void subnormal(uint64_t *random, double *q)
+{
+    for (int k = 0; k < 2; k++) q[k] = mw__random_below(random, 40) * 0x1p-1074;
+}
+
+static void huge(uint64_t *random, double *q)
+{
+    for (int k = 0; k < 2; k++) q[k] = (mw__random_below(random, 41) - 20.0) * 0x1p1018;
+}
+
+/* Of all magnitudes. */
+static void scattered(uint64_t *random, double *q)
+{
+    for (int k = 0; k < 2; k++) {
+        q[k] = ldexp(1 + mw__random_below(random, 8) / 8.0, (int)mw__random_below(random, 100) - 50);
+        if (mw__random_below(random, 2)) q[k] = -q[k];
+    }
+}
+
 /* --- streams -------------------------------------------------------------------------------------------------------------------- */
 
 typedef struct stream {
@@ -73,6 +93,9 @@ static const stream streams[] = {
     {"grid", grid, 160, 0, false, false},
     {"cocircular", cocircular, 90, 0, false, false},
     {"clustered", clustered, 300, 0, false, false},
+    {"subnormal", subnormal, 120, 0, true, false},
+    {"huge", huge, 120, 0, true, false},
+    {"scattered", scattered, 100, 0, true, false},
     {"uniform, constraints", uniform, 200, 0, true, false},
     {"grid, constraints", grid, 120, 0, true, false},
     {"grid with a hole", grid, 160, 1, false, true},
@@ -161,6 +184,7 @@ static mw_edit any_edit(const stream *s, const twin *t, uint64_t *random)
     e.y = q[1];
     e.other = mw__random_below(random, 8) ? near_vertex(t, e.vertex, random) : any_vertex(t, random);
     e.field = mw__random_below(random, TWIN_FIELDS);
+    if (e.kind == MW_EDIT_VALUE && bare) e.kind = MW_EDIT_MOVE;
     if (e.kind == MW_EDIT_VALUE || mw__random_below(random, 4) == 0) e.value = mw__random_below(random, 1000);
     if (e.kind == MW_EDIT_RELEASE && t->fixed_count) {
         const uint32_t *edge = t->fixed + 2 * (size_t)mw__random_below(random, (uint32_t)t->fixed_count);
@@ -238,7 +262,11 @@ static void run_stream(const stream *s, uint64_t seed, uint64_t edits)
 static void test_streams(void **state)
 {
     (void)state;
-    for (int i = 0; i < STREAMS; i++) run_stream(&streams[i], stream_seed() + (uint64_t)i, is_long() ? 100000 : 1500);
+    for (int i = 0; i < STREAMS; i++) {
+        bare = i % 4 == 3;
+        run_stream(&streams[i], stream_seed() + (uint64_t)i, is_long() ? 100000 : 1500);
+    }
+    bare = false;
 }
 
 /* --- large meshes: too large for brute force at each edit -------------------------------------------------------------------- */
