@@ -107,7 +107,8 @@ bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
                                const double high[2], uint32_t cells)
 {
     yard y = {.tiling = tiling};
-    *grid = (mw_two_level_grid){.lattice = mw__lattice_of(tiling, low, high, cells ? cells : mw__lattice_choose(tiling))};
+    *grid =
+        (mw_two_level_grid){.lattice = mw__lattice_of(tiling, low, high, cells ? cells : mw__lattice_choose(tiling))};
     bool done = find_crowded(grid, &y) && find_extents(grid, &y) && lay_out(grid, &y) && fill(grid, &y);
     free(y.tile);
     free(y.vertices);
