@@ -4,7 +4,6 @@
  * a cell of the curve, they are sorted again along a curve of their own. */
 #include "mesh/curve.h"
 
-#include "base/hilbert.h"
 #include "base/threads.h"
 
 #include <stdlib.h>
@@ -12,15 +11,10 @@
 enum {
     CHUNK = 1 << 16, /* points that one thread takes at a time                                         */
     SMALL = 1 << 12, /* points of a part, about                                                        */
-    MOST_BITS = 12,  /* of the key, by which it is parted                                              */
-    LONG_RUN = 256   /* runs of equal keys longer than this are sorted again on a finer curve          */
+    MOST_BITS = 12   /* of the key, by which it is parted                                              */
 };
 
-typedef struct extent {
-    double low[2], high[2];
-} extent;
-
-static void widen(extent *e, mw_point p)
+static void widen(mw_extent *e, mw_point p)
 {
     if (!isfinite(p.x) || !isfinite(p.y)) return;
     if (p.x < e->low[0]) e->low[0] = p.x;
@@ -30,15 +24,15 @@ static void widen(extent *e, mw_point p)
 }
 
 /* Where no point is finite the extent is empty, and so is the one of all keys. */
-static extent find_extent(const mw_point *points, uint32_t n, int team)
+static mw_extent find_extent(const mw_point *points, uint32_t n, int team)
 {
-    extent all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    mw_extent all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     (void)team;
 #ifdef _OPENMP
 #pragma omp parallel num_threads(team) if (team > 1)
 #endif
     {
-        extent mine = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+        mw_extent mine = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 #ifdef _OPENMP
 #pragma omp for schedule(static) nowait
 #endif
@@ -63,28 +57,36 @@ static void sort_part(const mw_point *points, mw_key *keys, mw_key *scratch, siz
     mw__sort_keys(keys, scratch, n);
     for (size_t from = 0, to; from < n; from = to) {
         for (to = from + 1; to < n && keys[to].key == keys[from].key;) to++;
-        if (to - from > LONG_RUN && (to - from < n || again)) sort_crowd(points, keys + from, scratch, to - from);
+        if (to - from > MW_LONG_RUN && (to - from < n || again)) sort_crowd(points, keys + from, scratch, to - from);
     }
 }
 
-static void sort_crowd(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n)
+void mw__set_keys(const mw_point *points, mw_key *keys, size_t n)
 {
-    extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    mw_extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     for (size_t i = 0; i < n; i++) widen(&e, points[keys[i].item]);
     mw_hilbert hilbert = mw__hilbert(e.low, e.high);
     for (size_t i = 0; i < n; i++) {
         mw_point p = points[keys[i].item];
         keys[i].key = mw__hilbert_key(&hilbert, p.x, p.y);
     }
+}
+
+/* All of a crowd keep the key of their cell. */
+static void sort_crowd(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n)
+{
+    uint32_t key = keys[0].key;
+    mw__set_keys(points, keys, n);
     sort_part(points, keys, scratch, n, false);
+    for (size_t i = 0; i < n; i++) keys[i].key = key;
 }
 
 typedef struct sorting {
     const mw_point *points;
     uint32_t n, chunks, buckets, shift;
     int team;
-    mw_key *keys, *scratch;
-    uint32_t *first; /* per chunk and bucket: their number, then where they go */
+    mw_key *keys, *scratch; /* the sorted ones end in scratch */
+    uint32_t *first;        /* per chunk and bucket: their number, then where they go */
 } sorting;
 
 static uint32_t chunk_end(const sorting *s, uint32_t chunk)
@@ -123,18 +125,16 @@ static void part_keys(const sorting *s, uint32_t chunk)
 }
 
 /* The parting leaves, for the last chunk, the end of each bucket. */
-static void sort_bucket(const sorting *s, uint32_t b, uint32_t *order)
+static void sort_bucket(const sorting *s, uint32_t b)
 {
     const uint32_t *end = s->first + (size_t)(s->chunks - 1) * s->buckets;
     uint32_t from = b > 0 ? end[b - 1] : 0;
     sort_part(s->points, s->scratch + from, s->keys + from, end[b] - from, true);
-    for (uint32_t i = from; i < end[b]; i++) order[i] = s->scratch[i].item;
 }
 
-static void sort_all(const sorting *s, uint32_t *order)
+static void sort_all(const sorting *s, const mw_extent *extent)
 {
-    extent e = find_extent(s->points, s->n, s->team);
-    mw_hilbert hilbert = mw__hilbert(e.low, e.high);
+    mw_hilbert hilbert = mw__hilbert(extent->low, extent->high);
 #ifdef _OPENMP
 #pragma omp parallel num_threads(s->team) if (s->team > 1)
 #endif
@@ -154,25 +154,42 @@ static void sort_all(const sorting *s, uint32_t *order)
 #ifdef _OPENMP
 #pragma omp for schedule(dynamic, 8)
 #endif
-        for (uint32_t b = 0; b < s->buckets; b++) sort_bucket(s, b, order);
+        for (uint32_t b = 0; b < s->buckets; b++) sort_bucket(s, b);
     }
+}
+
+static uint32_t chunks_of(uint32_t n)
+{
+    return (uint32_t)(((uint64_t)n + CHUNK - 1) / CHUNK);
+}
+
+bool mw__curve_sort(const mw_point *points, uint32_t n, const mw_extent *extent, uint32_t threads, mw_key *keys,
+                    mw_key *scratch)
+{
+    uint32_t bits = 1;
+    while (bits < MOST_BITS && n >> bits > SMALL) bits++;
+    sorting s = {.points = points,
+                 .n = n,
+                 .chunks = chunks_of(n),
+                 .buckets = UINT32_C(1) << bits,
+                 .shift = 32 - bits,
+                 .team = mw__team(threads, chunks_of(n)),
+                 .keys = scratch,
+                 .scratch = keys};
+    s.first = mw__calloc((size_t)s.chunks * s.buckets, sizeof *s.first);
+    if (s.first && n > 0) sort_all(&s, extent);
+    free(s.first);
+    return s.first != NULL;
 }
 
 bool mw__curve_order(const mw_point *points, uint32_t n, uint32_t threads, uint32_t *order)
 {
-    sorting s = {.points = points, .n = n, .chunks = (uint32_t)(((uint64_t)n + CHUNK - 1) / CHUNK), .shift = 32};
-    uint32_t bits = 1;
-    while (bits < MOST_BITS && n >> bits > SMALL) bits++;
-    s.shift -= bits;
-    s.buckets = UINT32_C(1) << bits;
-    s.team = mw__team(threads, s.chunks);
-    s.keys = mw__alloc(n, sizeof *s.keys);
-    s.scratch = mw__alloc(n, sizeof *s.scratch);
-    s.first = mw__calloc((size_t)s.chunks * s.buckets, sizeof *s.first);
-    bool done = s.keys && s.scratch && s.first;
-    if (done && n > 0) sort_all(&s, order);
-    free(s.keys);
-    free(s.scratch);
-    free(s.first);
+    if (n == 0) return true;
+    mw_key *keys = mw__alloc(n, sizeof *keys), *scratch = mw__alloc(n, sizeof *scratch);
+    mw_extent extent = find_extent(points, n, mw__team(threads, chunks_of(n)));
+    bool done = keys && scratch && mw__curve_sort(points, n, &extent, threads, keys, scratch);
+    for (uint32_t i = 0; i < n && done; i++) order[i] = keys[i].item;
+    free(keys);
+    free(scratch);
     return done;
 }

@@ -170,7 +170,7 @@ static bool order(delaunay *d)
     mw_ground *g = &d->ground;
     _Static_assert(sizeof(mw_key) <= sizeof(mw_facet), "the facets have room for the keys");
     mw_key *keys = (mw_key *)g->facet, *scratch = keys + g->n;
-    if (!mw__hilbert_order(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
+    if (!mw__curve_sort(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
     copy_points(d, keys);
     return mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
 }

@@ -2,6 +2,7 @@
 #ifndef MW_SRC_DELAUNAY_PATCHES_H
 #define MW_SRC_DELAUNAY_PATCHES_H
 
+#include "mesh/curve.h"
 #include "triangulate/delaunay_grow.h"
 #include "triangulate/delaunay_order.h"
 
