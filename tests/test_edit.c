@@ -282,8 +282,8 @@ static void edit_in_a_row(const scene *s, uint64_t seed)
 static void test_rows(void **state)
 {
     (void)state;
-    print_message("seeds 1 to 600\n");
-    for (uint64_t seed = 1; seed <= 600; seed++) edit_in_a_row(&scenes[seed % SCENES], seed);
+    print_message("seeds 1 to 400\n");
+    for (uint64_t seed = 1; seed <= 400; seed++) edit_in_a_row(&scenes[seed % SCENES], seed);
 }
 
 /* --- long constraints ----------------------------------------------------------------------------------------------------------- */
@@ -351,8 +351,8 @@ static void lay_two_pieces(void)
 static void test_long_constraints(void **state)
 {
     (void)state;
-    print_message("seeds 1 to 60\n");
-    for (uint64_t seed = 1; seed <= 60; seed++) lay_constraints(seed);
+    print_message("seeds 1 to 30\n");
+    for (uint64_t seed = 1; seed <= 30; seed++) lay_constraints(seed);
     lay_two_pieces();
 }
 

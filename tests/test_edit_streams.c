@@ -161,8 +161,8 @@ static void near_place(const twin *t, uint32_t v, uint64_t *random, double *q)
 
 static mw_edit_kind any_kind(const stream *s, const twin *t, uint64_t *random)
 {
-    uint32_t chance = mw__random_below(random, 100), more = t->vertices < s->vertices ? 20 : 0;
-    if (chance < 35 + more / 2) return MW_EDIT_INSERT;
+    uint32_t chance = mw__random_below(random, 100);
+    if (chance < (t->vertices < s->vertices ? 42 : 25)) return MW_EDIT_INSERT;
     if (chance < 65) return MW_EDIT_REMOVE;
     if (chance < 88 || (!s->constraints && s->delaunay != 2)) return chance < 97 ? MW_EDIT_MOVE : MW_EDIT_VALUE;
     if (chance < 91) return s->delaunay == 2 ? MW_EDIT_FLIP : MW_EDIT_MOVE;
