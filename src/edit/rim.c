@@ -76,17 +76,25 @@ bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
 
 /* --- tiles from the pool ---------------------------------------------------------------------------------------------- */
 
+/* By number. As a rule they are six, and insertion is best; the gaps are for vertices of many thousands [Shell 1959]. */
+static void sort_tiles(const mw_triangle *tri, uint32_t *tile, size_t n)
+{
+    size_t gap = 1;
+    while (gap < n / 9) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3)
+        for (size_t i = gap; i < n; i++) {
+            uint32_t t = tile[i], number = tri[t].user & MW_USER_MASK;
+            size_t j = i;
+            for (; j >= gap && (tri[tile[j - gap]].user & MW_USER_MASK) > number; j -= gap) tile[j] = tile[j - gap];
+            tile[j] = t;
+        }
+}
+
 bool mw__pool_begin(mw_fabric *f, mw_pool *pool)
 {
-    const mw_triangle *tri = f->tiling->tri;
-    for (size_t i = 0; i < pool->count; i++) {
-        uint32_t t = pool->tile[i];
-        if (!mw__journal(f, t)) return false;
-        size_t j = i;
-        for (; j > 0 && (tri[pool->tile[j - 1]].user & MW_USER_MASK) > (tri[t].user & MW_USER_MASK); j--)
-            pool->tile[j] = pool->tile[j - 1];
-        pool->tile[j] = t;
-    }
+    for (size_t i = 0; i < pool->count; i++)
+        if (!mw__journal(f, pool->tile[i])) return false;
+    sort_tiles(f->tiling->tri, pool->tile, pool->count);
     return true;
 }
 
