@@ -533,15 +533,22 @@ static bool moving(mw_editor *editor, int kind, uint64_t *random)
     return move_somewhere(editor, kind, random) == MW_OK;
 }
 
+/* Numbers that are taken back are given out again elsewhere. */
+static bool undoing(mw_editor *editor, int kind, uint64_t *random)
+{
+    if (mw__random_below(random, 8) < 3) return mw_edit_undo(editor, NULL, NULL) == MW_OK;
+    return random_edit(editor, kind, 4, random);
+}
+
 static void test_kept_near(void **state)
 {
     (void)state;
     enum { VERTICES = 10000, EDITS = 20000 };
     uint64_t seed = 704, random = seed;
     printf("seed %llu\n", (unsigned long long)seed);
-    static editing *const ways[] = {steady, growing, shrinking, moving};
-    static const char *const names[] = {"steady", "growing", "shrinking", "moving"};
-    for (int way = 0; way < 4; way++) {
+    static editing *const ways[] = {steady, growing, shrinking, moving, undoing};
+    static const char *const names[] = {"steady", "growing", "shrinking", "moving", "undoing"};
+    for (int way = 0; way < 5; way++) {
         mw_editor *editor = make_editor(UNIFORM, VERTICES, (mw_editor_options){.undo = 10}, &random);
         const mw_index *index[MW_START_COUNT] = {NULL};
         mw_error error;

@@ -125,56 +125,34 @@ static void refresh(mw_upkeep *u, mw_start_kind start)
 
 /* --- grids ------------------------------------------------------------------------------------------------------------- */
 
-static void offer_to(mw_index *index, const mw_tiling *tiling, uint32_t t, uint64_t changed)
+/* The cell of p leads to the triangle `name` from here on. Returns whether p is in a cell of the index, and not beyond its rim. */
+static bool put(mw_index *index, mw_point p, uint32_t name)
 {
-    if (index->start == MW_START_GRID) mw__grid_offer(&index->grid, tiling, t, changed);
-    if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_offer(&index->two_level_grid, tiling, t, changed);
+    if (index->start == MW_START_GRID) return mw__grid_put(&index->grid, p, name);
+    return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_put(&index->two_level_grid, p, name);
 }
 
-static void offer(mw_upkeep *u, uint32_t t, uint64_t changed)
+/* Where a vertex has come to: its cells lead to a triangle of it. The locator's extent is that of all places where vertices are or were; an
+ * index knows but what it was built for. */
+static void note_place(mw_upkeep *u, mw_point p, uint32_t name)
 {
-    const mw_tiling *tiling = u->fabric->tiling;
-    offer_to(&u->locator->guide, tiling, t, changed);
-    offer_to(&u->index[MW_START_GRID], tiling, t, changed);
-    offer_to(&u->index[MW_START_TWO_LEVEL_GRID], tiling, t, changed);
+    double *low = u->locator->low, *high = u->locator->high;
+    u->since[MW_START_AUTO].outsiders += !put(&u->locator->guide, p, name);
+    u->since[MW_START_GRID].outsiders += !put(&u->index[MW_START_GRID], p, name);
+    u->since[MW_START_TWO_LEVEL_GRID].outsiders += !put(&u->index[MW_START_TWO_LEVEL_GRID], p, name);
+    low[0] = fmin(low[0], p.x);
+    low[1] = fmin(low[1], p.y);
+    high[0] = fmax(high[0], p.x);
+    high[1] = fmax(high[1], p.y);
 }
 
-/* The next of the half-edges that leave a vertex, counter-clockwise. */
-static uint32_t next_round(const mw_fabric *f, uint32_t half)
+/* Where a vertex has gone from. The guide is told only if it must be: names of what is gone lead near enough, and to write to its cell would be
+ * a good part of what it costs to remove a vertex. */
+static void note_leaving(mw_upkeep *u, mw_point p, uint32_t name, bool guide_too)
 {
-    return mw__beyond(f, mw__half_prev(half));
-}
-
-/* The set of names of the tiles that the edit changed: those in its journal, and those round a vertex that was moved (v, or MW_NONE). */
-static uint64_t changed_names(const mw_fabric *f, const mw_before *first, size_t count, uint32_t v)
-{
-    uint64_t changed = 0;
-    for (size_t i = 0; i < count; i++)
-        if (first[i].tile.v[0] != MW_NONE) changed |= mw__name_bit(first[i].tile.user);
-    if (v == MW_NONE) return changed;
-    bool open;
-    uint32_t begin = mw__star_first(f, v, &open), at = begin;
-    do {
-        changed |= mw__name_bit(f->tiling->tri[mw__link_triangle(at)].user);
-        at = next_round(f, at);
-    } while (at != MW_NONE && at != begin);
-    return changed;
-}
-
-/* The grids learn of the tiles that are there now in the place of those. */
-static void offer_changed(mw_upkeep *u, const mw_before *first, size_t count, uint32_t v)
-{
-    const mw_fabric *f = u->fabric;
-    uint64_t changed = changed_names(f, first, count, v);
-    for (size_t i = 0; i < count; i++)
-        if (first[i].place < f->tiling->tri_count) offer(u, first[i].place, changed);
-    if (v == MW_NONE) return;
-    bool open;
-    uint32_t begin = mw__star_first(f, v, &open), at = begin;
-    do {
-        offer(u, mw__link_triangle(at), changed);
-        at = next_round(f, at);
-    } while (at != MW_NONE && at != begin);
+    if (guide_too) put(&u->locator->guide, p, name);
+    put(&u->index[MW_START_GRID], p, name);
+    put(&u->index[MW_START_TWO_LEVEL_GRID], p, name);
 }
 
 /* A tile that there is now, beside one that there was before an edit was undone. */
@@ -204,6 +182,21 @@ static bool is_there(const mw_fabric *f, uint32_t v)
     return v < f->tiling->point_count && f->tiling->owner[v] != MW_NONE;
 }
 
+/* What became of the vertex of an edit: the grids are told. What an edit that was undone put into cells goes, as its numbers will be given out
+ * again, for triangles anywhere. */
+static void note_vertex(mw_upkeep *u, const mw_step *step, bool undone)
+{
+    const mw_fabric *f = u->fabric;
+    const mw_tiling *tiling = f->tiling;
+    mw_point after = {step->edit.x, step->edit.y};
+    uint32_t v = step->vertex, here = mw__tile_name(tiling, f->last < tiling->tri_count ? f->last : 0);
+    if (undone && step->edit.kind != MW_EDIT_REMOVE) note_leaving(u, after, here, true);
+    if (is_there(f, v))
+        note_place(u, tiling->point[v], tiling->owner[v]);
+    else if (step->edit.kind == MW_EDIT_REMOVE)
+        note_leaving(u, step->point, here, false);
+}
+
 /* What became of the vertex of an edit: the layers follow it. */
 static bool follow(mw_upkeep *u, const mw_step *step, bool undone)
 {
@@ -224,33 +217,6 @@ static bool follow(mw_upkeep *u, const mw_step *step, bool undone)
 
 /* --- after an edit ----------------------------------------------------------------------------------------------------- */
 
-static bool covers(const mw_index *index, mw_point p)
-{
-    if (index->start == MW_START_GRID) return mw__lattice_covers(&index->grid.lattice, p);
-    return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_covers(&index->two_level_grid, p);
-}
-
-/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
-static void note_place(mw_upkeep *u, mw_point p)
-{
-    double *low = u->locator->low, *high = u->locator->high;
-    u->since[MW_START_AUTO].outsiders += !covers(&u->locator->guide, p);
-    u->since[MW_START_GRID].outsiders += !covers(&u->index[MW_START_GRID], p);
-    u->since[MW_START_TWO_LEVEL_GRID].outsiders += !covers(&u->index[MW_START_TWO_LEVEL_GRID], p);
-    low[0] = fmin(low[0], p.x);
-    low[1] = fmin(low[1], p.y);
-    high[0] = fmax(high[0], p.x);
-    high[1] = fmax(high[1], p.y);
-}
-
-/* Where no vertex comes, names of what is gone lead near enough for the guide, and to look at its cells would be most of what it costs to
- * remove a vertex. An index that was asked for is kept as near as can be. */
-static bool wants_offers(const mw_upkeep *u, mw_edit_kind kind)
-{
-    return kind == MW_EDIT_INSERT || kind == MW_EDIT_MOVE || is_built(u, MW_START_GRID) ||
-           is_built(u, MW_START_TWO_LEVEL_GRID);
-}
-
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
 {
     const mw_fabric *f = u->fabric;
@@ -263,8 +229,7 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
     if (undone) redirect_names(tiling, first, count);
     uint32_t v = step->vertex;
-    if (v != MW_NONE && is_there(f, v)) note_place(u, tiling->point[v]);
-    if (wants_offers(u, step->edit.kind)) offer_changed(u, first, count, step->edit.kind == MW_EDIT_MOVE ? v : MW_NONE);
+    if (v != MW_NONE) note_vertex(u, step, undone);
     if (v != MW_NONE && u->live.layers && !(follow(u, step, undone) && mw__live_layers_even(&u->live)))
         refresh(u, MW_START_LAYERS);
     for (int i = 0; i < KEPT; i++) {

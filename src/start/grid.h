@@ -14,14 +14,19 @@ typedef struct mw_grid {
  * of these; if not, the vertices are too crowded for a grid, and it is left unfinished. Returns false when out of memory. */
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
                      uint32_t stride, bool *even);
-/* See mw__lattice_offer. */
-void mw__grid_offer(mw_grid *grid, const mw_tiling *tiling, uint32_t t, uint64_t changed);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);
 
 static MW_INLINE uint32_t mw__grid_first(const mw_grid *grid, mw_point q)
 {
     return grid->tile[mw__lattice_cell(&grid->lattice, q)];
+}
+
+/* The cell of p has another tile, by its name. Returns whether p is in a cell, and not beyond the rim. */
+static MW_INLINE bool mw__grid_put(mw_grid *grid, mw_point p, uint32_t name)
+{
+    grid->tile[mw__lattice_cell(&grid->lattice, p)] = name;
+    return mw__lattice_covers(&grid->lattice, p);
 }
 
 #endif

@@ -84,18 +84,6 @@ static MW_INLINE mw_point mw__tile_middle(const mw_tiling *tiling, uint32_t t)
     return (mw_point){a.x * third + b.x * third + c.x * third, a.y * third + b.y * third + c.y * third};
 }
 
-/* Of a name in a set of names that may hold more than it was given. */
-static MW_INLINE uint64_t mw__name_bit(uint32_t name)
-{
-    return UINT64_C(1) << (name & 63);
-}
-
-/* Tile t was changed by an edit, and with it the tiles whose names are the set `changed`. Where the cell of its middle has one of those, give
- * it t, unless what is there is nearer to the middle of the cell. Other cells still have what they need; to look at their tiles would be
- * to wait for memory. */
-void mw__lattice_offer(const mw_lattice *lattice, uint32_t *entry, const mw_tiling *tiling, uint32_t t,
-                       uint64_t changed);
-
 /* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell, that of a cell in the
  * first ring of cells round it that has an entry. Not all are MW_NONE. queue: room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);

@@ -123,25 +123,16 @@ static bool is_own(const mw_two_level_grid *grid, uint32_t cell, const mw_fine_g
     return mw__lattice_cell(&grid->lattice, (mw_point){fine->lattice.middle[0], fine->lattice.middle[1]}) == cell;
 }
 
-void mw__two_level_grid_offer(mw_two_level_grid *grid, const mw_tiling *tiling, uint32_t t, uint64_t changed)
+bool mw__two_level_grid_put(mw_two_level_grid *grid, mw_point p, uint32_t name)
 {
-    uint32_t cell = mw__lattice_cell(&grid->lattice, mw__tile_middle(tiling, t)), entry = grid->coarse[cell];
-    const mw_fine_grid *fine = entry & MW_FINE ? &grid->grid[entry - MW_FINE] : NULL;
-    if (!fine)
-        mw__lattice_offer(&grid->lattice, grid->coarse, tiling, t, changed);
-    else if (is_own(grid, cell, fine))
-        mw__lattice_offer(&fine->lattice, grid->fine + fine->first, tiling, t, changed);
-    else
-        grid->coarse[cell] = mw__tile_name(tiling, t);
-}
-
-bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p)
-{
-    if (!mw__lattice_covers(&grid->lattice, p)) return false;
     uint32_t cell = mw__lattice_cell(&grid->lattice, p), entry = grid->coarse[cell];
-    if (!(entry & MW_FINE)) return true;
-    const mw_fine_grid *fine = &grid->grid[entry - MW_FINE];
-    return is_own(grid, cell, fine) && mw__lattice_covers(&fine->lattice, p);
+    const mw_fine_grid *fine = entry & MW_FINE ? &grid->grid[entry - MW_FINE] : NULL;
+    if (!fine || !is_own(grid, cell, fine)) {
+        grid->coarse[cell] = name;
+        return !fine && mw__lattice_covers(&grid->lattice, p);
+    }
+    grid->fine[fine->first + mw__lattice_cell(&fine->lattice, p)] = name;
+    return mw__lattice_covers(&grid->lattice, p) && mw__lattice_covers(&fine->lattice, p);
 }
 
 void mw__two_level_grid_release(mw_two_level_grid *grid)
