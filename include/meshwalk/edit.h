@@ -23,7 +23,7 @@ typedef struct mw_editor_options {
                      first, by flips; 2: no edge is flipped unless it is asked for                                       */
     int log; /* 1: keep the list of all edits (mw_editor_log)                                                       */
     size_t
-        undo; /* so many edits can be undone, about 300 bytes each; SIZE_MAX: all                                    */
+        undo; /* so many edits can be undone, 500 to 1000 bytes each; SIZE_MAX: all                                   */
     const uint32_t
         *constraints; /* two vertices each: edges of the mesh that are not to be flipped away; as mw_pieces.edge */
     size_t constraint_count;
