@@ -156,7 +156,7 @@ static void try_edit(run *r, mw_edit e)
 {
     case_step++;
     if (twin_apply(&r->now, &e, case_step & 1) != MW_OK) {
-        r->refused++;
+        if (r->refused++ % 16 == 0) check_all(&r->now);
         return;
     }
     r->done++;
