@@ -97,11 +97,15 @@ size_t mw__upkeep_bytes(const mw_upkeep *u)
 
 /* --- refreshing -------------------------------------------------------------------------------------------------------- */
 
-static bool is_due(const mw_since *s, uint32_t vertices)
+/* The guide does not follow edits: two edits for each vertex would double the walks from it, and to build it costs less than a tenth of half so
+ * many edits. */
+static bool is_due(const mw_upkeep *u, mw_start_kind start, uint32_t vertices)
 {
-    enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4 };
+    enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4, VERTICES_PER_EDIT = 2 };
+    const mw_since *s = &u->since[start];
     if (vertices > 2 * (uint64_t)s->vertices || 2 * (uint64_t)vertices < s->vertices) return true;
-    return s->edits > FEW + EDITS_PER_VERTEX * (uint64_t)s->vertices || s->outsiders > FEW + s->vertices / OUTSIDERS;
+    uint64_t most = start == MW_START_AUTO ? s->vertices / VERTICES_PER_EDIT : EDITS_PER_VERTEX * (uint64_t)s->vertices;
+    return s->edits > FEW + most || s->outsiders > FEW + s->vertices / OUTSIDERS;
 }
 
 /* What follows edits: the guide, and indices. */
@@ -125,34 +129,48 @@ static void refresh(mw_upkeep *u, mw_start_kind start)
 
 /* --- grids ------------------------------------------------------------------------------------------------------------- */
 
-/* The cell of p leads to the triangle `name` from here on. Returns whether p is in a cell of the index, and not beyond its rim. */
-static bool put(mw_index *index, mw_point p, uint32_t name)
+static void put(mw_index *index, const mw_entry *e)
 {
-    if (index->start == MW_START_GRID) return mw__grid_put(&index->grid, p, name);
-    return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_put(&index->two_level_grid, p, name);
+    if (index->start == MW_START_GRID) mw__lattice_put(&index->grid.lattice, index->grid.tile, e);
+    if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_put(&index->two_level_grid, e);
 }
 
-/* Where a vertex has come to: its cells lead to a triangle of it. The locator's extent is that of all places where vertices are or were; an
- * index knows but what it was built for. */
-static void note_place(mw_upkeep *u, mw_point p, uint32_t name)
+static void put_in_indices(mw_upkeep *u, const mw_entry *e)
+{
+    put(&u->index[MW_START_GRID], e);
+    put(&u->index[MW_START_TWO_LEVEL_GRID], e);
+}
+
+/* The tiles that an edit changed, as they are now: for the indices that were asked for. The guide has to do with the names it was built of,
+ * since to find the cells of six tiles would cost a fifth of an insertion. */
+static void note_tiles(mw_upkeep *u, const mw_before *first, size_t count)
+{
+    const mw_tiling *tiling = u->fabric->tiling;
+    if (!is_built(u, MW_START_GRID) && !is_built(u, MW_START_TWO_LEVEL_GRID)) return;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t t = first[i].place;
+        if (t >= tiling->tri_count) continue;
+        put_in_indices(u, &(mw_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
+    }
+}
+
+static bool covers(const mw_index *index, mw_point p)
+{
+    if (index->start == MW_START_GRID) return mw__lattice_covers(&index->grid.lattice, p);
+    return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_covers(&index->two_level_grid, p);
+}
+
+/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
+static void note_place(mw_upkeep *u, mw_point p)
 {
     double *low = u->locator->low, *high = u->locator->high;
-    u->since[MW_START_AUTO].outsiders += !put(&u->locator->guide, p, name);
-    u->since[MW_START_GRID].outsiders += !put(&u->index[MW_START_GRID], p, name);
-    u->since[MW_START_TWO_LEVEL_GRID].outsiders += !put(&u->index[MW_START_TWO_LEVEL_GRID], p, name);
-    low[0] = fmin(low[0], p.x);
-    low[1] = fmin(low[1], p.y);
-    high[0] = fmax(high[0], p.x);
-    high[1] = fmax(high[1], p.y);
-}
-
-/* Where a vertex has gone from. The guide is told only if it must be: names of what is gone lead near enough, and to write to its cell would be
- * a good part of what it costs to remove a vertex. */
-static void note_leaving(mw_upkeep *u, mw_point p, uint32_t name, bool guide_too)
-{
-    if (guide_too) put(&u->locator->guide, p, name);
-    put(&u->index[MW_START_GRID], p, name);
-    put(&u->index[MW_START_TWO_LEVEL_GRID], p, name);
+    u->since[MW_START_AUTO].outsiders += !covers(&u->locator->guide, p);
+    u->since[MW_START_GRID].outsiders += !covers(&u->index[MW_START_GRID], p);
+    u->since[MW_START_TWO_LEVEL_GRID].outsiders += !covers(&u->index[MW_START_TWO_LEVEL_GRID], p);
+    if (p.x < low[0]) low[0] = p.x;
+    if (p.y < low[1]) low[1] = p.y;
+    if (p.x > high[0]) high[0] = p.x;
+    if (p.y > high[1]) high[1] = p.y;
 }
 
 /* A tile that there is now, beside one that there was before an edit was undone. */
@@ -164,14 +182,25 @@ static uint32_t tile_beside(const mw_tiling *tiling, const mw_triangle *gone)
     return 0;
 }
 
-/* Numbers that were given out by an edit that was undone lead to triangles beside those that had them. */
-static void redirect_names(mw_tiling *tiling, const mw_before *first, size_t count)
+/* Numbers that were given out by an edit that was undone lead to triangles beside those that had them; and as they will be given out again, for
+ * triangles anywhere, cells do not keep them. */
+static void redirect_names(mw_upkeep *u, const mw_step *step, const mw_before *first, size_t count)
 {
+    mw_tiling *tiling = u->fabric->tiling;
     for (size_t i = 0; i < count; i++) {
         const mw_triangle *gone = &first[i].tile;
         uint32_t number = gone->user & MW_USER_MASK;
         if (gone->v[0] == MW_NONE || gone->user & MW_GHOST || number < tiling->number_count) continue;
-        tiling->tile_of[number] = MW_GONE | mw__tile_name(tiling, tile_beside(tiling, gone));
+        uint32_t heir = mw__tile_name(tiling, tile_beside(tiling, gone));
+        tiling->tile_of[number] = MW_GONE | heir;
+        mw_point p[3];
+        for (int k = 0; k < 3; k++) {
+            bool moved = gone->v[k] == step->vertex && step->edit.kind == MW_EDIT_MOVE;
+            p[k] = moved ? (mw_point){step->edit.x, step->edit.y} : tiling->point[gone->v[k]];
+        }
+        const mw_entry e = {.p = mw__middle(p[0], p[1], p[2]), .name = heir, .anyway = true};
+        put(&u->locator->guide, &e);
+        put_in_indices(u, &e);
     }
 }
 
@@ -180,21 +209,6 @@ static void redirect_names(mw_tiling *tiling, const mw_before *first, size_t cou
 static bool is_there(const mw_fabric *f, uint32_t v)
 {
     return v < f->tiling->point_count && f->tiling->owner[v] != MW_NONE;
-}
-
-/* What became of the vertex of an edit: the grids are told. What an edit that was undone put into cells goes, as its numbers will be given out
- * again, for triangles anywhere. */
-static void note_vertex(mw_upkeep *u, const mw_step *step, bool undone)
-{
-    const mw_fabric *f = u->fabric;
-    const mw_tiling *tiling = f->tiling;
-    mw_point after = {step->edit.x, step->edit.y};
-    uint32_t v = step->vertex, here = mw__tile_name(tiling, f->last < tiling->tri_count ? f->last : 0);
-    if (undone && step->edit.kind != MW_EDIT_REMOVE) note_leaving(u, after, here, true);
-    if (is_there(f, v))
-        note_place(u, tiling->point[v], tiling->owner[v]);
-    else if (step->edit.kind == MW_EDIT_REMOVE)
-        note_leaving(u, step->point, here, false);
 }
 
 /* What became of the vertex of an edit: the layers follow it. */
@@ -227,14 +241,16 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     if (step->edit.kind == MW_EDIT_VALUE) return;
     u->locator->epoch++;
     if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
-    if (undone) redirect_names(tiling, first, count);
+    if (undone) redirect_names(u, step, first, count);
     uint32_t v = step->vertex;
-    if (v != MW_NONE) note_vertex(u, step, undone);
+    if (v != MW_NONE && is_there(f, v)) note_place(u, tiling->point[v]);
+    note_tiles(u, first, count);
     if (v != MW_NONE && u->live.layers && !(follow(u, step, undone) && mw__live_layers_even(&u->live)))
         refresh(u, MW_START_LAYERS);
     for (int i = 0; i < KEPT; i++) {
+        if (!is_built(u, kept[i])) continue;
         u->since[kept[i]].edits++;
-        if (is_due(&u->since[kept[i]], live_vertices(f))) refresh(u, kept[i]);
+        if (is_due(u, kept[i], live_vertices(f))) refresh(u, kept[i]);
     }
 }
 

@@ -4,13 +4,12 @@
  * each start. They name tiles that edits take away or reshape:
  *
  *   grids    hold names of tiles. A name leads to the triangle of that number, or to one that took its place, so it never goes wrong,
- *            only farther off. Where a cell leads to a tile that an edit has changed, and there is one now whose middle is in the cell,
- *            it gets that, or the nearest of them to its own middle: O(1) for each tile.
+ *            only farther off. A triangle that an edit changed is put into the cell of its middle, if near the middle of that.
  *   layers   follow each vertex [Devillers 2002]: see live_layers.h.
  *   a curve  holds places of tiles, which say less and less. It is built anew only on request.
  *
- * Guide, grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built, or half; after four edits
- * for each vertex there was; grids also when a quarter as many vertices were put beyond their rims; layers when one has half or twice as
+ * The guide is not told of edits. Guide, grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built,
+ * or half; after four edits for each vertex there was, the guide after one for two vertices; grids also when a quarter as many vertices were put beyond their rims; layers when one has half or twice as
  * many vertices as its chance of them lets expect. That is O(1) for each edit.
  * Where memory is short the old ones stay, and layers that cannot follow are dropped: all of this is only a guide, no answer depends on it. */
 #ifndef MW_SRC_UPKEEP_H

@@ -71,11 +71,6 @@ bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2]
     return done;
 }
 
-void mw__grid_offer(mw_grid *grid, const mw_tiling *tiling, uint32_t t, uint64_t changed)
-{
-    mw__lattice_offer(&grid->lattice, grid->tile, tiling, t, changed);
-}
-
 void mw__grid_release(mw_grid *grid)
 {
     free(grid->tile);

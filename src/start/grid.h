@@ -22,11 +22,4 @@ static MW_INLINE uint32_t mw__grid_first(const mw_grid *grid, mw_point q)
     return grid->tile[mw__lattice_cell(&grid->lattice, q)];
 }
 
-/* The cell of p has another tile, by its name. Returns whether p is in a cell, and not beyond the rim. */
-static MW_INLINE bool mw__grid_put(mw_grid *grid, mw_point p, uint32_t name)
-{
-    grid->tile[mw__lattice_cell(&grid->lattice, p)] = name;
-    return mw__lattice_covers(&grid->lattice, p);
-}
-
 #endif

@@ -1,4 +1,4 @@
-/* lattice.c - cells over an extent, the nearest one that is not empty for each that is, and how they follow edits. */
+/* lattice.c - cells over an extent, and the nearest one that is not empty for each that is. */
 #include "start/lattice.h"
 
 mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells)
@@ -132,16 +132,4 @@ void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queu
                 queue[tail++] = other;
             }
     }
-}
-
-void mw__lattice_offer(const mw_lattice *lattice, uint32_t *entry, const mw_tiling *tiling, uint32_t t,
-                       uint64_t changed)
-{
-    float off;
-    uint32_t cell = mw__lattice_cell_off(lattice, mw__tile_middle(tiling, t), &off);
-    if (!(changed & mw__name_bit(entry[cell]))) return;
-    uint32_t rival = mw__tile_named(tiling, entry[cell]);
-    mw_point middle = mw__tile_middle(tiling, rival);
-    float rivals = mw__lattice_off(lattice, cell % lattice->columns, cell / lattice->columns, middle);
-    if (rival == t || off < rivals) entry[cell] = mw__tile_name(tiling, t);
 }

@@ -75,13 +75,33 @@ static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_poi
     return cell;
 }
 
+/* What an entry is given by who follows edits. */
+typedef struct mw_entry {
+    mw_point p;    /* a place in or at the tile            */
+    uint32_t name; /* its name                             */
+    bool anyway;   /* even if p is not near a cell's middle */
+} mw_entry;
+
+/* Give the cell of e->p another tile, if that is near its middle: else what it has is likely to be nearer. */
+static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry, const mw_entry *e)
+{
+    const float near = 1.0f / 16; /* a quarter of a cell's width, squared */
+    float off;
+    uint32_t cell = mw__lattice_cell_off(lattice, e->p, &off);
+    if (e->anyway || off < near) entry[cell] = e->name;
+}
+
+static MW_INLINE mw_point mw__middle(mw_point a, mw_point b, mw_point c)
+{
+    const double third = 1.0 / 3;
+    return (mw_point){a.x * third + b.x * third + c.x * third, a.y * third + b.y * third + c.y * third};
+}
+
 /* The middle of a tile, rounded. */
 static MW_INLINE mw_point mw__tile_middle(const mw_tiling *tiling, uint32_t t)
 {
-    const double third = 1.0 / 3;
     const uint32_t *v = tiling->tri[t].v;
-    mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
-    return (mw_point){a.x * third + b.x * third + c.x * third, a.y * third + b.y * third + c.y * third};
+    return mw__middle(tiling->point[v[0]], tiling->point[v[1]], tiling->point[v[2]]);
 }
 
 /* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell, that of a cell in the

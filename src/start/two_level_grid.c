@@ -123,16 +123,25 @@ static bool is_own(const mw_two_level_grid *grid, uint32_t cell, const mw_fine_g
     return mw__lattice_cell(&grid->lattice, (mw_point){fine->lattice.middle[0], fine->lattice.middle[1]}) == cell;
 }
 
-bool mw__two_level_grid_put(mw_two_level_grid *grid, mw_point p, uint32_t name)
+void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_entry *e)
 {
-    uint32_t cell = mw__lattice_cell(&grid->lattice, p), entry = grid->coarse[cell];
+    uint32_t cell = mw__lattice_cell(&grid->lattice, e->p), entry = grid->coarse[cell];
     const mw_fine_grid *fine = entry & MW_FINE ? &grid->grid[entry - MW_FINE] : NULL;
-    if (!fine || !is_own(grid, cell, fine)) {
-        grid->coarse[cell] = name;
-        return !fine && mw__lattice_covers(&grid->lattice, p);
-    }
-    grid->fine[fine->first + mw__lattice_cell(&fine->lattice, p)] = name;
-    return mw__lattice_covers(&grid->lattice, p) && mw__lattice_covers(&fine->lattice, p);
+    if (!fine)
+        mw__lattice_put(&grid->lattice, grid->coarse, e);
+    else if (is_own(grid, cell, fine))
+        mw__lattice_put(&fine->lattice, grid->fine + fine->first, e);
+    else
+        grid->coarse[cell] = e->name;
+}
+
+bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p)
+{
+    if (!mw__lattice_covers(&grid->lattice, p)) return false;
+    uint32_t cell = mw__lattice_cell(&grid->lattice, p), entry = grid->coarse[cell];
+    if (!(entry & MW_FINE)) return true;
+    const mw_fine_grid *fine = &grid->grid[entry - MW_FINE];
+    return is_own(grid, cell, fine) && mw__lattice_covers(&fine->lattice, p);
 }
 
 void mw__two_level_grid_release(mw_two_level_grid *grid)

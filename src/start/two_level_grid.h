@@ -24,8 +24,10 @@ typedef struct mw_two_level_grid {
  * tiling. Returns false when out of memory. */
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
                                const double high[2], uint32_t cells);
-/* The cell of p has another tile, by its name. Returns whether p is in a cell of its own level, and not beyond the rim of a grid. */
-bool mw__two_level_grid_put(mw_two_level_grid *grid, mw_point p, uint32_t name);
+/* See mw__lattice_put. */
+void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_entry *e);
+/* Does p lie in a cell of its own level, and not beyond the rim of a grid? */
+bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p);
 void mw__two_level_grid_release(mw_two_level_grid *grid);
 size_t mw__two_level_grid_bytes(const mw_two_level_grid *grid);
 
