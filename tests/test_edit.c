@@ -240,6 +240,27 @@ static mw_edit any_edit(const twin *t, uint64_t *random)
     return e;
 }
 
+/* After compacting, the log belongs to the mesh as it was given then. */
+static void edit_compacted(twin *t, uint64_t *random)
+{
+    size_t count;
+    mw_mesh *mesh, *first = t->first;
+    mw_error error;
+    expect_ok(mw_editor_mesh(t->editor, NULL, NULL, &mesh, &error), "mesh", &error);
+    uint32_t *constraints = mw_editor_constraints(t->editor, &count);
+    mw_editor_options options = {
+        .delaunay = t->delaunay ? 0 : 2, .log = 1, .constraints = constraints, .constraint_count = count};
+    for (int i = 0; i < 8; i++) {
+        mw_edit e = any_edit(t, random);
+        twin_apply(t, &e, false);
+    }
+    t->first = mesh;
+    check_replay(t, &options);
+    t->first = first;
+    mw_mesh_destroy(mesh);
+    free(constraints);
+}
+
 /* Edits at random, all checked; then taken back one by one, or replayed, or compacted. */
 static void edit_in_a_row(const scene *s, uint64_t seed)
 {
@@ -273,6 +294,8 @@ static void edit_in_a_row(const scene *s, uint64_t seed)
     check_replay(&t, &options);
     while (done > 0) twin_close(&then[--done]);
     twin_compact(&t);
+    check_all(&t);
+    edit_compacted(&t, &random);
     check_all(&t);
     check_places(&t, &r);
     twin_close(&t);
