@@ -170,15 +170,15 @@ static MW_INLINE sight sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
     return (sight){x, y, x * x + y * y, vertex};
 }
 
-/* Is q in the circle of a, b, c? mw__incircle, with what is the same from one test to the next kept. */
+/* Is q in the circle of a, b, c? mw__incircle, with what is the same from one test to the next kept, and a bound by the lifts alone:
+ * triangulate/delaunay_grow.c tells why it is one. */
 static MW_INLINE bool in_circle(const mw_fabric *f, const sight *a, const sight *b, const sight *c, mw_point q)
 {
-    double bc = b->x * c->y, cb = c->x * b->y, ca = c->x * a->y, ac = a->x * c->y, ab = a->x * b->y, ba = b->x * a->y;
-    double det = a->lift * (bc - cb) + b->lift * (ca - ac) + c->lift * (ab - ba);
-    double permanent =
-        a->lift * (fabs(bc) + fabs(cb)) + b->lift * (fabs(ca) + fabs(ac)) + c->lift * (fabs(ab) + fabs(ba));
+    double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
+                 c->lift * (a->x * b->y - a->y * b->x);
+    double bound = 11.0 * 0x1p-53 * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + MW_UNDERFLOW_ERROR;
     bool small = a->lift + b->lift + c->lift < MW_INCIRCLE_LIFTS;
-    if (MW_LIKELY(small && fabs(det) > MW_INCIRCLE_ERROR * permanent + MW_UNDERFLOW_ERROR)) return det > 0;
+    if (MW_LIKELY(small && fabs(det) > bound)) return det > 0;
     const mw_point *p = f->tiling->point;
     return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
 }
