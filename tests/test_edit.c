@@ -605,7 +605,7 @@ static void grow_and_shrink(uint32_t count, const double *places)
     twin_close(&t);
 }
 
-enum { GROWN = 600 };
+enum { GROWN = 1500 };
 
 static void test_grow(void **state)
 {
