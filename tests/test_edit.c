@@ -686,13 +686,106 @@ static void test_duplicates(void **state)
     twin_close(&t);
 }
 
+/* --- answers that are easily wrong -------------------------------------------------------------------------------------------- */
+
+static mw_editor *editor_of(const double *points, size_t n, const uint32_t *triangles, size_t m,
+                            const mw_editor_options *options)
+{
+    mw_arrays given = {.points = points, .point_count = n, .triangles = triangles, .triangle_count = m};
+    mw_mesh *mesh;
+    mw_editor *editor;
+    mw_error error;
+    REQUIRE(mw_mesh_create(&given, NULL, &mesh, &error) == MW_OK);
+    double values[16];
+    for (size_t i = 0; i < n; i++) values[i] = (double)i;
+    REQUIRE(mw_mesh_set_field(mesh, "z", values, 0, &error) == MW_OK);
+    REQUIRE(mw_editor_create(mesh, options, &editor, &error) == MW_OK);
+    mw_mesh_destroy(mesh);
+    return editor;
+}
+
+/* An edit may be one of the log, which grows by it. */
+static void test_log_entry_again(void **state)
+{
+    (void)state;
+    const double square[] = {0, 0, 8, 0, 8, 8, 0, 8};
+    mw_editor *editor = editor_of(square, 4, (uint32_t[]){0, 1, 2, 0, 2, 3}, 2, &(mw_editor_options){.log = 1});
+    REQUIRE(mw_edit_insert(editor, 1, 2, NULL, NULL) == MW_OK);
+    for (size_t n = 1; n < 100; n++) {
+        size_t count;
+        const mw_edit *log = mw_editor_log(editor, &count);
+        REQUIRE(count == n && log[n - 1].x == 1 && log[n - 1].y == 2);
+        REQUIRE(mw_edit_apply(editor, &log[n - 1], NULL, NULL) == MW_OK);
+    }
+    mw_editor_destroy(editor);
+}
+
+/* A location of before an edit that took its triangle away. */
+static void test_value_of_what_is_gone(void **state)
+{
+    (void)state;
+    const double square[] = {0, 0, 8, 0, 8, 8, 0, 8};
+    mw_editor *editor = editor_of(square, 4, (uint32_t[]){0, 1, 2, 0, 2, 3}, 2, NULL);
+    mw_change change;
+    REQUIRE(mw_edit_insert(editor, 3, 5, &change, NULL) == MW_OK);
+    mw_location at[2] = {{.triangle = change.triangle[0].triangle, .weight = {1, 0, 0}}, {.triangle = 12345}};
+    double value[2] = {0, 0};
+    mw_editor_interpolate(editor, 0, at, 1, value);
+    REQUIRE(!isnan(value[0]));
+    REQUIRE(mw_edit_remove(editor, change.vertex, NULL, NULL) == MW_OK);
+    mw_editor_interpolate(editor, 0, at, 2, value);
+    REQUIRE(isnan(value[0]) && isnan(value[1]));
+    mw_editor_destroy(editor);
+}
+
+/* On a border round a single ghost, too, from the first to the last. */
+static void test_around_a_notch(void **state)
+{
+    (void)state;
+    const double points[] = {0, 0, 4, 0, 2, 1, 4, 4, 0, 4};
+    const uint32_t expected[] = {3, 4, 0, 1};
+    mw_editor *editor = editor_of(points, 5, (uint32_t[]){0, 1, 2, 0, 2, 4, 2, 3, 4}, 3, NULL);
+    uint32_t around[8];
+    assert_int_equal(mw_editor_around(editor, 2, around, 8), 4);
+    assert_memory_equal(around, expected, sizeof expected);
+    mw_editor_destroy(editor);
+}
+
+/* Where nothing is to be flipped, a vertex that goes from the hull takes no triangle with it that it did not have. */
+static void test_no_flips_beside_a_star(void **state)
+{
+    (void)state;
+    enum { V, A, W, B, C, D, Z };
+    const double points[] = {.1, 100, -1, 5, 0, 10, 0, 0, 1, 1, 1.5, 5, 0, -100};
+    const uint32_t triangles[] = {V, A, W, V, W, B, V, B, C, V, C, D, A, B, W, Z, B, A, Z, C, B, Z, D, C};
+    mw_editor *editor = editor_of(points, 7, triangles, 8, &(mw_editor_options){.delaunay = 2});
+    mw_change change;
+    REQUIRE(mw_edit_remove(editor, V, &change, NULL) == MW_OK);
+    for (size_t i = change.made; i < change.made + change.reused + change.freed; i++) {
+        const uint32_t *v = change.triangle[i].before;
+        REQUIRE(v[0] == V || v[1] == V || v[2] == V);
+    }
+    mw_editor_destroy(editor);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_edit),  cmocka_unit_test(test_rows),       cmocka_unit_test(test_long_constraints),
-        cmocka_unit_test(test_bad_meshes), cmocka_unit_test(test_arguments),  cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_undo_limit), cmocka_unit_test(test_hub),        cmocka_unit_test(test_grow),
-        cmocka_unit_test(test_magnitudes), cmocka_unit_test(test_duplicates),
+        cmocka_unit_test(test_each_edit),
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_long_constraints),
+        cmocka_unit_test(test_bad_meshes),
+        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_undo_limit),
+        cmocka_unit_test(test_hub),
+        cmocka_unit_test(test_grow),
+        cmocka_unit_test(test_magnitudes),
+        cmocka_unit_test(test_duplicates),
+        cmocka_unit_test(test_log_entry_again),
+        cmocka_unit_test(test_value_of_what_is_gone),
+        cmocka_unit_test(test_around_a_notch),
+        cmocka_unit_test(test_no_flips_beside_a_star),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

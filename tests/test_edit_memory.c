@@ -195,11 +195,39 @@ static void test_create(void **state)
     }
 }
 
+/* A value is written when nothing can fail any more: the first report of an editor has to be allocated. */
+static void test_value(void **state)
+{
+    (void)state;
+    const double square[] = {0, 0, 8, 0, 8, 8, 0, 8}, values[] = {1, 2, 3, 4};
+    mw_arrays given = {
+        .points = square, .point_count = 4, .triangles = (uint32_t[]){0, 1, 2, 0, 2, 3}, .triangle_count = 2};
+    mw_mesh *mesh;
+    mw_editor *editor;
+    REQUIRE(mw_mesh_create(&given, NULL, &mesh, NULL) == MW_OK);
+    REQUIRE(mw_mesh_set_field(mesh, "z", values, 0, NULL) == MW_OK);
+    REQUIRE(mw_editor_create(mesh, NULL, &editor, NULL) == MW_OK);
+    mw_change change;
+    mw_edit edit = {.kind = MW_EDIT_VALUE, .vertex = 2, .value = 99};
+    long k = 0;
+    for (;; k++) {
+        allocations_left = k;
+        mw_status status = mw_edit_apply(editor, &edit, &change, NULL);
+        allocations_left = -1;
+        if (status == MW_OK) break;
+        REQUIRE(mw_editor_value(editor, 0, 2) == 3);
+    }
+    REQUIRE(k > 0 && mw_editor_value(editor, 0, 2) == 99);
+    mw_editor_destroy(editor);
+    mw_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sessions),
         cmocka_unit_test(test_create),
+        cmocka_unit_test(test_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,8 +27,7 @@ typedef struct mw_editor_options {
     const uint32_t
         *constraints; /* two vertices each: edges of the mesh that are not to be flipped away; as mw_pieces.edge */
     size_t constraint_count;
-    uint32_t
-        threads; /* to prepare the mesh; 0 = what OpenMP gives                                                      */
+    uint32_t threads; /* of mw_editor_mesh and mw_editor_compact; 0 = what OpenMP gives */
     uint32_t reserved[7];
 } mw_editor_options;
 
@@ -123,7 +122,7 @@ MW_API mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *er
 MW_API const mw_edit *mw_editor_log(const mw_editor *editor, size_t *count);
 
 /* Number everything anew, without gaps and in the same order, and lay it out in memory along a curve. Undo and log begin anew;
- * cursors and indices stay valid, though cursors begin elsewhere. O(n). triangles, vertices: NULL, or arrays of as many numbers as
+ * cursors and indices stay valid, though cursors begin elsewhere; holes are numbered anew. O(n). triangles, vertices: NULL, or arrays of as many numbers as
  * the ranges below: the new one of each, MW_NONE for those that are gone. MW_ERROR_MEMORY: nothing has changed. */
 MW_API mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint32_t *vertices, mw_error *error);
 
@@ -136,7 +135,7 @@ typedef struct mw_editor_info {
     int delaunay;                          /* 1: the mesh is kept Delaunay                                        */
     int convex;                            /* 1: it fills its convex hull, which grows and shrinks                */
     size_t undoable;                       /* edits that can be undone                                            */
-    size_t bytes;                          /* all memory of the editor                                            */
+    size_t bytes;                          /* memory in use by the editor                                           */
     size_t undo_bytes;                     /* of it, for undo and the log                                         */
     size_t index_bytes;                    /* of it, of indices and the locator's guide                           */
     uint64_t edits;                        /* carried out since the editor was made, those undone too             */
@@ -178,7 +177,7 @@ MW_API uint32_t *mw_editor_constraints(const mw_editor *editor, size_t *count);
 /* --- location in between ---------------------------------------------------------------------------------------------- */
 
 /* The locator of what is there now: the same one as long as the editor lives. Its cursors survive edits: one whose triangle
- * is gone begins at one that took its place. Pockets and holes are filled; their numbers stay. It has no border index and
+ * is gone begins at one that took its place. Pockets and holes are filled; their numbers stay until mw_editor_compact. It has no border index and
  * no stored areas. The triangle of a location is a number of the editor's. */
 MW_API const mw_locator *mw_editor_locator(const mw_editor *editor);
 

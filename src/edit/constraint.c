@@ -243,6 +243,7 @@ mw_status mw__fabric_constrain(mw_fabric *f, uint32_t from, uint32_t to, bool re
         if (status) return status;
     }
     f->last = mw__fabric_tile(f, from);
-    mw_status status = release && f->delaunay ? push_way(f, from, to, error) : MW_OK;
+    if (!f->delaunay) return MW_OK; /* a channel may have old edges in it, and others be beside it: these are to stay */
+    mw_status status = release ? push_way(f, from, to, error) : MW_OK;
     return status || mw__legalise(f) ? status : mw__fail_memory(error);
 }

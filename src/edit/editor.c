@@ -61,8 +61,10 @@ static mw_status choose_delaunay(mw_fabric *f, int wanted, mw_error *error)
     mw_status status =
         mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}) ? mw__fabric_mend(f, error) : mw__fail_memory(error);
     if (!status && !mw__fabric_commit(f)) status = mw__fail_memory(error);
-    if (!status) mw__fabric_forget(f, 0);
-    return status;
+    if (status) return status;
+    mw__fabric_forget(f, 0);
+    mw__fabric_trim(f); /* no edit will need as much */
+    return MW_OK;
 }
 
 static bool copy_fields(mw_editor *editor, const mw_mesh *mesh)
@@ -274,10 +276,8 @@ static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *
     if (edit->field >= editor->view.field_count) return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     if (edit->vertex >= f->vertex_count || f->vertex_place[edit->vertex] == MW_NONE)
         return refuse_vertex(f, edit->vertex, error);
-    double *value = &editor->view.field[edit->field].values[edit->vertex];
-    f->step[f->step_count - 1].value = *value;
-    *value = edit->value;
-    return MW_OK;
+    f->step[f->step_count - 1].value = editor->view.field[edit->field].values[edit->vertex];
+    return MW_OK; /* it is written when nothing can fail any more */
 }
 
 static mw_status carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
@@ -324,6 +324,7 @@ static void keep(mw_editor *editor, const mw_edit *edit)
     if (editor->keeps_log) editor->log[editor->log_count++] = *edit;
     if (editor->undoable < editor->undo) editor->undoable++;
     editor->edits++;
+    if (edit->kind == MW_EDIT_VALUE) editor->view.field[edit->field].values[edit->vertex] = edit->value;
     mw__editor_look(editor);
     mw__upkeep_edit(&editor->upkeep, false);
 }
@@ -331,6 +332,8 @@ static void keep(mw_editor *editor, const mw_edit *edit)
 mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
+    const mw_edit copy = *edit; /* it may stand in the log, which grows */
+    edit = &copy;
     mw_fabric *f = &editor->fabric;
     mw_change own = {.vertex = MW_NONE};
     if (!log_room(editor) || !mw__fabric_begin(f, edit)) return mw__fail_memory(error);

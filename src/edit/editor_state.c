@@ -84,6 +84,7 @@ size_t mw_editor_around(const mw_editor *editor, uint32_t vertex, uint32_t *neig
             at = mw__half_next(mw__beyond(f, at));
             if (at == begin) break;
         }
+    if (!mw__is_users(f, mw__link_triangle(at))) at = mw__beyond(f, mw__half_prev(at));
     begin = at;
     do {
         uint32_t last = mw__half_prev(at);
@@ -126,11 +127,11 @@ double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex)
 void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_location *locations, size_t n,
                            double *result)
 {
-    if (field < editor->view.field_count) {
-        mw_interpolate(&editor->view, editor->view.field[field].values, locations, n, result);
-        return;
+    for (size_t i = 0; i < n; i++) {
+        result[i] = NAN; /* also where the triangle has gone since */
+        if (field >= editor->view.field_count || !tile_of(editor->fabric.tiling, locations[i].triangle)) continue;
+        mw_interpolate(&editor->view, editor->view.field[field].values, &locations[i], 1, &result[i]);
     }
-    for (size_t i = 0; i < n; i++) result[i] = NAN;
 }
 
 const mw_locator *mw_editor_locator(const mw_editor *editor)

@@ -185,6 +185,15 @@ bool mw__stack_room(mw_fabric *f, size_t more)
     return true;
 }
 
+void mw__fabric_trim(mw_fabric *f)
+{
+    free(f->before);
+    free(f->stack);
+    f->before = NULL;
+    f->stack = NULL;
+    f->before_room = f->stack_room = 0;
+}
+
 bool mw__journal_room(mw_fabric *f)
 {
     if (f->before_count < f->before_room) return true;
@@ -286,7 +295,7 @@ bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex)
         uint32_t *place = mw__realloc(f->vertex_place, room, sizeof *place);
         if (!place) return false;
         f->vertex_place = place;
-        f->vertex_room = (uint32_t)room;
+        f->vertex_room = (uint32_t)(room < MW_NONE ? room : MW_NONE);
     }
     uint32_t v = f->free_count > 0 ? f->free_place[--f->free_count] : tiling->point_count++;
     tiling->point[v] = q;

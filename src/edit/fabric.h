@@ -17,6 +17,7 @@
 /* Marks of a tile: its edges that are fixed (bit k), and whether the journal of this edit has it. */
 #define MW_FIXED_EDGES 7u
 #define MW_JOURNALED 8u
+#define MW_FILLED 16u /* it was cut off a polygon that this edit left */
 
 /* A place of the array of tiles, as it was before the edit. tile.v[0] is MW_NONE where there was no tile. */
 typedef struct mw_before {
@@ -108,6 +109,8 @@ void mw__fabric_revert(mw_fabric *f);
 void mw__fabric_drop(mw_fabric *f);
 /* Keep the journal of the last `steps` edits only. */
 void mw__fabric_forget(mw_fabric *f, size_t steps);
+/* Release an empty journal, and scratch. */
+void mw__fabric_trim(mw_fabric *f);
 
 /* The part of the journal that belongs to the last step. */
 static MW_INLINE size_t mw__fabric_journal(const mw_fabric *f, const mw_before **first)

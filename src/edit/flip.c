@@ -42,18 +42,19 @@ bool mw__is_illegal(const mw_fabric *f, uint32_t half)
     return mw__incircle(p[v[0]], p[v[1]], p[v[2]], p[mw__apex(f, other)]) > 0;
 }
 
-static bool is_changed(const mw_fabric *f, uint32_t half)
+/* Does the edge lie within what an edit has filled? Then it is of that filling. */
+static bool is_within(const mw_fabric *f, uint32_t half)
 {
     uint32_t other = mw__beyond(f, half);
-    return other != MW_NONE && f->mark[mw__link_triangle(half)] & MW_JOURNALED &&
-           f->mark[mw__link_triangle(other)] & MW_JOURNALED;
+    return other != MW_NONE && f->mark[mw__link_triangle(half)] & MW_FILLED &&
+           f->mark[mw__link_triangle(other)] & MW_FILLED;
 }
 
 static MW_INLINE bool legalise(mw_fabric *f, bool within)
 {
     while (f->stack_count > 0) {
         uint32_t half = f->stack[--f->stack_count];
-        if (within && !is_changed(f, half)) continue;
+        if (within && !is_within(f, half)) continue;
         if (!mw__is_illegal(f, half)) continue;
         uint32_t t = mw__link_triangle(half), n = mw__link_triangle(mw__beyond(f, half));
         if (!mw__exchange(f, half)) return false;

@@ -121,7 +121,7 @@ static void find_owners(mw_fabric *f, const mw_before *first, size_t count)
 
 static void clear_marks(mw_fabric *f, const mw_before *first, size_t count)
 {
-    for (size_t i = 0; i < count; i++) f->mark[first[i].place] &= (uint8_t)~MW_JOURNALED;
+    for (size_t i = 0; i < count; i++) f->mark[first[i].place] &= (uint8_t)MW_FIXED_EDGES;
 }
 
 bool mw__fabric_commit(mw_fabric *f)

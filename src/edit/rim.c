@@ -123,6 +123,7 @@ static uint32_t cut_off(mw_fabric *f, const mw_rim_step *a, const mw_rim_step *b
     uint32_t t = pool->tile[pool->used++];
     mw__set_corners(f, t, a->vertex, b->vertex, end);
     mw__set_fixed(f, t, (uint32_t)a->fixed | (uint32_t)b->fixed << 1);
+    f->mark[t] |= MW_FILLED;
     settle(f, mw__link(t, 0), a, pool);
     settle(f, mw__link(t, 1), b, pool);
     mw__attach(f, mw__link(t, 2), MW_NONE);
