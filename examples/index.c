@@ -56,7 +56,8 @@ int main(void)
         fail(&error);
 
     mw_index_describe(old_index, &info);
-    printf("a grid of %u cells, %zu bytes for each\n", info.cells, info.bytes / info.cells);
+    printf("a grid of about %u thousand cells, %zu bytes for each\n", (info.cells + 500) / 1000,
+           info.bytes / info.cells);
     double near = visited(locator, old_index, with_old);
     double far = visited(changed, old_index, with_old);
     double again = visited(changed, new_index, with_new);
