@@ -309,6 +309,40 @@ static void test_guides_well(void **state)
     }
 }
 
+/* Long thin triangles, askew: cells are so too. And a triangle along the hull, where a query outside ended, is not near to what lies inside. */
+static void test_stretched(void **state)
+{
+    (void)state;
+    enum { N = 40000, ROWS = 9, QUERIES = 4000 };
+    uint64_t random = 9;
+    for (int stretched = 0; stretched < 2; stretched++) {
+        double *p = malloc(2 * N * sizeof *p);
+        for (size_t i = 0; i < N; i++) {
+            double x = random_unit(&random);
+            double y = stretched ? 0.1 * (double)(i % ROWS) + 1e-9 * random_unit(&random) : random_unit(&random);
+            p[2 * i] = 0.8 * x - 0.6 * y;
+            p[2 * i + 1] = 0.6 * x + 0.8 * y;
+        }
+        mw_mesh *mesh;
+        mw_error error;
+        if (mw_delaunay(p, N, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        mw_query_options options = {.count = 1};
+        mw_cursor cursor;
+        assert_int_equal(mw_cursor_init(&cursor, locator, &options, &error), MW_OK);
+        for (size_t i = 0; i < QUERIES; i++) {
+            double x = random_unit(&random) + (i % 2 ? 0 : 1.5), y = 0.8 * random_unit(&random);
+            mw_locate(locator, &cursor, 0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y);
+        }
+        double visited = (double)cursor.counters.triangles_visited / QUERIES;
+        printf("%s: %.1f triangles a query\n", stretched ? "slivers" : "uniform", visited);
+        assert_true(visited < 25);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        free(p);
+    }
+}
+
 static void test_describe(void **state)
 {
     (void)state;
@@ -451,7 +485,7 @@ int main(void)
         cmocka_unit_test(test_holes),    cmocka_unit_test(test_scales),     cmocka_unit_test(test_lattice),
         cmocka_unit_test(test_fill),     cmocka_unit_test(test_other_mesh), cmocka_unit_test(test_guides_well),
         cmocka_unit_test(test_describe), cmocka_unit_test(test_refuses),    cmocka_unit_test(test_auto),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_memory),   cmocka_unit_test(test_stretched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
