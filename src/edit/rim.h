@@ -29,7 +29,7 @@ bool mw__pool_begin(mw_fabric *f, mw_pool *pool);
 
 /* Cut off corners of the chain of n steps wherever it turns left, until it turns left nowhere [Graham 1972], which is right for chains all
  * of whose vertices are seen from one point or one edge to the left of them [Toussaint, Avis 1982]. step[n].vertex is where it ends.
- * Returns the number of steps that are left; in the last tile of each the edge of index 2 is step.beyond. Pushes edges between new tiles for
+ * *n becomes the number of steps that are left; where corners were cut off a step, the last tile's edge 2 is its `beyond`. Pushes edges between new tiles for
  * mw__legalise; false when out of memory. */
 bool mw__cut_chain(mw_fabric *f, mw_rim_step *step, size_t *n, mw_pool *pool);
 

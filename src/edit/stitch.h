@@ -74,9 +74,9 @@ static MW_INLINE bool mw__push(mw_fabric *f, uint32_t half)
 }
 
 /* Flip the edges on the stack, and what becomes illegal by it, until all are legal [Lawson 1977]. Where the mesh is not kept Delaunay,
- * only edges between tiles that this edit has changed. Empties the stack. */
+ * only edges within what the edit has filled (MW_FILLED). Empties the stack. */
 bool mw__legalise(mw_fabric *f);
-/* The same, but only edges between tiles that this edit has changed: where those round about are known to be legal. */
+/* The same, but only edges within what the edit has filled: where those round about are known to be legal. */
 bool mw__legalise_within(mw_fabric *f);
 
 #endif
