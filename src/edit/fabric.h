@@ -68,6 +68,12 @@ static MW_INLINE uint32_t mw__corner(const mw_fabric *f, uint32_t half)
     return f->tiling->tri[mw__link_triangle(half)].v[mw__link_edge(half)];
 }
 
+/* Which corner of a tile that has it is v? */
+static MW_INLINE uint32_t mw__corner_of(const mw_triangle *tile, uint32_t v)
+{
+    return tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
+}
+
 static MW_INLINE uint32_t mw__apex(const mw_fabric *f, uint32_t half)
 {
     return f->tiling->tri[mw__link_triangle(half)].v[mw__prev(mw__link_edge(half))];

@@ -78,11 +78,6 @@ static void offer(uint32_t *owner, const mw_triangle *tile)
         if (number < owner[tile->v[k]]) owner[tile->v[k]] = number;
 }
 
-static uint32_t corner_of(const mw_triangle *tile, uint32_t v)
-{
-    return tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
-}
-
 /* The lowest of all triangles round v, one of which is known. */
 static uint32_t lowest_round(const mw_tiling *tiling, uint32_t v)
 {
@@ -91,7 +86,7 @@ static uint32_t lowest_round(const mw_tiling *tiling, uint32_t v)
         uint32_t link;
         do {
             const mw_triangle *tile = &tiling->tri[t];
-            uint32_t k = corner_of(tile, v);
+            uint32_t k = mw__corner_of(tile, v);
             if (!(tile->user & MW_GHOST) && (tile->user & MW_USER_MASK) < best) best = tile->user & MW_USER_MASK;
             link = tile->link[clockwise ? k : mw__prev(k)];
             t = mw__link_triangle(link);

@@ -20,11 +20,6 @@ bool mw__rim_room(mw_fabric *f, size_t steps)
 
 /* --- the star of a vertex --------------------------------------------------------------------------------------------- */
 
-static uint32_t corner_of(const mw_triangle *tile, uint32_t v)
-{
-    return tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
-}
-
 uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open)
 {
     return mw__star_from(f, v, mw__fabric_tile(f, v), open);
@@ -33,7 +28,7 @@ uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open)
 uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t first, bool *open)
 {
     const mw_tiling *tiling = f->tiling;
-    uint32_t at = mw__link(first, corner_of(&tiling->tri[first], v));
+    uint32_t at = mw__link(first, mw__corner_of(&tiling->tri[first], v));
     for (;;) {
         uint32_t link = tiling->tri[mw__link_triangle(at)].link[mw__link_edge(at)];
         *open = link == MW_NONE;
@@ -70,7 +65,7 @@ bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
 {
     uint32_t tile = mw__fabric_tile(f, v);
     bool open;
-    if (!collect_from(f, mw__link(tile, corner_of(&f->tiling->tri[tile], v)), star)) return false;
+    if (!collect_from(f, mw__link(tile, mw__corner_of(&f->tiling->tri[tile], v)), star)) return false;
     return !star->open || collect_from(f, mw__star_first(f, v, &open), star);
 }
 

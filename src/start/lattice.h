@@ -58,21 +58,16 @@ static MW_INLINE bool mw__lattice_covers(const mw_lattice *lattice, mw_point p)
 /* The middle of a cell. */
 mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell);
 
-/* The square of how far p is off the middle of a cell, in widths of a cell; NaN is as far as can be. */
-static MW_INLINE float mw__lattice_off(const mw_lattice *lattice, uint32_t column, uint32_t row, mw_point p)
+/* The cell of p, and the square of how far p is off its middle, in widths of a cell; NaN is as far as can be. */
+static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_point p, float *off)
 {
     double at[2];
     mw__lattice_offset(lattice, p, at);
-    float dx = (float)(at[0] + lattice->half[0] - column) - 0.5f, dy = (float)(at[1] + lattice->half[1] - row) - 0.5f;
-    return dx * dx + dy * dy;
-}
-
-/* The cell of p, and how far p is off its middle. */
-static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_point p, float *off)
-{
-    uint32_t cell = mw__lattice_cell(lattice, p);
-    *off = mw__lattice_off(lattice, cell % lattice->columns, cell / lattice->columns, p);
-    return cell;
+    double x = at[0] + lattice->half[0], y = at[1] + lattice->half[1];
+    uint32_t column = mw__lattice_line(x, lattice->columns), row = mw__lattice_line(y, lattice->rows);
+    float dx = (float)(x - column) - 0.5f, dy = (float)(y - row) - 0.5f;
+    *off = dx * dx + dy * dy;
+    return row * lattice->columns + column;
 }
 
 /* What an entry is given by who follows edits. */
