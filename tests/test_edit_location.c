@@ -326,10 +326,10 @@ static void check_layer(const mw_live_layers *live, uint32_t i)
     }
     uint32_t there = 0, below_there = 0;
     for (uint32_t v = 0; v < tiling->point_count; v++) {
-        if (tiling->owner[v] == MW_NONE) continue;
+        if (tiling->tile_at[v] == MW_NONE) continue;
         there++;
         uint32_t below = layer->below[v];
-        assert_true(below < beneath->point_count && beneath->owner[below] != MW_NONE);
+        assert_true(below < beneath->point_count && beneath->tile_at[below] != MW_NONE);
         assert_true(beneath->point[below].x == p[v].x && beneath->point[below].y == p[v].y);
         assert_int_equal(live->up[i][below], v);
     }

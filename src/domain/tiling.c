@@ -21,6 +21,24 @@ static bool find_owners(mw_tiling *tiling)
     return true;
 }
 
+uint32_t mw__lowest_round(const mw_tiling *tiling, uint32_t first, uint32_t v)
+{
+    uint32_t t = first, best = MW_NONE;
+    for (int clockwise = 0; clockwise < 2; clockwise++) {
+        uint32_t link;
+        do {
+            const mw_triangle *tile = &tiling->tri[t];
+            uint32_t k = tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
+            if (!(tile->user & MW_GHOST) && (tile->user & MW_USER_MASK) < best) best = tile->user & MW_USER_MASK;
+            link = tile->link[clockwise ? k : mw__prev(k)];
+            t = mw__link_triangle(link);
+        } while (link != MW_NONE && t != first);
+        if (link != MW_NONE) break;
+        t = first;
+    }
+    return best;
+}
+
 static void borrow(const mw_mesh *mesh, mw_tiling *tiling)
 {
     tiling->point = mesh->point;
@@ -120,6 +138,7 @@ void mw__tiling_release(mw_tiling *tiling)
 {
     release_arrays(tiling);
     free(tiling->owner);
+    free(tiling->tile_at);
     free(tiling->area);
     free(tiling->rim);
     free(tiling->tile_of);
@@ -136,7 +155,8 @@ size_t mw__tiling_copy_bytes(const mw_tiling *tiling)
 
 size_t mw__tiling_bytes(const mw_tiling *tiling)
 {
-    size_t bytes = tiling->point_count * sizeof *tiling->owner + mw__tiling_copy_bytes(tiling);
+    size_t bytes = mw__tiling_copy_bytes(tiling);
+    if (tiling->owner || tiling->tile_at) bytes += tiling->point_count * sizeof *tiling->owner;
     bytes += tiling->number_count * sizeof *tiling->tile_of;
     if (tiling->area) bytes += tiling->tri_count * sizeof *tiling->area;
     if (tiling->open) bytes += sizeof *tiling->open + mw__open_bytes(tiling->open, tiling);

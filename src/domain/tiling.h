@@ -21,8 +21,10 @@
 typedef struct mw_tiling {
     mw_point *point;
     mw_triangle *tri;
-    double *area;    /* per tile, twice its area, see mw__tiling_areas; NULL unless asked for; always owned      */
-    uint32_t *owner; /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned */
+    double *area;      /* per tile, twice its area, see mw__tiling_areas; NULL unless asked for; always owned      */
+    uint32_t *owner;   /* per vertex: the lowest-numbered triangle of the user's that contains it; always owned. NULL
+                        for a tiling that is edited                                                          */
+    uint32_t *tile_at; /* of such a one instead, per vertex: a tile of it, MW_NONE if there is none; else NULL   */
     uint32_t point_count, tri_count, ghost_count, hole_count;
     bool borrowed;    /* point and tri belong to the mesh               */
     bool cut;         /* some of the user's triangles are several tiles */
@@ -52,12 +54,25 @@ static MW_INLINE uint32_t mw__tile_named(const mw_tiling *tiling, uint32_t name)
     return MW_LIKELY(name < tiling->tri_count) ? name : name % tiling->tri_count;
 }
 
+/* Is vertex v one of a triangle that has an area? */
+static MW_INLINE bool mw__is_used(const mw_tiling *tiling, uint32_t v)
+{
+    return (tiling->tile_at ? tiling->tile_at : tiling->owner)[v] != MW_NONE;
+}
+
+/* The lowest-numbered triangle of the user's that has vertex v, of which t is a tile: where none is stored all tiles round v are looked at. */
+uint32_t mw__lowest_round(const mw_tiling *tiling, uint32_t t, uint32_t v);
+static MW_INLINE uint32_t mw__lowest_at(const mw_tiling *tiling, uint32_t t, uint32_t v)
+{
+    return tiling->tile_at ? mw__lowest_round(tiling, t, v) : tiling->owner[v];
+}
+
 /* A name of a tile that lasts: of a ghost, that of a triangle beside it. */
 static MW_INLINE uint32_t mw__tile_name(const mw_tiling *tiling, uint32_t t)
 {
     if (!tiling->tile_of) return t;
     const mw_triangle *tile = &tiling->tri[t];
-    return tile->user & MW_GHOST ? tiling->owner[tile->v[0]] : tile->user & MW_USER_MASK;
+    return tile->user & MW_GHOST ? mw__lowest_round(tiling, t, tile->v[0]) : tile->user & MW_USER_MASK;
 }
 
 /* Tile the hull of `mesh`. Where the mesh is no embedding: with `any`, see mw_tiling.embedding; otherwise

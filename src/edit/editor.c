@@ -36,12 +36,13 @@ mw_status mw__fix_edges(mw_fabric *f, const uint32_t *ends, size_t count, mw_err
         else
             status = mw__fabric_constrain(f, a, b, false, &pieces, error);
     }
-    if (!status && !mw__fabric_commit(f)) status = mw__fail_memory(error);
-    if (status)
+    if (status) {
         mw__fabric_rollback(f);
-    else
-        mw__fabric_forget(f, 0);
-    return status;
+        return status;
+    }
+    mw__fabric_commit(f);
+    mw__fabric_forget(f, 0);
+    return MW_OK;
 }
 
 static bool is_delaunay(const mw_fabric *f)
@@ -60,8 +61,8 @@ static mw_status choose_delaunay(mw_fabric *f, int wanted, mw_error *error)
     if (wanted != 1 || f->delaunay) return MW_OK;
     mw_status status =
         mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}) ? mw__fabric_mend(f, error) : mw__fail_memory(error);
-    if (!status && !mw__fabric_commit(f)) status = mw__fail_memory(error);
     if (status) return status;
+    mw__fabric_commit(f);
     mw__fabric_forget(f, 0);
     mw__fabric_trim(f); /* no edit will need as much */
     return MW_OK;
@@ -338,12 +339,13 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
     mw_change own = {.vertex = MW_NONE};
     if (!log_room(editor) || !mw__fabric_begin(f, edit)) return mw__fail_memory(error);
     mw_status status = carry_out(editor, edit, &own, error);
-    if (!status && ((change && !report_room(editor)) || !mw__fabric_commit(f))) status = mw__fail_memory(error);
+    if (!status && change && !report_room(editor)) status = mw__fail_memory(error);
     if (status) {
         mw__fabric_rollback(f);
         mw__editor_look(editor);
         return status;
     }
+    mw__fabric_commit(f);
     if (own.vertex_made && editor->borrows) borrow_values(editor, edit, own.vertex);
     keep(editor, edit);
     if (change) {

@@ -61,7 +61,8 @@ int mw_editor_vertex(const mw_editor *editor, uint32_t vertex, double point[2])
 uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex)
 {
     uint32_t v = mw__vertex_there(&editor->fabric, vertex);
-    return v == MW_NONE ? MW_NONE : editor->fabric.tiling->owner[v];
+    const mw_tiling *tiling = editor->fabric.tiling;
+    return v == MW_NONE ? MW_NONE : mw__lowest_round(tiling, tiling->tile_at[v], v);
 }
 
 /* Edges of ghosts alone are none of the mesh. */

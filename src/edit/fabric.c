@@ -58,9 +58,9 @@ static bool more_points(mw_fabric *f)
     uint32_t *number = mw__realloc(f->vertex_number, room, sizeof *number);
     if (!number) return false;
     f->vertex_number = number;
-    uint32_t *owner = mw__realloc(tiling->owner, room, sizeof *owner);
-    if (!owner) return false;
-    tiling->owner = owner;
+    uint32_t *tile_at = mw__realloc(tiling->tile_at, room, sizeof *tile_at);
+    if (!tile_at) return false;
+    tiling->tile_at = tile_at;
     mw_point *point = enlarge_lines(tiling->point, tiling->borrowed, tiling->point_count, room, sizeof *point);
     if (!point) return false;
     tiling->point = point;
@@ -127,6 +127,15 @@ static bool make_numbers(mw_fabric *f, const mw_mesh *mesh)
     return true;
 }
 
+static void find_tiles(mw_tiling *tiling)
+{
+    for (uint32_t v = 0; v < tiling->point_count; v++) tiling->tile_at[v] = MW_NONE;
+    for (uint32_t t = 0; t < tiling->tri_count; t++)
+        for (int k = 0; k < 3; k++) tiling->tile_at[tiling->tri[t].v[k]] = t;
+    free(tiling->owner);
+    tiling->owner = NULL;
+}
+
 static void fix_border(mw_fabric *f)
 {
     const mw_tiling *tiling = f->tiling;
@@ -145,6 +154,7 @@ mw_status mw__fabric_create(mw_fabric *f, mw_tiling *tiling, const mw_mesh *mesh
     mw_status status = check(tiling, mesh, error);
     if (status) return status;
     if (!own_arrays(f) || !make_numbers(f, mesh)) return mw__fail_memory(error);
+    find_tiles(tiling);
     fix_border(f);
     return MW_OK;
 }
@@ -160,6 +170,7 @@ void mw__fabric_release(mw_fabric *f)
     free(f->stack);
     free(f->rim);
     free(f->pool);
+    free(f->ahead);
     *f = (mw_fabric){0};
 }
 
@@ -169,7 +180,7 @@ size_t mw__fabric_bytes(const mw_fabric *f)
     return t->tri_count * sizeof *f->mark + f->vertex_count * sizeof *f->vertex_place +
            t->point_count * sizeof *f->vertex_number + f->free_room * sizeof *f->free_place +
            f->before_room * sizeof *f->before + f->step_room * sizeof *f->step + f->stack_room * sizeof *f->stack +
-           f->rim_room * (sizeof *f->rim + sizeof *f->pool);
+           mw__rim_bytes(f);
 }
 
 /* --- scratch, and the journal ------------------------------------------------------------------------------------------------------------- */
@@ -277,7 +288,11 @@ bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
             if (!mw__journal(f, last)) return false;
             tiling->tri[t] = tiling->tri[last];
             mw__set_fixed(f, t, f->mark[last] & MW_FIXED_EDGES);
-            for (uint32_t k = 0; k < 3; k++) mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
+            for (uint32_t k = 0; k < 3; k++) {
+                uint32_t v = tiling->tri[t].v[k];
+                if (tiling->tile_at[v] == last) tiling->tile_at[v] = t;
+                mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
+            }
             if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
             if (f->last == last) f->last = t;
         }
@@ -299,7 +314,7 @@ bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex)
     }
     uint32_t v = f->free_count > 0 ? f->free_place[--f->free_count] : tiling->point_count++;
     tiling->point[v] = q;
-    tiling->owner[v] = MW_NONE;
+    tiling->tile_at[v] = MW_NONE;
     f->vertex_number[v] = f->vertex_count;
     f->vertex_place[f->vertex_count++] = v;
     *vertex = v;
@@ -317,5 +332,6 @@ bool mw__free_vertex(mw_fabric *f, uint32_t v)
     }
     f->free_place[f->free_count++] = v;
     f->vertex_place[f->vertex_number[v]] = MW_NONE;
+    f->tiling->tile_at[v] = MW_NONE;
     return true;
 }

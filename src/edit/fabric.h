@@ -39,6 +39,7 @@ typedef struct mw_step {
 
 /* A step of the boundary of tiles that are to be replaced, which lie to its left: see rim.h. */
 typedef struct mw_rim_step mw_rim_step;
+typedef struct mw_step_ahead mw_step_ahead; /* insert.c */
 
 typedef struct mw_fabric {
     mw_tiling *tiling;       /* its arrays belong to the fabric as long as it lives; with tile_of */
@@ -56,11 +57,12 @@ typedef struct mw_fabric {
     size_t step_count, step_room;
     uint32_t *stack; /* half-edges that may have to be flipped, and other scratch        */
     size_t stack_count, stack_room;
-    mw_rim_step *rim; /* scratch */
-    uint32_t *pool;   /* scratch: tiles that are to be replaced */
-    size_t rim_room;  /* of both */
-    uint32_t last;    /* a tile where the last edit was */
-    uint32_t flips;   /* of this edit                   */
+    mw_rim_step *rim;     /* scratch */
+    uint32_t *pool;       /* scratch: tiles that are to be replaced */
+    mw_step_ahead *ahead; /* scratch: steps that are yet to be looked at */
+    size_t rim_room;      /* of the three */
+    uint32_t last;        /* a tile where the last edit was */
+    uint32_t flips;       /* of this edit                   */
 } mw_fabric;
 
 static MW_INLINE uint32_t mw__corner(const mw_fabric *f, uint32_t half)
@@ -105,9 +107,8 @@ size_t mw__fabric_bytes(const mw_fabric *f); /* but for the tiling's own (mw__ti
 
 /* False when out of memory. */
 bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit);
-/* After the operations: the lowest triangle of each vertex is found again. False when out of memory: then roll back. Between this and
- * mw__fabric_forget the journal of the last step can be read. */
-bool mw__fabric_commit(mw_fabric *f);
+/* After the operations. Between this and mw__fabric_forget the journal of the last step can be read. */
+void mw__fabric_commit(mw_fabric *f);
 void mw__fabric_rollback(mw_fabric *f);
 /* Take back the last step. Its journal then holds the tiles as they were after the edit, and is the last thing in the journal until the
  * step is dropped (mw__fabric_drop). */
@@ -150,10 +151,11 @@ mw_status mw__fabric_mend(mw_fabric *f, mw_error *error);
  * direction has a tile, that. */
 uint32_t mw__fabric_edge(const mw_fabric *f, uint32_t from, uint32_t to);
 
-/* A tile of a vertex that is in some. */
+/* A tile of a vertex that is in some: the user's of the lowest number. mw_tiling.tile_at has one that is quicker to find, but which depends on
+ * what happened before: edits have to come out the same when they are replayed. */
 static MW_INLINE uint32_t mw__fabric_tile(const mw_fabric *f, uint32_t vertex)
 {
-    return f->tiling->tile_of[f->tiling->owner[vertex]];
+    return f->tiling->tile_of[mw__lowest_round(f->tiling, f->tiling->tile_at[vertex], vertex)];
 }
 
 #endif

@@ -1,7 +1,9 @@
-/* insert.c - a vertex is put into the tile or the edge where it lies, or beside the hull; then edges across from it are flipped until the
- * mesh is Delaunay again [Lawson 1977; Guibas, Stolfi 1985]. All new tiles have the vertex as corner 2, so that the edge across from it is
- * edge 0, and stay so when flipped. */
-#include "edit/stitch.h"
+/* insert.c - a vertex is put into the tile or on the edge where it lies, or beside the hull.
+ *
+ * All tiles whose circles it lies in go, and what they leave is a star round it [Bowyer 1981; Watson 1981]: the tiles that flips one after
+ * another would lead to [Lawson 1977], each made once. Fixed edges are not crossed, so in a constrained mesh the hole is what the vertex
+ * sees; where the mesh is not kept Delaunay it is the tile or two that hold the vertex. All new tiles have the vertex as corner 2. */
+#include "edit/rim.h"
 
 #include "walk/walk.h"
 
@@ -24,7 +26,87 @@ static mw_status refuse_outside(mw_point q, mw_error *error)
     return mw__fail(error, MW_ERROR_INPUT, "the point %.17g, %.17g lies outside of the mesh", q.x, q.y);
 }
 
-/* --- splitting -------------------------------------------------------------------------------------------------------- */
+/* --- the hole --------------------------------------------------------------------------------------------------------- */
+
+/* Part of the boundary of a hole round q, from step `first` on, counter-clockwise; its tiles are those of f->pool from `pool` on. */
+typedef struct hole {
+    mw_point q;
+    size_t first, pool; /* in f->rim, in f->pool */
+    size_t steps, tiles, ahead;
+} hole;
+
+static MW_INLINE mw_sight sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
+{
+    double x = f->tiling->point[vertex].x - q.x, y = f->tiling->point[vertex].y - q.y;
+    return (mw_sight){x, y, x * x + y * y, vertex};
+}
+
+/* Is q in the circle of a, b, c? mw__incircle, with what is the same from one test to the next kept, and a bound by the lifts alone:
+ * triangulate/delaunay_grow.c tells why it is one. */
+static MW_INLINE bool in_circle(const mw_fabric *f, const mw_sight *a, const mw_sight *b, const mw_sight *c, mw_point q)
+{
+    double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
+                 c->lift * (a->x * b->y - a->y * b->x);
+    double bound = 11.0 * 0x1p-53 * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + MW_UNDERFLOW_ERROR;
+    bool small = a->lift + b->lift + c->lift < MW_INCIRCLE_LIFTS;
+    if (MW_LIKELY(small && fabs(det) > bound)) return det > 0;
+    const mw_point *p = f->tiling->point;
+    return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
+}
+
+/* Take a tile into the hole; there is room for it, and for the steps it brings. */
+static bool take(mw_fabric *f, hole *h, uint32_t t)
+{
+    size_t room = h->first + h->steps + h->ahead + h->pool + h->tiles + 4;
+    if (MW_UNLIKELY(room > f->rim_room) && !mw__rim_room(f, room)) return false;
+    f->pool[h->pool + h->tiles++] = t;
+    return mw__journal(f, t);
+}
+
+static MW_INLINE void look_ahead(mw_fabric *f, hole *h, mw_sight end, uint32_t beyond, bool fixed)
+{
+    f->ahead[h->ahead++] = (mw_step_ahead){end, beyond, fixed};
+}
+
+/* The same for edge k of a tile that was taken. */
+static MW_INLINE void look_over(mw_fabric *f, hole *h, uint32_t t, uint32_t k)
+{
+    const mw_triangle *tile = &f->tiling->tri[t];
+    look_ahead(f, h, sight_of(f, tile->v[k + 1], h->q), tile->link[k], f->mark[t] >> k & 1);
+}
+
+/* Go along the steps ahead, the last one first, which begins at vertex a: where the tile beyond has q in its circle, its two other edges are
+ * steps instead. No tile is met twice, for a vertex all of whose tiles were in the hole would lie where q does. */
+static bool dig(mw_fabric *f, hole *h, mw_sight a)
+{
+    const mw_triangle *tri = f->tiling->tri;
+    while (h->ahead > 0) {
+        mw_step_ahead step = f->ahead[--h->ahead];
+        if (step.beyond != MW_NONE && !step.fixed && f->delaunay) {
+            uint32_t t = mw__link_triangle(step.beyond), e = mw__link_edge(step.beyond);
+            uint32_t next = mw__next(e), prev = mw__prev(e), fixed = f->mark[t];
+            mw_sight d = sight_of(f, tri[t].v[prev], h->q);
+            if (in_circle(f, &step.end, &a, &d, h->q)) {
+                if (!take(f, h, t)) return false;
+                look_ahead(f, h, step.end, tri[t].link[prev], fixed >> prev & 1);
+                look_ahead(f, h, d, tri[t].link[next], fixed >> next & 1);
+                f->flips++;
+                continue;
+            }
+        }
+        f->rim[h->first + h->steps++] = (mw_rim_step){.vertex = a.vertex, .beyond = step.beyond, .fixed = step.fixed};
+        a = step.end;
+    }
+    f->rim[h->first + h->steps].vertex = a.vertex;
+    return true;
+}
+
+/* --- the star --------------------------------------------------------------------------------------------------------- */
+
+/* Tiles round v, counter-clockwise, from the one whose edge 2 to the one whose edge 1 is not linked. */
+typedef struct fan {
+    uint32_t first, last;
+} fan;
 
 /* MW_NONE from mw__add_tile means one of two things. */
 static mw_status tile_failure(const mw_fabric *f, mw_error *error)
@@ -34,47 +116,43 @@ static mw_status tile_failure(const mw_fabric *f, mw_error *error)
     return mw__fail_memory(error);
 }
 
-static void set_tile(mw_fabric *f, uint32_t t, uint32_t a, uint32_t b, uint32_t c, uint32_t fixed)
+/* Fill the hole with tiles round v: its own, and others beside tile `beside`. */
+static mw_status fill(mw_fabric *f, const hole *h, uint32_t v, uint32_t beside, fan *made, mw_error *error)
 {
-    mw__set_corners(f, t, a, b, c);
-    mw__set_fixed(f, t, fixed);
-}
-
-static mw_status split_tile(mw_fabric *f, uint32_t t, uint32_t v, mw_error *error)
-{
-    if (!mw__journal(f, t)) return mw__fail_memory(error);
-    uint32_t t1 = mw__add_tile(f, mw__user_beside(f, t)),
-             t2 = t1 == MW_NONE ? t1 : mw__add_tile(f, mw__user_beside(f, t));
-    if (t2 == MW_NONE) return tile_failure(f, error);
-    const mw_triangle old = f->tiling->tri[t];
-    uint32_t fixed = f->mark[t];
-    set_tile(f, t, old.v[0], old.v[1], v, fixed & 1);
-    set_tile(f, t1, old.v[1], old.v[2], v, fixed >> 1 & 1);
-    set_tile(f, t2, old.v[2], old.v[0], v, fixed >> 2 & 1);
-    mw__attach(f, mw__link(t1, 0), old.link[1]);
-    mw__attach(f, mw__link(t2, 0), old.link[2]);
-    mw__attach(f, mw__link(t, 1), mw__link(t1, 2));
-    mw__attach(f, mw__link(t1, 1), mw__link(t2, 2));
-    mw__attach(f, mw__link(t2, 1), mw__link(t, 2));
+    uint32_t before = MW_NONE;
+    for (size_t i = 0; i < h->steps; i++) {
+        uint32_t t = i < h->tiles ? f->pool[h->pool + i] : mw__add_tile(f, mw__user_beside(f, beside));
+        if (t == MW_NONE) return tile_failure(f, error);
+        const mw_rim_step *step = &f->rim[h->first + i];
+        mw__set_corners(f, t, step->vertex, step[1].vertex, v);
+        mw__set_fixed(f, t, step->fixed);
+        mw__attach(f, mw__link(t, 0), step->beyond);
+        if (i > 0)
+            mw__attach(f, mw__link(before, 1), mw__link(t, 2));
+        else
+            made->first = t;
+        before = t;
+    }
+    made->last = before;
+    mw__attach(f, mw__link(made->first, 2), MW_NONE);
+    mw__attach(f, mw__link(made->last, 1), MW_NONE);
     return MW_OK;
 }
 
-/* The tile with edge a, b and apex c becomes c, a, v, and a new one b, c, v, which is set to *more. */
-static mw_status halve(mw_fabric *f, uint32_t half, uint32_t v, uint32_t *more, mw_error *error)
+static mw_status put_in_tile(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
 {
-    uint32_t t = mw__link_triangle(half), k = mw__link_edge(half);
-    if (!mw__journal(f, t)) return mw__fail_memory(error);
-    *more = mw__add_tile(f, mw__user_beside(f, t));
-    if (*more == MW_NONE) return tile_failure(f, error);
-    const mw_triangle old = f->tiling->tri[t];
-    uint32_t marks = f->mark[t], fixed = marks >> k & 1, next = mw__next(k), prev = mw__prev(k);
-    set_tile(f, t, old.v[prev], old.v[k], v, (marks >> prev & 1) | fixed << 1);
-    set_tile(f, *more, old.v[next], old.v[prev], v, (marks >> next & 1) | fixed << 2);
-    mw__attach(f, mw__link(t, 0), old.link[prev]);
-    mw__attach(f, mw__link(*more, 0), old.link[next]);
-    mw__attach(f, mw__link(t, 2), mw__link(*more, 1));
-    return MW_OK;
+    if (!mw__is_users(f, t)) return refuse_outside(q, error);
+    hole h = {.q = q};
+    fan made;
+    if (!take(f, &h, t)) return mw__fail_memory(error);
+    for (uint32_t k = 3; k-- > 0;) look_over(f, &h, t, k);
+    if (!dig(f, &h, sight_of(f, f->tiling->tri[t].v[0], q))) return mw__fail_memory(error);
+    mw_status status = fill(f, &h, v, t, &made, error);
+    if (!status) mw__attach(f, mw__link(made.last, 1), mw__link(made.first, 2));
+    return status;
 }
+
+/* --- on an edge ------------------------------------------------------------------------------------------------------- */
 
 /* Of the two sides of an edge, that of the lower number: which one the walk came to must not show. */
 static uint32_t lower_side(const mw_fabric *f, uint32_t half)
@@ -86,29 +164,40 @@ static uint32_t lower_side(const mw_fabric *f, uint32_t half)
     return one <= two ? half : other;
 }
 
-/* *first: the first tile round v, counter-clockwise. */
-static mw_status split_edge(mw_fabric *f, uint32_t half, uint32_t v, uint32_t *first, mw_error *error)
+/* Fill the hole on the side of an edge where `half` is, and after it that of h->first and h->pool. */
+static mw_status put_beside(mw_fabric *f, uint32_t half, hole *h, uint32_t v, fan *made, mw_error *error)
+{
+    uint32_t t = mw__link_triangle(half), k = mw__link_edge(half);
+    bool fixed = mw__is_fixed(f, half);
+    if (!take(f, h, t)) return mw__fail_memory(error);
+    look_over(f, h, t, mw__prev(k));
+    look_over(f, h, t, mw__next(k));
+    if (!dig(f, h, sight_of(f, f->tiling->tri[t].v[k + 1], h->q))) return mw__fail_memory(error);
+    mw_status status = fill(f, h, v, t, made, error);
+    if (status || !fixed) return status;
+    f->mark[made->first] |= 4;
+    f->mark[made->last] |= 2;
+    return MW_OK;
+}
+
+static mw_status put_on_edge(mw_fabric *f, uint32_t half, mw_point q, uint32_t v, mw_error *error)
 {
     half = lower_side(f, half);
-    uint32_t other = mw__beyond(f, half), t = mw__link_triangle(half), t1, n1;
+    uint32_t other = mw__beyond(f, half), t = mw__link_triangle(half);
     bool users = mw__is_users(f, t),
          border = other == MW_NONE ? !f->convex && users : users != mw__is_users(f, mw__link_triangle(other));
-    if (!users && !border) return refuse_outside(f->tiling->point[v], error);
+    if (!users && !border) return refuse_outside(q, error);
     if (mw__is_fixed(f, half) && !border) f->fixed_count++;
-    mw_status status = halve(f, half, v, &t1, error);
+    hole one = {.q = q}, two = one;
+    fan left, right;
+    mw_status status = put_beside(f, half, &one, v, &left, error);
+    if (status || other == MW_NONE) return status;
+    two.first = one.steps + 1;
+    two.pool = one.tiles;
+    status = put_beside(f, other, &two, v, &right, error);
     if (status) return status;
-    if (other == MW_NONE) {
-        mw__attach(f, mw__link(t, 1), MW_NONE);
-        mw__attach(f, mw__link(t1, 2), MW_NONE);
-        *first = t1;
-        return MW_OK;
-    }
-    uint32_t n = mw__link_triangle(other);
-    status = halve(f, other, v, &n1, error);
-    if (status) return status;
-    *first = t;
-    mw__attach(f, mw__link(t, 1), mw__link(n1, 2));
-    mw__attach(f, mw__link(t1, 2), mw__link(n, 1));
+    mw__attach(f, mw__link(left.last, 1), mw__link(right.first, 2));
+    mw__attach(f, mw__link(right.last, 1), mw__link(left.first, 2));
     return MW_OK;
 }
 
@@ -135,93 +224,35 @@ static uint32_t hull_before(const mw_fabric *f, uint32_t half)
     return at;
 }
 
-/* A tile for each hull edge that q sees; `half` is one of them. *last: the last one made, which is the first round v. */
-static mw_status grow_hull(mw_fabric *f, uint32_t half, mw_point q, uint32_t v, uint32_t *last, mw_error *error)
-{
-    for (uint32_t before = hull_before(f, half); sees(f, q, before); before = hull_before(f, half)) half = before;
-    *last = MW_NONE;
-    do {
-        uint32_t next = hull_after(f, half), at = mw__link_triangle(half);
-        if (!mw__journal(f, at)) return mw__fail_memory(error);
-        uint32_t t = mw__add_tile(f, mw__user_beside(f, at));
-        if (t == MW_NONE) return tile_failure(f, error);
-        const mw_triangle *tile = &f->tiling->tri[at];
-        uint32_t k = mw__link_edge(half);
-        set_tile(f, t, tile->v[k + 1], tile->v[k], v, mw__is_fixed(f, half));
-        mw__attach(f, mw__link(t, 0), half);
-        if (*last != MW_NONE) mw__attach(f, mw__link(t, 1), mw__link(*last, 2));
-        *last = t;
-        half = next;
-    } while (sees(f, q, half));
-    return MW_OK;
-}
-
-/* --- the insertion ---------------------------------------------------------------------------------------------------- */
-
-/* A vertex as seen from the new one: its position relative to it, and the square of its distance. */
-typedef struct sight {
-    double x, y, lift;
-    uint32_t vertex;
-} sight;
-
-static MW_INLINE sight sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
-{
-    double x = f->tiling->point[vertex].x - q.x, y = f->tiling->point[vertex].y - q.y;
-    return (sight){x, y, x * x + y * y, vertex};
-}
-
-/* Is q in the circle of a, b, c? mw__incircle, with what is the same from one test to the next kept, and a bound by the lifts alone:
- * triangulate/delaunay_grow.c tells why it is one. */
-static MW_INLINE bool in_circle(const mw_fabric *f, const sight *a, const sight *b, const sight *c, mw_point q)
-{
-    double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
-                 c->lift * (a->x * b->y - a->y * b->x);
-    double bound = 11.0 * 0x1p-53 * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + MW_UNDERFLOW_ERROR;
-    bool small = a->lift + b->lift + c->lift < MW_INCIRCLE_LIFTS;
-    if (MW_LIKELY(small && fabs(det) > bound)) return det > 0;
-    const mw_point *p = f->tiling->point;
-    return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
-}
-
-/* Go round q once, from tile `first`, which has no tile of q before it if q is on the hull. Where the tile beyond an edge has q in its circle
- * the edge is flipped, and the one before it is next; else the one after it. */
-static bool flip_round(mw_fabric *f, uint32_t first, mw_point q)
-{
-    const mw_triangle *tile = &f->tiling->tri[first];
-    sight a = sight_of(f, tile->v[0], q), b = sight_of(f, tile->v[1], q);
-    for (uint32_t t = first;;) {
-        uint32_t beyond = f->tiling->tri[t].link[0];
-        if (beyond != MW_NONE && !(f->mark[t] & 1)) {
-            sight d = sight_of(f, mw__apex(f, beyond), q);
-            if (in_circle(f, &b, &a, &d, q)) {
-                if (!mw__exchange(f, mw__link(t, 0))) return false;
-                f->flips++;
-                b = d;
-                continue;
-            }
-        }
-        uint32_t next = f->tiling->tri[t].link[1];
-        if (next == MW_NONE || mw__link_triangle(next) == first) return true;
-        t = mw__link_triangle(next);
-        a = b;
-        b = sight_of(f, f->tiling->tri[t].v[1], q);
-    }
-}
-
-static mw_status put_outside(mw_fabric *f, uint32_t *t, mw_point q, uint32_t v, mw_error *error)
+/* The hull edges that q sees are steps of a hole without tiles. */
+static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
 {
     if (!f->convex) return refuse_outside(q, error);
-    uint32_t half = mw__link(*t, 0);
+    uint32_t half = mw__link(t, 0);
     while (mw__beyond(f, half) != MW_NONE || !sees(f, q, half)) half = mw__half_next(half);
-    return grow_hull(f, half, q, v, t, error);
+    for (uint32_t before = hull_before(f, half); sees(f, q, before); before = hull_before(f, half)) half = before;
+    hole h = {.q = q};
+    fan made;
+    mw_sight begin;
+    do {
+        uint32_t at = mw__link_triangle(half), k = mw__link_edge(half);
+        if (!mw__journal(f, at) || !mw__rim_room(f, h.ahead + 4)) return mw__fail_memory(error);
+        look_ahead(f, &h, sight_of(f, f->tiling->tri[at].v[k], q), half, mw__is_fixed(f, half));
+        begin = sight_of(f, f->tiling->tri[at].v[k + 1], q);
+        half = hull_after(f, half);
+    } while (sees(f, q, half));
+    if (!dig(f, &h, begin)) return mw__fail_memory(error);
+    return fill(f, &h, v, t, &made, error);
 }
 
-/* Put v, whose place is q, into tile *t, where the walk found it; side[k] is 0 where q lies on edge k. *t becomes the first tile round v. */
-static mw_status put_inside(mw_fabric *f, uint32_t *t, const double side[3], mw_point q, uint32_t v, mw_error *error)
+/* --- both ------------------------------------------------------------------------------------------------------------- */
+
+/* Put v, whose place is q, into tile t, where the walk found it; side[k] is 0 where q lies on edge k. */
+static mw_status put_inside(mw_fabric *f, uint32_t t, const double side[3], mw_point q, uint32_t v, mw_error *error)
 {
     for (uint32_t k = 0; k < 3; k++)
-        if (side[k] == 0) return split_edge(f, mw__link(*t, k), v, t, error);
-    return mw__is_users(f, *t) ? split_tile(f, *t, v, error) : refuse_outside(q, error);
+        if (side[k] == 0) return put_on_edge(f, mw__link(t, k), q, v, error);
+    return put_in_tile(f, t, q, v, error);
 }
 
 /* The sides of q on the edges of tile t; the corner where q lies, 3 if it is at none. */
@@ -251,7 +282,5 @@ mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vert
         if (!mw__add_vertex(f, q, vertex)) return mw__fail_memory(error);
         f->step[f->step_count - 1].vertex = *vertex;
     }
-    mw_status status = inside ? put_inside(f, &t, side, q, *vertex, error) : put_outside(f, &t, q, *vertex, error);
-    if (!status && f->delaunay && !flip_round(f, t, q)) status = mw__fail_memory(error);
-    return status;
+    return inside ? put_inside(f, t, side, q, *vertex, error) : put_outside(f, t, q, *vertex, error);
 }

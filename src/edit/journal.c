@@ -31,103 +31,16 @@ bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit)
     return true;
 }
 
-/* --- the lowest triangle of each vertex ------------------------------------------------------------------------------- */
-
-static bool is_users(const mw_triangle *tile)
-{
-    return tile->v[0] != MW_NONE && !(tile->user & MW_GHOST);
-}
-
-/* The tile that has a number now; NULL if none has. */
-static const mw_triangle *tile_now(const mw_tiling *tiling, uint32_t number)
-{
-    if (number >= tiling->number_count || tiling->tile_of[number] & MW_GONE) return NULL;
-    return &tiling->tri[tiling->tile_of[number]];
-}
-
-static const mw_triangle *tile_at(const mw_tiling *tiling, uint32_t place)
-{
-    return place < tiling->tri_count ? &tiling->tri[place] : NULL;
-}
-
-static bool has_corner(const mw_triangle *tile, uint32_t v)
-{
-    return tile && (tile->v[0] == v || tile->v[1] == v || tile->v[2] == v);
-}
-
-/* Vertices whose lowest triangle has gone, or has them no longer: onto the stack. */
-static void find_bereft(mw_fabric *f, const mw_before *first, size_t count)
-{
-    uint32_t *owner = f->tiling->owner;
-    for (size_t i = 0; i < count; i++) {
-        if (!is_users(&first[i].tile)) continue;
-        uint32_t number = first[i].tile.user & MW_USER_MASK;
-        for (int k = 0; k < 3; k++) {
-            uint32_t v = first[i].tile.v[k];
-            if (owner[v] != number || has_corner(tile_now(f->tiling, number), v)) continue;
-            owner[v] = MW_NONE;
-            f->stack[f->stack_count++] = v;
-        }
-    }
-}
-
-static void offer(uint32_t *owner, const mw_triangle *tile)
-{
-    uint32_t number = tile->user & MW_USER_MASK;
-    for (int k = 0; k < 3; k++)
-        if (number < owner[tile->v[k]]) owner[tile->v[k]] = number;
-}
-
-/* The lowest of all triangles round v, one of which is known. */
-static uint32_t lowest_round(const mw_tiling *tiling, uint32_t v)
-{
-    uint32_t first = tiling->tile_of[tiling->owner[v]], t = first, best = MW_NONE;
-    for (int clockwise = 0; clockwise < 2; clockwise++) {
-        uint32_t link;
-        do {
-            const mw_triangle *tile = &tiling->tri[t];
-            uint32_t k = mw__corner_of(tile, v);
-            if (!(tile->user & MW_GHOST) && (tile->user & MW_USER_MASK) < best) best = tile->user & MW_USER_MASK;
-            link = tile->link[clockwise ? k : mw__prev(k)];
-            t = mw__link_triangle(link);
-        } while (link != MW_NONE && t != first);
-        if (link != MW_NONE) break;
-        t = first;
-    }
-    return best;
-}
-
-/* Each vertex of a changed triangle is also one of a triangle that is there now, or has gone. Numbers that were given to other corners
- * are the rule's only danger: what is new has higher ones. Needs room for three numbers for each entry. */
-static void find_owners(mw_fabric *f, const mw_before *first, size_t count)
-{
-    mw_tiling *tiling = f->tiling;
-    f->stack_count = 0;
-    find_bereft(f, first, count);
-    for (size_t i = 0; i < count; i++) {
-        const mw_triangle *now = tile_at(tiling, first[i].place);
-        if (now && is_users(now)) offer(tiling->owner, now);
-    }
-    while (f->stack_count > 0) {
-        uint32_t v = f->stack[--f->stack_count];
-        if (tiling->owner[v] != MW_NONE) tiling->owner[v] = lowest_round(tiling, v);
-    }
-}
-
 static void clear_marks(mw_fabric *f, const mw_before *first, size_t count)
 {
     for (size_t i = 0; i < count; i++) f->mark[first[i].place] &= (uint8_t)MW_FIXED_EDGES;
 }
 
-bool mw__fabric_commit(mw_fabric *f)
+void mw__fabric_commit(mw_fabric *f)
 {
     const mw_before *first;
     size_t count = mw__fabric_journal(f, &first);
-    f->stack_count = 0;
-    if (!mw__stack_room(f, 3 * count)) return false;
-    find_owners(f, first, count);
     clear_marks(f, first, count);
-    return true;
 }
 
 /* --- taking back ------------------------------------------------------------------------------------------------------ */
@@ -152,7 +65,10 @@ static void exchange_tiles(mw_fabric *f, const mw_step *step)
     for (size_t i = step->journal; i < f->before_count; i++) {
         uint32_t t = f->before[i].place;
         if (t >= tiling->tri_count) continue;
-        for (uint32_t k = 0; k < 3; k++) mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
+        for (uint32_t k = 0; k < 3; k++) {
+            mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
+            tiling->tile_at[tiling->tri[t].v[k]] = t;
+        }
         if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
     }
 }
@@ -162,6 +78,7 @@ static void restore_vertices(mw_fabric *f, const mw_step *step)
     mw_tiling *tiling = f->tiling;
     if (f->vertex_count > step->vertices) { /* one was made */
         uint32_t v = f->vertex_place[--f->vertex_count];
+        tiling->tile_at[v] = MW_NONE;
         if (f->free_count < step->free_places) f->free_place[f->free_count++] = v;
         tiling->point_count = step->points;
     } else if (f->free_count > step->free_places) {
@@ -190,9 +107,6 @@ void mw__fabric_revert(mw_fabric *f)
     const mw_step *step = &f->step[f->step_count - 1];
     exchange_tiles(f, step);
     restore_vertices(f, step);
-    const mw_before *first;
-    size_t count = mw__fabric_journal(f, &first);
-    find_owners(f, first, count); /* the room is that of the commit */
     f->flips = 0;
 }
 
@@ -214,6 +128,23 @@ void mw__fabric_forget(mw_fabric *f, size_t steps)
 }
 
 /* --- what changed ----------------------------------------------------------------------------------------------------- */
+
+static bool is_users(const mw_triangle *tile)
+{
+    return tile->v[0] != MW_NONE && !(tile->user & MW_GHOST);
+}
+
+/* The tile that has a number now; NULL if none has. */
+static const mw_triangle *tile_now(const mw_tiling *tiling, uint32_t number)
+{
+    if (number >= tiling->number_count || tiling->tile_of[number] & MW_GONE) return NULL;
+    return &tiling->tri[tiling->tile_of[number]];
+}
+
+static const mw_triangle *tile_at(const mw_tiling *tiling, uint32_t place)
+{
+    return place < tiling->tri_count ? &tiling->tri[place] : NULL;
+}
 
 void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3])
 {

@@ -51,9 +51,7 @@ static mw_status weave(mw_live_layers *live, uint32_t i, mw_error *error)
         .point = tiling->point, .tri = tiling->tri, .point_count = tiling->point_count, .tri_count = tiling->tri_count};
     free(tiling->area);
     tiling->area = NULL;
-    tiling->owner = mw__tile_of_vertices(tiling); /* a tile's number is its place, as yet */
-    mw_status status =
-        tiling->owner ? mw__fabric_create(&live->fabric[i], tiling, &numbers, error) : mw__fail_memory(error);
+    mw_status status = mw__fabric_create(&live->fabric[i], tiling, &numbers, error);
     live->fabric[i].delaunay = true;
     return status;
 }
@@ -159,10 +157,11 @@ static bool edit(mw_live_layers *live, uint32_t i, following what, uint32_t *v, 
     mw_status status = what == INSERT   ? mw__fabric_insert(f, p, tile, v, NULL)
                        : what == REMOVE ? mw__fabric_remove(f, *v, NULL)
                                         : mw__fabric_move(f, *v, p, MW_NONE, NULL);
-    if (status || !mw__fabric_commit(f)) {
+    if (status) {
         mw__fabric_rollback(f);
         return false;
     }
+    mw__fabric_commit(f);
     mw__fabric_forget(f, 0);
     live->layers->layer[i].vacant = f->free_count;
     return true;

@@ -30,8 +30,14 @@ static uint32_t number_beside(const mw_fabric *f, size_t steps)
 /* The tiles round a star are still Delaunay without its vertex: only the edges within are looked at. */
 static mw_status close_ring(mw_fabric *f, const mw_star *star, mw_point q, mw_error *error)
 {
+    enum {
+        FEW = 16
+    }; /* to look for each tile's circle takes time with the square of the steps, flips do not as a rule */
     mw_pool pool = {.tile = f->pool, .count = star->n};
-    if (!mw__pool_begin(f, &pool) || !mw__cut_ring(f, f->rim, star->n, q, &pool) || !mw__legalise_within(f))
+    if (!mw__pool_begin(f, &pool)) return mw__fail_memory(error);
+    if (f->delaunay && star->n <= FEW)
+        mw__fill_ring(f, f->rim, star->n, &pool);
+    else if (!mw__cut_ring(f, f->rim, star->n, q, &pool) || !mw__legalise_within(f))
         return mw__fail_memory(error);
     mw__pool_end(f, &pool, MW_NONE);
     return mw__drop_tiles(f, pool.tile + pool.used, pool.count - pool.used) ? MW_OK : mw__fail_memory(error);
@@ -45,9 +51,12 @@ static mw_status shrink_hull(mw_fabric *f, const mw_star *star, mw_error *error)
     if (!mw__pool_begin(f, &pool) || !mw__cut_chain(f, f->rim, &left, &pool)) return mw__fail_memory(error);
     if (f->tiling->tri_count == pool.count - pool.used)
         return mw__fail_at(error, -1, number, "without vertex %" PRIu32 " no triangle would be left", number);
+    uint32_t *tile_at = f->tiling->tile_at;
+    for (size_t i = 0; i <= left; i++) tile_at[f->rim[i].vertex] = MW_NONE;
     for (size_t i = 0; i < left; i++) {
         uint32_t beyond = f->rim[i].beyond;
         if (beyond == MW_NONE) continue;
+        tile_at[f->rim[i].vertex] = tile_at[f->rim[i + 1].vertex] = mw__link_triangle(beyond);
         if (!mw__journal(f, mw__link_triangle(beyond))) return mw__fail_memory(error); /* all that its ends have left */
         mw__attach(f, beyond, MW_NONE);
         if (pool.used == 0) f->last = mw__link_triangle(beyond);

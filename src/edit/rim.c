@@ -14,8 +14,16 @@ bool mw__rim_room(mw_fabric *f, size_t steps)
     uint32_t *pool = mw__realloc(f->pool, room, sizeof *pool);
     if (!pool) return false;
     f->pool = pool;
+    mw_step_ahead *ahead = mw__realloc(f->ahead, room, sizeof *ahead);
+    if (!ahead) return false;
+    f->ahead = ahead;
     f->rim_room = room;
     return true;
+}
+
+size_t mw__rim_bytes(const mw_fabric *f)
+{
+    return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead);
 }
 
 /* --- the star of a vertex --------------------------------------------------------------------------------------------- */
@@ -38,35 +46,65 @@ uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t first, bool *ope
     }
 }
 
-/* Steps round v from its edge `first` on, until they close or end at the hull. */
-static bool collect_from(mw_fabric *f, uint32_t first, mw_star *star)
+/* The edges round v from `first` on, until they close or end at the hull, as f->pool, which has room for twice as many. *lowest: which of them is one of the lowest of its
+ * triangles. */
+static bool go_round(mw_fabric *f, uint32_t first, mw_star *star, size_t *lowest)
 {
-    uint32_t at = first, link;
+    const mw_tiling *tiling = f->tiling;
+    uint32_t at = first, best = MW_NONE;
     *star = (mw_star){0};
     do {
-        if (!mw__rim_room(f, star->n + 2)) return false;
-        uint32_t across = mw__half_next(at), last = mw__half_prev(at);
-        if (mw__is_fixed(f, at) && star->spokes++ < 2) star->spoke[star->spokes - 1] = star->n;
-        f->rim[star->n] = (mw_rim_step){.vertex = mw__corner(f, across),
-                                        .beyond = mw__beyond(f, across),
-                                        .half = across,
-                                        .fixed = mw__is_fixed(f, across)};
-        f->pool[star->n++] = mw__link_triangle(at);
-        f->rim[star->n].vertex = mw__corner(f, last);
-        link = mw__beyond(f, last);
-        star->open = link == MW_NONE;
-        if (star->open && mw__is_fixed(f, last) && star->spokes++ < 2) star->spoke[star->spokes - 1] = star->n;
-        at = link; /* which begins at v */
-    } while (link != MW_NONE && link != first);
+        if (MW_UNLIKELY(2 * star->n + 2 > f->rim_room) && !mw__rim_room(f, 2 * star->n + 2)) return false;
+        const mw_triangle *tile = &tiling->tri[mw__link_triangle(at)];
+        uint32_t number = tile->user & ~MW_FLIPPED;
+        if (number < best) {
+            best = number;
+            *lowest = star->n;
+        }
+        f->pool[star->n++] = at;
+        at = tile->link[mw__prev(mw__link_edge(at))]; /* which begins at v */
+    } while (at != MW_NONE && at != first);
+    star->open = at == MW_NONE;
     return true;
+}
+
+static void note_spoke(mw_star *star, size_t at)
+{
+    if (star->spokes++ < 2) star->spoke[star->spokes - 1] = at;
+}
+
+/* The steps across from v, one for each edge round it, of which `first` is the first. f->pool holds the tiles then. */
+static void set_steps(mw_fabric *f, mw_star *star, size_t first)
+{
+    const mw_tiling *tiling = f->tiling;
+    uint32_t *edge = f->pool + star->n;
+    memcpy(edge, f->pool, star->n * sizeof *edge);
+    for (size_t i = 0; i < star->n; i++) {
+        uint32_t at = edge[first + i < star->n ? first + i : first + i - star->n], t = mw__link_triangle(at),
+                 k = mw__link_edge(at), next = mw__next(k);
+        const mw_triangle *tile = &tiling->tri[t];
+        uint32_t marks = f->mark[t];
+        if (marks >> k & 1) note_spoke(star, i);
+        f->rim[i] = (mw_rim_step){
+            .vertex = tile->v[next], .beyond = tile->link[next], .half = mw__link(t, next), .fixed = marks >> next & 1};
+        f->pool[i] = t;
+        f->rim[i + 1].vertex = tile->v[mw__prev(k)];
+        if (star->open && i + 1 == star->n && marks >> mw__prev(k) & 1) note_spoke(star, star->n);
+    }
 }
 
 bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
 {
-    uint32_t tile = mw__fabric_tile(f, v);
+    uint32_t tile = f->tiling->tile_at[v];
+    size_t first;
     bool open;
-    if (!collect_from(f, mw__link(tile, mw__corner_of(&f->tiling->tri[tile], v)), star)) return false;
-    return !star->open || collect_from(f, mw__star_first(f, v, &open), star);
+    if (!go_round(f, mw__link(tile, mw__corner_of(&f->tiling->tri[tile], v)), star, &first)) return false;
+    if (star->open) {
+        if (!go_round(f, mw__star_from(f, v, tile, &open), star, &first)) return false;
+        first = 0;
+    }
+    set_steps(f, star, first);
+    return true;
 }
 
 /* --- tiles from the pool ---------------------------------------------------------------------------------------------- */
@@ -145,6 +183,50 @@ bool mw__cut_chain(mw_fabric *f, mw_rim_step *step, size_t *n, mw_pool *pool)
     step[top].vertex = step[*n].vertex;
     *n = top;
     return true;
+}
+
+/* The tile beside the way from the end of the last step back to the first one's beginning, and what is left beyond its other two edges: its
+ * third corner is the vertex whose circle with these two holds no other of the steps' vertices. The removed vertex lies in or on that circle, so
+ * that they come round it in the order in which they come here, and no step crosses the tile. Returns its edge 0. */
+static uint32_t fill_part(mw_fabric *f, const mw_rim_step *step, size_t n, mw_pool *pool)
+{
+    const mw_point *p = f->tiling->point;
+    uint32_t from = step[n].vertex, to = step[0].vertex;
+    size_t best = 1;
+    if (n > 2) {
+        mw_point a = p[from], b = p[to];
+        while (!(mw__orient2d(a, b, p[step[best].vertex]) > 0)) best++;
+        for (size_t i = best + 1; i < n; i++) {
+            mw_point q = p[step[i].vertex];
+            if (mw__incircle(a, b, p[step[best].vertex], q) > 0 && mw__orient2d(a, b, q) > 0) best = i;
+        }
+    }
+    uint32_t t = pool->tile[pool->used++], fixed = 0, one, two;
+    mw__set_corners(f, t, from, to, step[best].vertex);
+    if (best == 1) {
+        one = step[0].beyond;
+        fixed |= (uint32_t)step[0].fixed << 1;
+    } else {
+        one = fill_part(f, step, best, pool);
+    }
+    if (best == n - 1) {
+        two = step[best].beyond;
+        fixed |= (uint32_t)step[best].fixed << 2;
+    } else {
+        two = fill_part(f, step + best, n - best, pool);
+    }
+    mw__set_fixed(f, t, fixed);
+    mw__attach(f, mw__link(t, 1), one);
+    mw__attach(f, mw__link(t, 2), two);
+    return mw__link(t, 0);
+}
+
+void mw__fill_ring(mw_fabric *f, const mw_rim_step *step, size_t n, mw_pool *pool)
+{
+    uint32_t last = fill_part(f, step, n - 1, pool), t = mw__link_triangle(last);
+    mw__attach(f, last, step[n - 1].beyond);
+    if (step[n - 1].fixed) f->mark[t] |= 1;
+    f->last = t;
 }
 
 /* Does the corner between steps a and b turn left, with q not in the tile that cuts it off? */

@@ -15,6 +15,19 @@ struct mw_rim_step {
     bool slit; /* `beyond` is replaced too: the step comes twice, once from each side */
 };
 
+/* A vertex seen from a point: the way there, and its square. */
+typedef struct mw_sight {
+    double x, y, lift;
+    uint32_t vertex;
+} mw_sight;
+
+/* A step of the boundary of a hole that grows, yet to be looked at: where it ends, and as above. */
+struct mw_step_ahead {
+    mw_sight end;
+    uint32_t beyond;
+    bool fixed;
+};
+
 /* Tiles to be replaced, all of the user's or all ghosts beside one another. */
 typedef struct mw_pool {
     uint32_t *tile;
@@ -33,13 +46,16 @@ bool mw__pool_begin(mw_fabric *f, mw_pool *pool);
  * mw__legalise; false when out of memory. */
 bool mw__cut_chain(mw_fabric *f, mw_rim_step *step, size_t *n, mw_pool *pool);
 
+/* Fill the closed ring of n steps, the star of a vertex without fixed edges in a mesh kept Delaunay, with tiles that are Delaunay. */
+void mw__fill_ring(mw_fabric *f, const mw_rim_step *step, size_t n, mw_pool *pool);
+
 /* Cut the star of a vertex at q, inside the closed ring of n steps, into tiles. */
 bool mw__cut_ring(mw_fabric *f, mw_rim_step *step, size_t n, mw_point q, mw_pool *pool);
 
 /* The numbers of tiles not used lead to the lowest that is, or to `heir`, a number; the tiles have to be dropped. */
 void mw__pool_end(mw_fabric *f, mw_pool *pool, uint32_t heir);
 
-/* Steps round vertex v, which is corner `k` of tile t: of all its tiles, or on the hull from the first to the last. step[i].half is the edge
+/* Steps round vertex v: from the lowest of its triangles on, or on the hull from the first tile to the last. step[i].half is the edge
  * across from v in its i-th tile; step[n].vertex the end. *spokes: how many edges at v are fixed, and *spoke the places of the first two in the
  * list. false when out of memory. */
 typedef struct mw_star {
@@ -50,13 +66,14 @@ typedef struct mw_star {
 } mw_star;
 bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star);
 
-/* Room for so many steps in f->rim and tiles in f->pool. */
+/* Room for so many steps in f->rim and f->ahead, and tiles in f->pool. */
 bool mw__rim_room(mw_fabric *f, size_t steps);
+size_t mw__rim_bytes(const mw_fabric *f);
 
-/* The edge that begins at v, as a half-edge of one of its tiles, from which all others follow counter-clockwise; *open: v is on the
- * hull. */
+/* The edge that begins at v, as a half-edge of the lowest of its triangles or, where v is on the hull (*open), of the first, from which all
+ * others follow counter-clockwise. */
 uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open);
-/* The same, given a tile of v: in the middle of an edit, when the lowest of each vertex is not known. */
+/* The same from a tile of v on. */
 uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t tile, bool *open);
 
 #endif

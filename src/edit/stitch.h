@@ -45,10 +45,12 @@ static MW_INLINE void mw__attach(mw_fabric *f, uint32_t half, uint32_t beyond)
 static MW_INLINE void mw__set_corners(mw_fabric *f, uint32_t t, uint32_t a, uint32_t b, uint32_t c)
 {
     mw_triangle *tile = &f->tiling->tri[t];
+    uint32_t *tile_at = f->tiling->tile_at;
     tile->v[0] = tile->v[3] = a;
     tile->v[1] = b;
     tile->v[2] = c;
     tile->user &= ~MW_FLIPPED;
+    tile_at[a] = tile_at[b] = tile_at[c] = t;
 }
 
 /* The three edges of a tile: fixed (bit k) or not. */

@@ -208,7 +208,7 @@ static void redirect_names(mw_upkeep *u, const mw_step *step, const mw_before *f
 
 static bool is_there(const mw_fabric *f, uint32_t v)
 {
-    return v < f->tiling->point_count && f->tiling->owner[v] != MW_NONE;
+    return v < f->tiling->point_count && f->tiling->tile_at[v] != MW_NONE;
 }
 
 /* What became of the vertex of an edit: the layers follow it. */

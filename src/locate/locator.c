@@ -68,7 +68,7 @@ static void find_extent(const mw_tiling *tiling, double low[2], double high[2])
     low[0] = low[1] = INFINITY;
     high[0] = high[1] = -INFINITY;
     for (uint32_t v = 0; v < tiling->point_count; v++) {
-        if (tiling->owner[v] == MW_NONE) continue;
+        if (!mw__is_used(tiling, v)) continue;
         const double p[2] = {tiling->point[v].x, tiling->point[v].y};
         for (int k = 0; k < 2; k++) {
             if (p[k] < low[k]) low[k] = p[k];

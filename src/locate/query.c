@@ -20,7 +20,7 @@ static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const d
         } else {
             at = k;
         }
-    if (zeros == 2) return tiling->owner[tile->v[at]];
+    if (zeros == 2) return mw__lowest_at(tiling, (uint32_t)(tile - tiling->tri), tile->v[at]);
     if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is no embedding */
     uint32_t best = tile->user & MW_GHOST ? MW_NONE : tile->user & MW_USER_MASK;
     if (tile->link[on] == MW_NONE) return best;

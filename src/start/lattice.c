@@ -77,7 +77,7 @@ static void find_extent(const mw_tiling *tiling, const double middle[2], const d
     low[0] = low[1] = INFINITY;
     high[0] = high[1] = -INFINITY;
     for (uint32_t v = 0; v < tiling->point_count; v++) {
-        if (tiling->owner[v] == MW_NONE) continue;
+        if (!mw__is_used(tiling, v)) continue;
         double x = tiling->point[v].x - middle[0], y = tiling->point[v].y - middle[1];
         for (int k = 0; k < 2; k++) {
             double at = x * axis[k][0] + y * axis[k][1];

@@ -190,7 +190,6 @@ size_t mw__layers_bytes(const mw_layers *layers)
     for (uint32_t i = 0; i + 1 < layers->count; i++) {
         const mw_tiling *t = &layers->layer[i].tiling;
         bytes += mw__tiling_bytes(t) + t->point_count * sizeof *layers->layer[i].below;
-        if (!t->owner) bytes -= t->point_count * sizeof *t->owner;
     }
     return bytes;
 }
@@ -245,8 +244,8 @@ static uint32_t most_weight(mw_walk *walk, const mw_layer_walk *how)
 /* The name of a tile to begin at in the layer `beneath`, by what the one above keeps of a vertex. */
 static uint32_t name_below(const mw_layers *layers, const mw_tiling *beneath, uint32_t below)
 {
-    if (!layers->live || below >= beneath->point_count) return below;
-    return beneath->owner[below];
+    if (!layers->live || below >= beneath->point_count || beneath->tile_at[below] == MW_NONE) return below;
+    return mw__tile_name(beneath, beneath->tile_at[below]);
 }
 
 uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,

@@ -5,8 +5,11 @@ uint32_t *mw__tile_of_vertices(const mw_tiling *tiling)
 {
     uint32_t *tile = mw__alloc(tiling->point_count, sizeof *tile);
     if (!tile) return NULL;
-    for (uint32_t v = 0; v < tiling->point_count; v++) tile[v] = tiling->tile_of ? tiling->owner[v] : MW_NONE;
-    if (tiling->tile_of) return tile;
+    for (uint32_t v = 0; v < tiling->point_count; v++) {
+        bool known = tiling->tile_at && tiling->tile_at[v] != MW_NONE;
+        tile[v] = known ? mw__lowest_round(tiling, tiling->tile_at[v], v) : MW_NONE;
+    }
+    if (tiling->tile_at) return tile;
     for (uint32_t t = tiling->tri_count; t-- > 0;)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t v = tiling->tri[t].v[k];
