@@ -343,6 +343,54 @@ static void test_stretched(void **state)
     }
 }
 
+/* Points in a square with its corners, in a disc, on a circle: few edges along the hull, more, as many as points. */
+static mw_mesh *hull_mesh(int kind, uint32_t n, uint64_t *random)
+{
+    double *p = malloc(2 * (size_t)n * sizeof *p);
+    for (uint32_t i = 0; i < n; i++) {
+        double x = i < 4 ? i & 1 : random_unit(random), y = i < 4 ? i >> 1 : random_unit(random);
+        double angle = 6.28 * x, radius = kind == 1 ? sqrt(y) : 1;
+        p[2 * i] = kind == 0 ? x : radius * cos(angle);
+        p[2 * i + 1] = kind == 0 ? y : radius * sin(angle);
+    }
+    mw_mesh *mesh;
+    mw_error error;
+    if (mw_delaunay(p, n, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    free(p);
+    return mesh;
+}
+
+/* What lies outside of the extent is led to an edge of the hull that it lies beyond: by the guide, and by a grid. */
+static void test_outside(void **state)
+{
+    (void)state;
+    enum { N = 20000, QUERIES = 4000 };
+    uint64_t random = 13;
+    static double q[2 * QUERIES];
+    static mw_location at[QUERIES];
+    for (int kind = 0; kind < 3; kind++) {
+        mw_mesh *mesh = hull_mesh(kind, N, &random);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        mw_index *grid = index_of(locator, MW_START_GRID, 0);
+        for (size_t i = 0; i < QUERIES; i++) { /* within sixteen times the extent, beyond one side or two */
+            double out = (i & 1 ? 1 : -1) * (1.01 + 15 * random_unit(&random)), along = 32 * random_unit(&random) - 16;
+            q[2 * i] = i & 2 ? out : along;
+            q[2 * i + 1] = i & 2 ? along : out;
+        }
+        for (int own = 0; own < 2; own++) {
+            if (!own && kind == 2) continue; /* too uneven for the guide to be a grid */
+            mw_query_options options = {.index = own ? grid : NULL, .count = 1};
+            mw_counters counters = answers(locator, &options, q, QUERIES, at);
+            for (size_t k = 0; k < QUERIES; k++) assert_int_equal(at[k].where, MW_OUTSIDE);
+            printf("outside, mesh %d: %.3f triangles a query\n", kind, (double)counters.triangles_visited / QUERIES);
+            assert_true((double)counters.triangles_visited / QUERIES < 1.5);
+        }
+        mw_index_destroy(grid);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+    }
+}
+
 static void test_describe(void **state)
 {
     (void)state;
@@ -364,7 +412,7 @@ static void test_describe(void **state)
         assert_true(info.cells > 10201 / 4 && info.cells <= 3 * 10201);
         assert_true(info.bytes >= 4 * (size_t)info.cells);
         if (start == MW_START_GRID) {
-            assert_int_equal(wanted.cells, 900);
+            assert_int_equal(wanted.cells, 32 * 32); /* 900, and the rim */
             assert_int_equal(one.cells, 1);
             assert_int_equal(info.bytes, sizeof *chosen + 4 * (size_t)info.cells);
         } else {
@@ -485,7 +533,7 @@ int main(void)
         cmocka_unit_test(test_holes),    cmocka_unit_test(test_scales),     cmocka_unit_test(test_lattice),
         cmocka_unit_test(test_fill),     cmocka_unit_test(test_other_mesh), cmocka_unit_test(test_guides_well),
         cmocka_unit_test(test_describe), cmocka_unit_test(test_refuses),    cmocka_unit_test(test_auto),
-        cmocka_unit_test(test_memory),   cmocka_unit_test(test_stretched),
+        cmocka_unit_test(test_memory),   cmocka_unit_test(test_stretched),  cmocka_unit_test(test_outside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,11 @@
  * a query is bounded where most of the extent is empty. To walk to the middle of every cell makes it 2.2 tiles, and
  * building 2.7 times as long.
  *
+ * Beyond the extent is a rim of cells that hold no middle of a tile. The walk to the middle of one ends at an edge of the hull that parts
+ * it from the mesh. To the right of the extent no such edge faces left, so it parts all that lies farther to the right, too; and likewise on the other
+ * sides. So nearly every query outside ends in its first tile. Without the rim it walked there from within, over 7 to 12
+ * tiles that are ever longer: 112 and 147 ns (10^4 and 10^6 uniform points, in batches) instead of 46.
+ *
  * Number of cells: with more of them walks are shorter, but time hardly is, since the grid itself has to come from memory. 10^6
  * uniform points, one thread, ns per query, cells per vertex:
  *     1/8  alone 519, in a batch 82        1/2  alone 453, in a batch 69        1  alone 430, in a batch 63
@@ -44,7 +49,9 @@ static bool fill_gaps(mw_grid *grid, const mw_tiling *tiling, const float *dista
     free(queue);
     for (uint32_t c = 0; c < cells; c++) {
         if (distance[c] < INFINITY) continue;
-        mw_walk walk = mw__walk_begin(tiling, mw__lattice_middle(&grid->lattice, c), grid->tile[c], FUEL, 0, NULL);
+        mw_point middle = mw__lattice_middle(&grid->lattice, c);
+        if (!isfinite(middle.x) || !isfinite(middle.y)) continue;
+        mw_walk walk = mw__walk_begin(tiling, middle, grid->tile[c], FUEL, 0, NULL);
         (void)mw__remembering.run[true][false](&walk);
         grid->tile[c] = walk.t;
     }
@@ -55,12 +62,13 @@ static bool fill_gaps(mw_grid *grid, const mw_tiling *tiling, const float *dista
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
                      uint32_t stride, bool *even)
 {
-    grid->lattice = mw__lattice_of(tiling, low, high, cells ? cells : mw__lattice_choose(tiling));
-    cells = mw__lattice_cells(&grid->lattice);
-    grid->tile = mw__alloc_lines(cells, sizeof *grid->tile);
-    float *distance = mw__alloc_lines(cells, sizeof *distance);
+    if (cells == 0) cells = mw__lattice_choose(tiling);
+    grid->lattice = mw__lattice_of(tiling, low, high, cells);
+    uint32_t count = mw__lattice_cells(&grid->lattice);
+    grid->tile = mw__alloc_lines(count, sizeof *grid->tile);
+    float *distance = mw__alloc_lines(count, sizeof *distance);
     bool done = grid->tile && distance;
-    for (uint32_t c = 0; c < cells && done; c++) {
+    for (uint32_t c = 0; c < count && done; c++) {
         grid->tile[c] = MW_NONE;
         distance[c] = INFINITY;
     }

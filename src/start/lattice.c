@@ -87,7 +87,7 @@ static void find_extent(const mw_tiling *tiling, const double middle[2], const d
     }
 }
 
-mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
+static mw_lattice shape(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
 {
     static const double common = 4, most = 0x1p20; /* tiles that are less long than the first are common */
     mw_lattice lattice = mw__lattice(low, high, cells);
@@ -109,6 +109,20 @@ mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const do
         if (!isfinite(scale * axis[k][0]) || !isfinite(scale * axis[k][1])) return lattice;
     }
     return slanted;
+}
+
+/* A line of cells beyond each side of the extent, unless there are few. */
+mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
+{
+    enum { FEW = 8 };
+    mw_lattice lattice = shape(tiling, low, high, cells);
+    for (int k = 0; k < 2; k++) {
+        uint32_t *lines = k == 0 ? &lattice.columns : &lattice.rows;
+        if (*lines < FEW) continue;
+        *lines += 2;
+        lattice.half[k]++;
+    }
+    return lattice;
 }
 
 /* --- what cells hold -------------------------------------------------------------------------------------------------- */

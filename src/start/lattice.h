@@ -13,7 +13,8 @@ typedef struct mw_lattice {
 /* At most `cells` (1 to MW_MAX_CELLS) about square ones over the extent low..high, which may be flat. */
 mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells);
 
-/* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so too. */
+/* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so too. Where there are more
+ * than a few, a rim of further cells surrounds the extent, to which all points outside of it belong. */
 mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
 
 /* As many as there may be tiles. */
@@ -38,7 +39,7 @@ static MW_INLINE void mw__lattice_offset(const mw_lattice *lattice, mw_point p, 
     offset[1] = x * lattice->along[1][0] + y * lattice->along[1][1];
 }
 
-/* The cell of p, row by row. Points outside the extent belong to the cells at its rim. */
+/* The cell of p, row by row. Points beyond the outermost cells belong to these. */
 static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p)
 {
     double at[2];
@@ -47,7 +48,7 @@ static MW_INLINE uint32_t mw__lattice_cell(const mw_lattice *lattice, mw_point p
            mw__lattice_line(at[0] + lattice->half[0], lattice->columns);
 }
 
-/* Does p lie in a cell, and not beyond the rim? */
+/* Does p lie in a cell, and not beyond the outermost ones? */
 static MW_INLINE bool mw__lattice_covers(const mw_lattice *lattice, mw_point p)
 {
     double at[2];
