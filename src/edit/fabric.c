@@ -219,7 +219,10 @@ bool mw__journal_room(mw_fabric *f)
 bool mw__journal_more(mw_fabric *f, uint32_t t)
 {
     if (MW_UNLIKELY(f->before_count == f->before_room) && !mw__journal_room(f)) return false;
-    f->before[f->before_count++] = (mw_before){t, f->mark[t] & MW_FIXED_EDGES, f->tiling->tri[t]};
+    mw_before *before = &f->before[f->before_count++];
+    before->place = t;
+    before->mark = f->mark[t] & MW_FIXED_EDGES;
+    before->tile = f->tiling->tri[t];
     f->mark[t] |= MW_JOURNALED;
     return true;
 }

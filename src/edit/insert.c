@@ -31,8 +31,9 @@ static mw_status refuse_outside(mw_point q, mw_error *error)
 /* Part of the boundary of a hole round q, from step `first` on, counter-clockwise; its tiles are those of f->pool from `pool` on. */
 typedef struct hole {
     mw_point q;
-    size_t first, pool; /* in f->rim, in f->pool */
+    size_t first, pool; /* in f->rim, in f->pool                          */
     size_t steps, tiles, ahead;
+    size_t most; /* tiles that there is room for, with the steps they bring */
 } hole;
 
 static MW_INLINE mw_sight sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
@@ -42,37 +43,37 @@ static MW_INLINE mw_sight sight_of(const mw_fabric *f, uint32_t vertex, mw_point
 }
 
 /* Is q in the circle of a, b, c? mw__incircle, with what is the same from one test to the next kept, and a bound by the lifts alone:
- * triangulate/delaunay_grow.c tells why it is one. */
+ * triangulate/delaunay_grow.c tells why 11 u (ab + bc + ca) is one, and of three numbers that is at most a third of their sum squared. */
 static MW_INLINE bool in_circle(const mw_fabric *f, const mw_sight *a, const mw_sight *b, const mw_sight *c, mw_point q)
 {
     double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
                  c->lift * (a->x * b->y - a->y * b->x);
-    double bound = 11.0 * 0x1p-53 * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + MW_UNDERFLOW_ERROR;
-    bool small = a->lift + b->lift + c->lift < MW_INCIRCLE_LIFTS;
-    if (MW_LIKELY(small && fabs(det) > bound)) return det > 0;
+    double lifts = a->lift + b->lift + c->lift, bound = 4.0 * 0x1p-53 * lifts * lifts + MW_UNDERFLOW_ERROR;
+    if (MW_LIKELY(lifts < MW_INCIRCLE_LIFTS && fabs(det) > bound)) return det > 0;
     const mw_point *p = f->tiling->point;
     return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
 }
 
-/* Take a tile into the hole; there is room for it, and for the steps it brings. */
-static bool take(mw_fabric *f, hole *h, uint32_t t)
+/* Room for more tiles, and the steps they bring: each brings one more. */
+static bool deepen(mw_fabric *f, hole *h)
 {
-    size_t room = h->first + h->steps + h->ahead + h->pool + h->tiles + 4;
-    if (MW_UNLIKELY(room > f->rim_room) && !mw__rim_room(f, room)) return false;
+    size_t used = h->first + h->pool + h->steps + h->ahead + 4;
+    if (!mw__rim_room(f, used + 2 * h->tiles + 8)) return false;
+    h->most = f->rim_room - used;
+    return true;
+}
+
+/* Take a tile into the hole. */
+static MW_INLINE bool take(mw_fabric *f, hole *h, uint32_t t)
+{
+    if (MW_UNLIKELY(h->tiles >= h->most) && !deepen(f, h)) return false;
     f->pool[h->pool + h->tiles++] = t;
     return mw__journal(f, t);
 }
 
-static MW_INLINE void look_ahead(mw_fabric *f, hole *h, mw_sight end, uint32_t beyond, bool fixed)
+static MW_INLINE void look_ahead(mw_fabric *f, hole *h, const mw_sight *end, uint32_t beyond, bool fixed)
 {
-    f->ahead[h->ahead++] = (mw_step_ahead){end, beyond, fixed};
-}
-
-/* The same for edge k of a tile that was taken. */
-static MW_INLINE void look_over(mw_fabric *f, hole *h, uint32_t t, uint32_t k)
-{
-    const mw_triangle *tile = &f->tiling->tri[t];
-    look_ahead(f, h, sight_of(f, tile->v[k + 1], h->q), tile->link[k], f->mark[t] >> k & 1);
+    f->ahead[h->ahead++] = (mw_step_ahead){*end, beyond, fixed};
 }
 
 /* Go along the steps ahead, the last one first, which begins at vertex a: where the tile beyond has q in its circle, its two other edges are
@@ -80,24 +81,32 @@ static MW_INLINE void look_over(mw_fabric *f, hole *h, uint32_t t, uint32_t k)
 static bool dig(mw_fabric *f, hole *h, mw_sight a)
 {
     const mw_triangle *tri = f->tiling->tri;
-    while (h->ahead > 0) {
-        mw_step_ahead step = f->ahead[--h->ahead];
-        if (step.beyond != MW_NONE && !step.fixed && f->delaunay) {
-            uint32_t t = mw__link_triangle(step.beyond), e = mw__link_edge(step.beyond);
-            uint32_t next = mw__next(e), prev = mw__prev(e), fixed = f->mark[t];
-            mw_sight d = sight_of(f, tri[t].v[prev], h->q);
+    const bool delaunay = f->delaunay;
+    const size_t taken = h->tiles;
+    mw_step_ahead step = f->ahead[--h->ahead];
+    for (;;) {
+        if (step.beyond != MW_NONE && !step.fixed && delaunay) {
+            const mw_triangle *tile = &tri[mw__link_triangle(step.beyond)];
+            uint32_t e = mw__link_edge(step.beyond), next = mw__next(e), prev = mw__prev(e);
+            mw_sight d = sight_of(f, tile->v[prev], h->q);
             if (in_circle(f, &step.end, &a, &d, h->q)) {
+                uint32_t t = mw__link_triangle(step.beyond), fixed = f->mark[t];
                 if (!take(f, h, t)) return false;
-                look_ahead(f, h, step.end, tri[t].link[prev], fixed >> prev & 1);
-                look_ahead(f, h, d, tri[t].link[next], fixed >> next & 1);
-                f->flips++;
+                look_ahead(f, h, &step.end, tile->link[prev], fixed >> prev & 1);
+                step = (mw_step_ahead){d, tile->link[next], fixed >> next & 1};
                 continue;
             }
         }
-        f->rim[h->first + h->steps++] = (mw_rim_step){.vertex = a.vertex, .beyond = step.beyond, .fixed = step.fixed};
+        mw_rim_step *rim = &f->rim[h->first + h->steps++];
+        rim->vertex = a.vertex;
+        rim->beyond = step.beyond;
+        rim->fixed = step.fixed;
         a = step.end;
+        if (h->ahead == 0) break;
+        step = f->ahead[--h->ahead];
     }
     f->rim[h->first + h->steps].vertex = a.vertex;
+    f->flips += (uint32_t)(h->tiles - taken);
     return true;
 }
 
@@ -116,37 +125,56 @@ static mw_status tile_failure(const mw_fabric *f, mw_error *error)
     return mw__fail_memory(error);
 }
 
-/* Fill the hole with tiles round v: its own, and others beside tile `beside`. */
-static mw_status fill(mw_fabric *f, const hole *h, uint32_t v, uint32_t beside, fan *made, mw_error *error)
+/* New tiles beside tile `beside`, as many as the hole has steps more than tiles. */
+static mw_status add_tiles(mw_fabric *f, const hole *h, uint32_t beside, mw_error *error)
 {
-    uint32_t before = MW_NONE;
-    for (size_t i = 0; i < h->steps; i++) {
-        uint32_t t = i < h->tiles ? f->pool[h->pool + i] : mw__add_tile(f, mw__user_beside(f, beside));
+    for (size_t i = h->tiles; i < h->steps; i++) {
+        uint32_t t = mw__add_tile(f, mw__user_beside(f, beside));
         if (t == MW_NONE) return tile_failure(f, error);
-        const mw_rim_step *step = &f->rim[h->first + i];
-        mw__set_corners(f, t, step->vertex, step[1].vertex, v);
-        mw__set_fixed(f, t, step->fixed);
-        mw__attach(f, mw__link(t, 0), step->beyond);
-        if (i > 0)
-            mw__attach(f, mw__link(before, 1), mw__link(t, 2));
-        else
-            made->first = t;
-        before = t;
+        f->pool[h->pool + i] = t;
     }
-    made->last = before;
-    mw__attach(f, mw__link(made->first, 2), MW_NONE);
-    mw__attach(f, mw__link(made->last, 1), MW_NONE);
     return MW_OK;
 }
 
-static mw_status put_in_tile(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
+/* Fill the hole with tiles round v: its own, and others beside tile `beside`. */
+static mw_status fill(mw_fabric *f, const hole *h, uint32_t v, uint32_t beside, fan *made, mw_error *error)
+{
+    mw_status status = add_tiles(f, h, beside, error);
+    if (status) return status;
+    mw_triangle *tri = f->tiling->tri;
+    uint32_t *tile_at = f->tiling->tile_at, before = MW_NONE;
+    const uint32_t *pool = f->pool + h->pool;
+    const mw_rim_step *step = f->rim + h->first;
+    for (size_t i = 0; i < h->steps; i++, step++) {
+        uint32_t t = pool[i];
+        mw_triangle *tile = &tri[t];
+        tile->v[0] = tile->v[3] = step->vertex;
+        tile->v[1] = step[1].vertex;
+        tile->v[2] = v;
+        tile->user &= ~MW_FLIPPED;
+        tile->link[2] = before == MW_NONE ? before : mw__link(before, 1);
+        mw__attach(f, mw__link(t, 0), step->beyond);
+        if (before != MW_NONE) tri[before].link[1] = mw__link(t, 2);
+        mw__set_fixed(f, t, step->fixed);
+        tile_at[step->vertex] = before = t;
+    }
+    tri[before].link[1] = MW_NONE;
+    tile_at[step->vertex] = tile_at[v] = before;
+    *made = (fan){pool[0], before};
+    return MW_OK;
+}
+
+/* `corner`: those of tile t. */
+static mw_status put_in_tile(mw_fabric *f, uint32_t t, const mw_sight corner[3], mw_point q, uint32_t v,
+                             mw_error *error)
 {
     if (!mw__is_users(f, t)) return refuse_outside(q, error);
     hole h = {.q = q};
     fan made;
     if (!take(f, &h, t)) return mw__fail_memory(error);
-    for (uint32_t k = 3; k-- > 0;) look_over(f, &h, t, k);
-    if (!dig(f, &h, sight_of(f, f->tiling->tri[t].v[0], q))) return mw__fail_memory(error);
+    const mw_triangle *tile = &f->tiling->tri[t];
+    for (uint32_t k = 3; k-- > 0;) look_ahead(f, &h, &corner[mw__next(k)], tile->link[k], f->mark[t] >> k & 1);
+    if (!dig(f, &h, corner[0])) return mw__fail_memory(error);
     mw_status status = fill(f, &h, v, t, &made, error);
     if (!status) mw__attach(f, mw__link(made.last, 1), mw__link(made.first, 2));
     return status;
@@ -170,9 +198,12 @@ static mw_status put_beside(mw_fabric *f, uint32_t half, hole *h, uint32_t v, fa
     uint32_t t = mw__link_triangle(half), k = mw__link_edge(half);
     bool fixed = mw__is_fixed(f, half);
     if (!take(f, h, t)) return mw__fail_memory(error);
-    look_over(f, h, t, mw__prev(k));
-    look_over(f, h, t, mw__next(k));
-    if (!dig(f, h, sight_of(f, f->tiling->tri[t].v[k + 1], h->q))) return mw__fail_memory(error);
+    const mw_triangle *tile = &f->tiling->tri[t];
+    uint32_t next = mw__next(k), prev = mw__prev(k), marks = f->mark[t];
+    mw_sight from = sight_of(f, tile->v[k], h->q), apex = sight_of(f, tile->v[prev], h->q);
+    look_ahead(f, h, &from, tile->link[prev], marks >> prev & 1);
+    look_ahead(f, h, &apex, tile->link[next], marks >> next & 1);
+    if (!dig(f, h, sight_of(f, tile->v[next], h->q))) return mw__fail_memory(error);
     mw_status status = fill(f, h, v, t, made, error);
     if (status || !fixed) return status;
     f->mark[made->first] |= 4;
@@ -237,7 +268,8 @@ static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, m
     do {
         uint32_t at = mw__link_triangle(half), k = mw__link_edge(half);
         if (!mw__journal(f, at) || !mw__rim_room(f, h.ahead + 4)) return mw__fail_memory(error);
-        look_ahead(f, &h, sight_of(f, f->tiling->tri[at].v[k], q), half, mw__is_fixed(f, half));
+        mw_sight end = sight_of(f, f->tiling->tri[at].v[k], q);
+        look_ahead(f, &h, &end, half, mw__is_fixed(f, half));
         begin = sight_of(f, f->tiling->tri[at].v[k + 1], q);
         half = hull_after(f, half);
     } while (sees(f, q, half));
@@ -247,34 +279,41 @@ static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, m
 
 /* --- both ------------------------------------------------------------------------------------------------------------- */
 
-/* Put v, whose place is q, into tile t, where the walk found it; side[k] is 0 where q lies on edge k. */
-static mw_status put_inside(mw_fabric *f, uint32_t t, const double side[3], mw_point q, uint32_t v, mw_error *error)
+/* On which side of the edge from a to b does q lie? mw__orient2d, of what is known. */
+static MW_INLINE double side_of(const mw_fabric *f, const mw_sight *a, const mw_sight *b, mw_point q)
 {
-    for (uint32_t k = 0; k < 3; k++)
-        if (side[k] == 0) return put_on_edge(f, mw__link(t, k), q, v, error);
-    return put_in_tile(f, t, q, v, error);
+    double left = a->x * b->y, right = a->y * b->x, det = left - right;
+    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
+    return mw__orient2d_exact(f->tiling->point[a->vertex], f->tiling->point[b->vertex], q);
 }
 
-/* The sides of q on the edges of tile t; the corner where q lies, 3 if it is at none. */
-static uint32_t look(const mw_fabric *f, uint32_t t, mw_point q, double side[3])
+/* Put a vertex at q into tile t, where the walk found it. */
+static mw_status put_inside(mw_fabric *f, uint32_t t, const mw_sight corner[3], mw_point q, uint32_t v, mw_error *error)
 {
-    const mw_point *p = f->tiling->point;
-    const uint32_t *v = f->tiling->tri[t].v;
+    for (uint32_t k = 0; k < 3; k++)
+        if (side_of(f, &corner[k], &corner[mw__next(k)], q) == 0) return put_on_edge(f, mw__link(t, k), q, v, error);
+    return put_in_tile(f, t, corner, q, v, error);
+}
+
+/* See the corners of tile t from q; the one that lies there, 3 if none does. */
+static uint32_t look(const mw_fabric *f, uint32_t t, mw_point q, mw_sight corner[3])
+{
+    uint32_t at = 3;
     for (uint32_t k = 0; k < 3; k++) {
-        if (p[v[k]].x == q.x && p[v[k]].y == q.y) return k;
-        side[k] = mw__orient2d(p[v[k]], p[v[k + 1]], q);
+        corner[k] = sight_of(f, f->tiling->tri[t].v[k], q);
+        if (corner[k].x == 0 && corner[k].y == 0) at = k;
     }
-    return 3;
+    return at;
 }
 
 mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error)
 {
-    double side[3];
+    mw_sight corner[3];
     bool inside = find(f, q, &t) == MW_FOUND;
-    uint32_t corner = inside ? look(f, t, q, side) : 3;
+    uint32_t at = inside ? look(f, t, q, corner) : 3;
     f->last = t;
-    if (corner < 3) {
-        *vertex = f->tiling->tri[t].v[corner];
+    if (at < 3) {
+        *vertex = corner[at].vertex;
         return MW_OK;
     }
     if (*vertex == MW_NONE) {
@@ -282,5 +321,5 @@ mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vert
         if (!mw__add_vertex(f, q, vertex)) return mw__fail_memory(error);
         f->step[f->step_count - 1].vertex = *vertex;
     }
-    return inside ? put_inside(f, t, side, q, *vertex, error) : put_outside(f, t, q, *vertex, error);
+    return inside ? put_inside(f, t, corner, q, *vertex, error) : put_outside(f, t, q, *vertex, error);
 }
