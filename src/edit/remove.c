@@ -34,7 +34,7 @@ static mw_status close_ring(mw_fabric *f, const mw_star *star, mw_point q, mw_er
         FEW = 16
     }; /* to look for each tile's circle takes time with the square of the steps, flips do not as a rule */
     mw_pool pool = {.tile = f->pool, .count = star->n};
-    if (!mw__pool_begin(f, &pool)) return mw__fail_memory(error);
+    if (!mw__pool_begin_ring(f, &pool)) return mw__fail_memory(error);
     if (f->delaunay && star->n <= FEW)
         mw__fill_ring(f, f->rim, star->n, &pool);
     else if (!mw__cut_ring(f, f->rim, star->n, q, &pool) || !mw__legalise_within(f))

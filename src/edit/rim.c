@@ -46,26 +46,23 @@ uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t first, bool *ope
     }
 }
 
-/* The edges round v from `first` on, until they close or end at the hull, as f->pool, which has room for twice as many. *lowest: which of them is one of the lowest of its
+/* The edges round v from `first` on, until they close or end at the hull, onto the stack; *lowest: which of them is one of the lowest of its
  * triangles. */
 static bool go_round(mw_fabric *f, uint32_t first, mw_star *star, size_t *lowest)
 {
-    const mw_tiling *tiling = f->tiling;
+    const mw_triangle *tri = f->tiling->tri;
     uint32_t at = first, best = MW_NONE;
-    *star = (mw_star){0};
+    f->stack_count = 0;
     do {
-        if (MW_UNLIKELY(2 * star->n + 2 > f->rim_room) && !mw__rim_room(f, 2 * star->n + 2)) return false;
-        const mw_triangle *tile = &tiling->tri[mw__link_triangle(at)];
+        const mw_triangle *tile = &tri[mw__link_triangle(at)];
         uint32_t number = tile->user & ~MW_FLIPPED;
-        if (number < best) {
-            best = number;
-            *lowest = star->n;
-        }
-        f->pool[star->n++] = at;
+        *lowest = number < best ? f->stack_count : *lowest;
+        best = number < best ? number : best;
+        if (!mw__push(f, at)) return false;
         at = tile->link[mw__prev(mw__link_edge(at))]; /* which begins at v */
     } while (at != MW_NONE && at != first);
-    star->open = at == MW_NONE;
-    return true;
+    *star = (mw_star){.n = f->stack_count, .open = at == MW_NONE};
+    return mw__rim_room(f, star->n + 2);
 }
 
 static void note_spoke(mw_star *star, size_t at)
@@ -73,30 +70,34 @@ static void note_spoke(mw_star *star, size_t at)
     if (star->spokes++ < 2) star->spoke[star->spokes - 1] = at;
 }
 
-/* The steps across from v, one for each edge round it, of which `first` is the first. f->pool holds the tiles then. */
+/* The steps across from v, one for each edge on the stack, of which `first` is the first. */
 static void set_steps(mw_fabric *f, mw_star *star, size_t first)
 {
-    const mw_tiling *tiling = f->tiling;
-    uint32_t *edge = f->pool + star->n;
-    memcpy(edge, f->pool, star->n * sizeof *edge);
+    const mw_triangle *tri = f->tiling->tri;
+    size_t from = first;
     for (size_t i = 0; i < star->n; i++) {
-        uint32_t at = edge[first + i < star->n ? first + i : first + i - star->n], t = mw__link_triangle(at),
-                 k = mw__link_edge(at), next = mw__next(k);
-        const mw_triangle *tile = &tiling->tri[t];
+        uint32_t at = f->stack[from], t = mw__link_triangle(at), k = mw__link_edge(at), next = mw__next(k);
         uint32_t marks = f->mark[t];
-        if (marks >> k & 1) note_spoke(star, i);
-        f->rim[i] = (mw_rim_step){
-            .vertex = tile->v[next], .beyond = tile->link[next], .half = mw__link(t, next), .fixed = marks >> next & 1};
+        mw_rim_step *step = &f->rim[i];
+        step->vertex = tri[t].v[next];
+        step->beyond = tri[t].link[next];
+        step->half = mw__link(t, next);
+        step->fixed = marks >> next & 1;
+        step->slit = false;
         f->pool[i] = t;
-        f->rim[i + 1].vertex = tile->v[mw__prev(k)];
-        if (star->open && i + 1 == star->n && marks >> mw__prev(k) & 1) note_spoke(star, star->n);
+        if (MW_UNLIKELY(marks >> k & 1)) note_spoke(star, i);
+        if (++from == star->n) from = 0;
     }
+    uint32_t end = mw__half_prev(f->stack[from > 0 ? from - 1 : star->n - 1]);
+    f->rim[star->n].vertex = mw__corner(f, end);
+    if (star->open && mw__is_fixed(f, end)) note_spoke(star, star->n);
+    f->stack_count = 0;
 }
 
 bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
 {
     uint32_t tile = f->tiling->tile_at[v];
-    size_t first;
+    size_t first = 0;
     bool open;
     if (!go_round(f, mw__link(tile, mw__corner_of(&f->tiling->tri[tile], v)), star, &first)) return false;
     if (star->open) {
@@ -123,12 +124,37 @@ static void sort_tiles(const mw_triangle *tri, uint32_t *tile, size_t n)
         }
 }
 
-bool mw__pool_begin(mw_fabric *f, mw_pool *pool)
+/* The tile of the highest number goes to the end; the others stay in order. */
+static void put_highest_last(const mw_triangle *tri, uint32_t *tile, size_t n)
+{
+    uint32_t highest = tile[0];
+    for (size_t i = 1; i < n; i++) {
+        bool higher = (tri[tile[i]].user & MW_USER_MASK) > (tri[highest].user & MW_USER_MASK);
+        tile[i - 1] = higher ? highest : tile[i];
+        highest = higher ? tile[i] : highest;
+    }
+    tile[n - 1] = highest;
+}
+
+static bool journal_all(mw_fabric *f, const mw_pool *pool)
 {
     for (size_t i = 0; i < pool->count; i++)
         if (!mw__journal(f, pool->tile[i])) return false;
+    return true;
+}
+
+bool mw__pool_begin(mw_fabric *f, mw_pool *pool)
+{
+    if (!journal_all(f, pool)) return false;
     sort_tiles(f->tiling->tri, pool->tile, pool->count);
     return true;
+}
+
+bool mw__pool_begin_ring(mw_fabric *f, mw_pool *pool)
+{
+    put_highest_last(f->tiling->tri, pool->tile, pool->count);
+    put_highest_last(f->tiling->tri, pool->tile, pool->count - 1);
+    return journal_all(f, pool);
 }
 
 void mw__pool_end(mw_fabric *f, mw_pool *pool, uint32_t heir)

@@ -39,6 +39,8 @@ typedef struct mw_pool {
 
 /* Journal the tiles of a pool and sort them by number. */
 bool mw__pool_begin(mw_fabric *f, mw_pool *pool);
+/* The same for the star of a vertex, of which two tiles will not be needed: only those two, of the highest numbers, are put last. */
+bool mw__pool_begin_ring(mw_fabric *f, mw_pool *pool);
 
 /* Cut off corners of the chain of n steps wherever it turns left, until it turns left nowhere [Graham 1972], which is right for chains all
  * of whose vertices are seen from one point or one edge to the left of them [Toussaint, Avis 1982]. step[n].vertex is where it ends.

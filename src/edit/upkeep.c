@@ -11,9 +11,18 @@ static uint32_t live_vertices(const mw_fabric *f)
     return f->tiling->point_count - f->free_count;
 }
 
+/* The guide does not follow edits: two edits for each vertex would double the walks from it, and to build it costs less than a tenth of half so
+ * many edits. */
 static void begin_anew(mw_upkeep *u, mw_start_kind start)
 {
-    u->since[start] = (mw_since){.vertices = live_vertices(u->fabric)};
+    enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4, VERTICES_PER_EDIT = 2 };
+    uint64_t n = live_vertices(u->fabric);
+    u->since[start] = (mw_since){
+        .most_edits = FEW + (start == MW_START_AUTO ? n / VERTICES_PER_EDIT : EDITS_PER_VERTEX * n),
+        .most_outsiders = FEW + n / OUTSIDERS,
+        .fewest = (n + 1) / 2,
+        .most = 2 * n,
+    };
 }
 
 /* Only layers are more than a room below builds. */
@@ -97,15 +106,9 @@ size_t mw__upkeep_bytes(const mw_upkeep *u)
 
 /* --- refreshing -------------------------------------------------------------------------------------------------------- */
 
-/* The guide does not follow edits: two edits for each vertex would double the walks from it, and to build it costs less than a tenth of half so
- * many edits. */
-static bool is_due(const mw_upkeep *u, mw_start_kind start, uint32_t vertices)
+static bool is_due(const mw_since *s, uint32_t vertices)
 {
-    enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4, VERTICES_PER_EDIT = 2 };
-    const mw_since *s = &u->since[start];
-    if (vertices > 2 * (uint64_t)s->vertices || 2 * (uint64_t)vertices < s->vertices) return true;
-    uint64_t most = start == MW_START_AUTO ? s->vertices / VERTICES_PER_EDIT : EDITS_PER_VERTEX * (uint64_t)s->vertices;
-    return s->edits > FEW + most || s->outsiders > FEW + s->vertices / OUTSIDERS;
+    return s->edits > s->most_edits || s->outsiders > s->most_outsiders || vertices > s->most || vertices < s->fewest;
 }
 
 /* What follows edits: the guide, and indices. */
@@ -250,7 +253,7 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     for (int i = 0; i < KEPT; i++) {
         if (!is_built(u, kept[i])) continue;
         u->since[kept[i]].edits++;
-        if (is_due(u, kept[i], live_vertices(f))) refresh(u, kept[i]);
+        if (is_due(&u->since[kept[i]], live_vertices(f))) refresh(u, kept[i]);
     }
 }
 

@@ -19,10 +19,11 @@
 #include "edit/live_layers.h"
 #include "locate/locator.h"
 
-/* When was it built? */
+/* When is it to be built anew? */
 typedef struct mw_since {
-    uint32_t vertices;         /* that there were */
-    uint32_t edits, outsiders; /* since then: edits; vertices put where it has no cells */
+    uint32_t edits, outsiders;           /* since it was built: edits; vertices put where it has no cells */
+    uint64_t most_edits, most_outsiders; /* as many are borne                                             */
+    uint64_t fewest, most;               /* vertices                                                      */
 } mw_since;
 
 typedef struct mw_upkeep {
