@@ -36,20 +36,11 @@ typedef struct hole {
     size_t most; /* tiles that there is room for, with the steps they bring */
 } hole;
 
-static MW_INLINE mw_sight sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
-{
-    double x = f->tiling->point[vertex].x - q.x, y = f->tiling->point[vertex].y - q.y;
-    return (mw_sight){x, y, x * x + y * y, vertex};
-}
-
-/* Is q in the circle of a, b, c? mw__incircle, with what is the same from one test to the next kept, and a bound by the lifts alone:
- * triangulate/delaunay_grow.c tells why 11 u (ab + bc + ca) is one, and of three numbers that is at most a third of their sum squared. */
+/* Is q, from which the others are seen, in the circle of a, b, c? */
 static MW_INLINE bool in_circle(const mw_fabric *f, const mw_sight *a, const mw_sight *b, const mw_sight *c, mw_point q)
 {
-    double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
-                 c->lift * (a->x * b->y - a->y * b->x);
-    double lifts = a->lift + b->lift + c->lift, bound = 4.0 * 0x1p-53 * lifts * lifts + MW_UNDERFLOW_ERROR;
-    if (MW_LIKELY(lifts < MW_INCIRCLE_LIFTS && fabs(det) > bound)) return det > 0;
+    double bound, det = mw__sights_rounded(a, b, c, &bound);
+    if (MW_LIKELY(fabs(det) > bound)) return det > 0;
     const mw_point *p = f->tiling->point;
     return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
 }
@@ -88,7 +79,7 @@ static bool dig(mw_fabric *f, hole *h, mw_sight a)
         if (step.beyond != MW_NONE && !step.fixed && delaunay) {
             const mw_triangle *tile = &tri[mw__link_triangle(step.beyond)];
             uint32_t e = mw__link_edge(step.beyond), next = mw__next(e), prev = mw__prev(e);
-            mw_sight d = sight_of(f, tile->v[prev], h->q);
+            mw_sight d = mw__sight_of(f, tile->v[prev], h->q);
             if (in_circle(f, &step.end, &a, &d, h->q)) {
                 uint32_t t = mw__link_triangle(step.beyond), fixed = f->mark[t];
                 if (!take(f, h, t)) return false;
@@ -200,10 +191,10 @@ static mw_status put_beside(mw_fabric *f, uint32_t half, hole *h, uint32_t v, fa
     if (!take(f, h, t)) return mw__fail_memory(error);
     const mw_triangle *tile = &f->tiling->tri[t];
     uint32_t next = mw__next(k), prev = mw__prev(k), marks = f->mark[t];
-    mw_sight from = sight_of(f, tile->v[k], h->q), apex = sight_of(f, tile->v[prev], h->q);
+    mw_sight from = mw__sight_of(f, tile->v[k], h->q), apex = mw__sight_of(f, tile->v[prev], h->q);
     look_ahead(f, h, &from, tile->link[prev], marks >> prev & 1);
     look_ahead(f, h, &apex, tile->link[next], marks >> next & 1);
-    if (!dig(f, h, sight_of(f, tile->v[next], h->q))) return mw__fail_memory(error);
+    if (!dig(f, h, mw__sight_of(f, tile->v[next], h->q))) return mw__fail_memory(error);
     mw_status status = fill(f, h, v, t, made, error);
     if (status || !fixed) return status;
     f->mark[made->first] |= 4;
@@ -268,9 +259,9 @@ static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, m
     do {
         uint32_t at = mw__link_triangle(half), k = mw__link_edge(half);
         if (!mw__journal(f, at) || !mw__rim_room(f, h.ahead + 4)) return mw__fail_memory(error);
-        mw_sight end = sight_of(f, f->tiling->tri[at].v[k], q);
+        mw_sight end = mw__sight_of(f, f->tiling->tri[at].v[k], q);
         look_ahead(f, &h, &end, half, mw__is_fixed(f, half));
-        begin = sight_of(f, f->tiling->tri[at].v[k + 1], q);
+        begin = mw__sight_of(f, f->tiling->tri[at].v[k + 1], q);
         half = hull_after(f, half);
     } while (sees(f, q, half));
     if (!dig(f, &h, begin)) return mw__fail_memory(error);
@@ -279,19 +270,12 @@ static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, m
 
 /* --- both ------------------------------------------------------------------------------------------------------------- */
 
-/* On which side of the edge from a to b does q lie? mw__orient2d, of what is known. */
-static MW_INLINE double side_of(const mw_fabric *f, const mw_sight *a, const mw_sight *b, mw_point q)
-{
-    double left = a->x * b->y, right = a->y * b->x, det = left - right;
-    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
-    return mw__orient2d_exact(f->tiling->point[a->vertex], f->tiling->point[b->vertex], q);
-}
-
 /* Put a vertex at q into tile t, where the walk found it. */
 static mw_status put_inside(mw_fabric *f, uint32_t t, const mw_sight corner[3], mw_point q, uint32_t v, mw_error *error)
 {
     for (uint32_t k = 0; k < 3; k++)
-        if (side_of(f, &corner[k], &corner[mw__next(k)], q) == 0) return put_on_edge(f, mw__link(t, k), q, v, error);
+        if (mw__sights_side(f, &corner[k], &corner[mw__next(k)], q) == 0)
+            return put_on_edge(f, mw__link(t, k), q, v, error);
     return put_in_tile(f, t, corner, q, v, error);
 }
 
@@ -300,7 +284,7 @@ static uint32_t look(const mw_fabric *f, uint32_t t, mw_point q, mw_sight corner
 {
     uint32_t at = 3;
     for (uint32_t k = 0; k < 3; k++) {
-        corner[k] = sight_of(f, f->tiling->tri[t].v[k], q);
+        corner[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
         if (corner[k].x == 0 && corner[k].y == 0) at = k;
     }
     return at;

@@ -70,7 +70,7 @@ static void note_spoke(mw_star *star, size_t at)
     if (star->spokes++ < 2) star->spoke[star->spokes - 1] = at;
 }
 
-/* The steps across from v, one for each edge on the stack, of which `first` is the first. */
+/* The steps across from v, one for each edge on the stack, of which `first` is the first. What filling them will touch is fetched meanwhile. */
 static void set_steps(mw_fabric *f, mw_star *star, size_t first)
 {
     const mw_triangle *tri = f->tiling->tri;
@@ -84,6 +84,9 @@ static void set_steps(mw_fabric *f, mw_star *star, size_t first)
         step->half = mw__link(t, next);
         step->fixed = marks >> next & 1;
         step->slit = false;
+        __builtin_prefetch(&f->tiling->point[step->vertex]);
+        __builtin_prefetch(&f->tiling->tile_at[step->vertex], 1);
+        if (step->beyond != MW_NONE) __builtin_prefetch(&tri[mw__link_triangle(step->beyond)], 1);
         f->pool[i] = t;
         if (MW_UNLIKELY(marks >> k & 1)) note_spoke(star, i);
         if (++from == star->n) from = 0;
@@ -211,39 +214,48 @@ bool mw__cut_chain(mw_fabric *f, mw_rim_step *step, size_t *n, mw_pool *pool)
     return true;
 }
 
-/* The tile beside the way from the end of the last step back to the first one's beginning, and what is left beyond its other two edges: its
- * third corner is the vertex whose circle with these two holds no other of the steps' vertices. The removed vertex lies in or on that circle, so
- * that they come round it in the order in which they come here, and no step crosses the tile. Returns its edge 0. */
+/* Of the vertices between the ends of n steps, the one whose circle with these two ends holds none of the others. */
+static size_t find_apex(const mw_fabric *f, const mw_rim_step *step, size_t n)
+{
+    const mw_point *p = f->tiling->point, from = p[step[n].vertex];
+    mw_sight to = mw__sight_of(f, step[0].vertex, from), apex = to;
+    size_t best = 0;
+    for (size_t i = 1; i < n; i++) {
+        mw_sight next = mw__sight_of(f, step[i].vertex, from);
+        if (!(mw__sights_side(f, &to, &next, from) > 0)) continue;
+        if (best > 0) {
+            double bound, det = mw__sights_rounded(&to, &apex, &next, &bound); /* < 0: the next is in the circle */
+            if (MW_UNLIKELY(!(fabs(det) > bound)))
+                det = -mw__incircle_exact(from, p[to.vertex], p[apex.vertex], p[next.vertex]);
+            if (det >= 0) continue;
+        }
+        apex = next;
+        best = i;
+    }
+    return best;
+}
+
+static uint32_t fill_part(mw_fabric *f, const mw_rim_step *step, size_t n, mw_pool *pool);
+
+/* What lies beyond n steps, seen from a tile that has their ends: a tile among them, or what is beyond the one. */
+static MW_INLINE uint32_t fill_beyond(mw_fabric *f, const mw_rim_step *step, size_t n, mw_pool *pool, bool *fixed)
+{
+    *fixed = n == 1 && step->fixed;
+    return n == 1 ? step->beyond : fill_part(f, step, n, pool);
+}
+
+/* The tile beside the way from the end of the last step back to the first one's beginning, and what is left beyond its other two edges. The
+ * vertex removed lies in or on its circle, so that those on the circle come round it in the order in which they come here, and no step
+ * crosses the tile. Returns its edge 0. */
 static uint32_t fill_part(mw_fabric *f, const mw_rim_step *step, size_t n, mw_pool *pool)
 {
-    const mw_point *p = f->tiling->point;
-    uint32_t from = step[n].vertex, to = step[0].vertex;
-    size_t best = 1;
-    if (n > 2) {
-        mw_point a = p[from], b = p[to];
-        while (!(mw__orient2d(a, b, p[step[best].vertex]) > 0)) best++;
-        for (size_t i = best + 1; i < n; i++) {
-            mw_point q = p[step[i].vertex];
-            if (mw__incircle(a, b, p[step[best].vertex], q) > 0 && mw__orient2d(a, b, q) > 0) best = i;
-        }
-    }
-    uint32_t t = pool->tile[pool->used++], fixed = 0, one, two;
-    mw__set_corners(f, t, from, to, step[best].vertex);
-    if (best == 1) {
-        one = step[0].beyond;
-        fixed |= (uint32_t)step[0].fixed << 1;
-    } else {
-        one = fill_part(f, step, best, pool);
-    }
-    if (best == n - 1) {
-        two = step[best].beyond;
-        fixed |= (uint32_t)step[best].fixed << 2;
-    } else {
-        two = fill_part(f, step + best, n - best, pool);
-    }
-    mw__set_fixed(f, t, fixed);
-    mw__attach(f, mw__link(t, 1), one);
-    mw__attach(f, mw__link(t, 2), two);
+    size_t apex = n == 2 ? 1 : find_apex(f, step, n);
+    uint32_t t = pool->tile[pool->used++];
+    bool fixed[2];
+    mw__set_corners(f, t, step[n].vertex, step[0].vertex, step[apex].vertex);
+    mw__attach(f, mw__link(t, 1), fill_beyond(f, step, apex, pool, &fixed[0]));
+    mw__attach(f, mw__link(t, 2), fill_beyond(f, step + apex, n - apex, pool, &fixed[1]));
+    mw__set_fixed(f, t, (uint32_t)fixed[0] << 1 | (uint32_t)fixed[1] << 2);
     return mw__link(t, 0);
 }
 

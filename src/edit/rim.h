@@ -21,6 +21,30 @@ typedef struct mw_sight {
     uint32_t vertex;
 } mw_sight;
 
+static MW_INLINE mw_sight mw__sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
+{
+    double x = f->tiling->point[vertex].x - q.x, y = f->tiling->point[vertex].y - q.y;
+    return (mw_sight){x, y, x * x + y * y, vertex};
+}
+
+/* mw__orient2d of a and b, seen from q, and q. */
+static MW_INLINE double mw__sights_side(const mw_fabric *f, const mw_sight *a, const mw_sight *b, mw_point q)
+{
+    double left = a->x * b->y, right = a->y * b->x, det = left - right;
+    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
+    return mw__orient2d_exact(f->tiling->point[a->vertex], f->tiling->point[b->vertex], q);
+}
+
+/* mw__incircle_rounded of a, b and c, seen from q, and q, with a bound by the lifts alone: triangulate/delaunay_grow.c tells why
+ * 11 u (ab + bc + ca) is one, and of three numbers that is at most a third of their sum squared. */
+static MW_INLINE double mw__sights_rounded(const mw_sight *a, const mw_sight *b, const mw_sight *c, double *bound)
+{
+    double lifts = a->lift + b->lift + c->lift;
+    *bound = MW_LIKELY(lifts < MW_INCIRCLE_LIFTS) ? 4.0 * 0x1p-53 * lifts * lifts + MW_UNDERFLOW_ERROR : INFINITY;
+    return a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
+           c->lift * (a->x * b->y - a->y * b->x);
+}
+
 /* A step of the boundary of a hole that grows, yet to be looked at: where it ends, and as above. */
 struct mw_step_ahead {
     mw_sight end;
