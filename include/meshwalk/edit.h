@@ -76,8 +76,8 @@ typedef struct mw_change {
                                       the editor, until its next edit                                             */
     size_t made, reused, freed;
     uint32_t vertex;  /* the one inserted, removed or moved; where there was one at the place to insert at, that one */
-    int vertex_made;  /* 1: it is new                                                                             */
-    int vertex_freed; /* 1: it is gone                                                                            */
+    int vertex_made;  /* 1: it is new; more (mw_edit_insert_points): it is the first of so many                   */
+    int vertex_freed; /* 1: it is gone; more (what mw_edit_undo takes back): it and those next in number          */
     uint32_t flips;   /* edges exchanged to make the mesh Delaunay again                                          */
     uint32_t pieces;  /* MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE: edges on the way                                      */
     uint32_t reserved[6];
@@ -112,6 +112,17 @@ MW_API mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_
 MW_API mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
 MW_API mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
 MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t vertex, double value, mw_error *error);
+
+/* Insert n points as one edit, quicker than one by one. They go in in the order in which they come where that is along a curve, each near the
+ * one before, and along a Hilbert curve otherwise; mesh and numbers are those that insertions in that order lead to. It is one edit to undo,
+ * and n in the log. Fields are interpolated.
+ *   points    x and y of each, `stride` doubles from one to the next (0: 2)
+ *   vertices  NULL, or n numbers: the vertex at each point
+ * change->vertex is the first of the new vertices, which have numbers one after another; MW_NONE if there was a vertex at each point. If
+ * any point cannot be inserted nothing has changed, and the error tells one; `vertices` are undefined then. MW_ERROR_INPUT, MW_ERROR_LIMIT,
+ * MW_ERROR_MEMORY as for an insertion; MW_ERROR_ARGUMENT: NULL, or a stride of 1. */
+MW_API mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n, size_t stride,
+                                       uint32_t *vertices, mw_change *change, mw_error *error);
 
 /* Take back the last edit that is not: everything is as it was before it, numbers too. `change` tells what that changed.
  * MW_ERROR_INPUT: there is none, or none kept (options.undo). */

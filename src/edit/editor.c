@@ -163,14 +163,17 @@ static bool field_room(mw_editor *editor)
     return true;
 }
 
-/* Give the next vertex, at q, its values: interpolated in the mesh as it is before the edit. */
-static void set_values(mw_editor *editor, const mw_edit *edit)
+/* Give the next vertex its values: interpolated in the mesh as it is before it comes; *borrows: it lies outside. Returns the tile where that
+ * ended. */
+static uint32_t set_values(mw_editor *editor, const mw_edit *edit, bool *borrows)
 {
-    mw_fabric *f = &editor->fabric;
+    const mw_fabric *f = &editor->fabric;
     mw_mesh *view = &editor->view;
+    editor->cursor.last = f->last;
+    editor->cursor.epoch = editor->locator.epoch;
+    mw__editor_look(editor);
     mw_location at = mw_locate(&editor->locator, &editor->cursor, edit->x, edit->y);
-    f->last = editor->cursor.last;
-    editor->borrows = at.triangle == MW_NONE;
+    *borrows = at.triangle == MW_NONE;
     for (uint32_t i = 0; i < view->field_count; i++) {
         double *values = view->field[i].values, *value = &values[f->vertex_count];
         if (i == edit->field && !isnan(edit->value))
@@ -178,6 +181,7 @@ static void set_values(mw_editor *editor, const mw_edit *edit)
         else
             mw_interpolate(view, values, &at, 1, value);
     }
+    return editor->cursor.last;
 }
 
 /* Of vertices v (MW_NONE: none) and w the one nearer to p, of equally near ones that of the lower number. */
@@ -189,11 +193,11 @@ static uint32_t nearer(const mw_fabric *f, mw_point p, uint32_t v, uint32_t w)
 }
 
 /* Beyond the hull that there was a vertex has the values of the nearest that is joined to it. */
-static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t vertex)
+static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t v)
 {
     const mw_fabric *f = &editor->fabric;
     bool open;
-    uint32_t v = f->vertex_place[vertex], best = MW_NONE;
+    uint32_t best = MW_NONE, vertex = f->vertex_number[v];
     for (uint32_t at = mw__star_first(f, v, &open); at != MW_NONE; at = mw__beyond(f, mw__half_prev(at))) {
         best = nearer(f, f->tiling->point[v], best, mw__corner(f, mw__half_next(at)));
         best = nearer(f, f->tiling->point[v], best, mw__corner(f, mw__half_prev(at)));
@@ -211,32 +215,6 @@ static mw_status refuse_vertex(const mw_fabric *f, uint32_t number, mw_error *er
     return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
 }
 
-static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
-{
-    mw_fabric *f = &editor->fabric;
-    mw_point q = {edit->x, edit->y};
-    uint32_t vertex = MW_NONE, before = f->vertex_count, t;
-    editor->borrows = false;
-    if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
-    if (!isnan(edit->value) && edit->field >= editor->view.field_count && editor->view.field_count > 0)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
-    mw_cursor *cursor = &editor->cursor;
-    cursor->last = f->last;
-    cursor->epoch = editor->locator.epoch;
-    if (editor->view.field_count > 0) {
-        if (!field_room(editor)) return mw__fail_memory(error);
-        set_values(editor, edit);
-        t = f->last;
-    } else {
-        t = mw__first_tile(&editor->locator, cursor, f->last, q, &cursor->random, NULL);
-    }
-    mw_status status = mw__fabric_insert(f, q, t, &vertex, error);
-    if (status) return status;
-    change->vertex = f->vertex_number[vertex];
-    change->vertex_made = f->vertex_count > before;
-    return MW_OK;
-}
-
 /* A tile to begin at to look for q: `near` if it is, else what the guide says. */
 static uint32_t first_tile(mw_editor *editor, uint32_t near, mw_point q)
 {
@@ -244,6 +222,26 @@ static uint32_t first_tile(mw_editor *editor, uint32_t near, mw_point q)
     cursor->last = near;
     cursor->epoch = editor->locator.epoch;
     return mw__first_tile(&editor->locator, cursor, near, q, &cursor->random, NULL);
+}
+
+mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    mw_fabric *f = &editor->fabric;
+    mw_point q = {edit->x, edit->y};
+    uint32_t vertex = MW_NONE, before = f->vertex_count;
+    bool fields = editor->view.field_count > 0;
+    bool borrows = false;
+    if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
+    if (!isnan(edit->value) && edit->field >= editor->view.field_count && fields)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
+    if (fields && !field_room(editor)) return mw__fail_memory(error);
+    uint32_t t = fields ? set_values(editor, edit, &borrows) : first_tile(editor, f->last, q);
+    mw_status status = mw__fabric_insert(f, q, t, &vertex, error);
+    if (status) return status;
+    change->vertex = f->vertex_number[vertex];
+    change->vertex_made = f->vertex_count > before;
+    if (borrows && change->vertex_made) borrow_values(editor, edit, vertex);
+    return MW_OK;
 }
 
 static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
@@ -258,7 +256,7 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
     }
     if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     mw_point q = {edit->x, edit->y};
-    return mw__fabric_move(f, v, q, first_tile(editor, mw__fabric_tile(f, v), q), error);
+    return mw__fabric_move(f, v, q, first_tile(editor, f->tiling->tile_at[v], q), error);
 }
 
 static mw_status change_edge(mw_fabric *f, const mw_edit *edit, mw_change *change, mw_error *error)
@@ -284,7 +282,7 @@ static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *
 static mw_status carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     switch (edit->kind) {
-    case MW_EDIT_INSERT: return insert(editor, edit, change, error);
+    case MW_EDIT_INSERT: return mw__editor_insert(editor, edit, change, error);
     case MW_EDIT_REMOVE:
     case MW_EDIT_MOVE: return change_vertex(editor, edit, change, error);
     case MW_EDIT_FLIP:
@@ -296,10 +294,10 @@ static mw_status carry_out(mw_editor *editor, const mw_edit *edit, mw_change *ch
     return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of edit");
 }
 
-static bool log_room(mw_editor *editor)
+bool mw__log_room(mw_editor *editor, size_t more)
 {
-    if (!editor->keeps_log || editor->log_count < editor->log_room) return true;
-    size_t room = editor->log_room + editor->log_room / 2 + 16;
+    if (!editor->keeps_log || more <= editor->log_room - editor->log_count) return true;
+    size_t room = editor->log_count + editor->log_count / 2 + more + 16;
     mw_edit *log = mw__realloc(editor->log, room, sizeof *log);
     if (!log) return false;
     editor->log = log;
@@ -320,25 +318,10 @@ static bool report_room(mw_editor *editor)
     return true;
 }
 
-static void keep(mw_editor *editor, const mw_edit *edit)
+mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
+                              mw_error *error)
 {
-    if (editor->keeps_log) editor->log[editor->log_count++] = *edit;
-    if (editor->undoable < editor->undo) editor->undoable++;
-    editor->edits++;
-    if (edit->kind == MW_EDIT_VALUE) editor->view.field[edit->field].values[edit->vertex] = edit->value;
-    mw__editor_look(editor);
-    mw__upkeep_edit(&editor->upkeep, false);
-}
-
-mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
-{
-    if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
-    const mw_edit copy = *edit; /* it may stand in the log, which grows */
-    edit = &copy;
     mw_fabric *f = &editor->fabric;
-    mw_change own = {.vertex = MW_NONE};
-    if (!log_room(editor) || !mw__fabric_begin(f, edit)) return mw__fail_memory(error);
-    mw_status status = carry_out(editor, edit, &own, error);
     if (!status && change && !report_room(editor)) status = mw__fail_memory(error);
     if (status) {
         mw__fabric_rollback(f);
@@ -346,13 +329,28 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
         return status;
     }
     mw__fabric_commit(f);
-    if (own.vertex_made && editor->borrows) borrow_values(editor, edit, own.vertex);
-    keep(editor, edit);
+    if (editor->undoable < editor->undo) editor->undoable++;
+    editor->edits += f->step[f->step_count - 1].edits;
+    mw__editor_look(editor);
+    mw__upkeep_edit(&editor->upkeep, false);
     if (change) {
-        *change = own;
+        *change = *own;
         mw__fabric_report(f, editor->changed, change);
     }
     mw__fabric_forget(f, editor->undo);
+    return MW_OK;
+}
+
+mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
+    const mw_edit copy = *edit; /* it may stand in the log, which grows */
+    mw_change own = {.vertex = MW_NONE};
+    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy)) return mw__fail_memory(error);
+    mw_status status = mw__editor_conclude(editor, carry_out(editor, &copy, &own, error), &own, change, error);
+    if (status) return status;
+    if (editor->keeps_log) editor->log[editor->log_count++] = copy;
+    if (copy.kind == MW_EDIT_VALUE) editor->view.field[copy.field].values[copy.vertex] = copy.value;
     return MW_OK;
 }
 
@@ -368,8 +366,8 @@ static mw_change undone(const mw_fabric *f, const mw_step *step, uint32_t vertic
 {
     mw_change change = {.vertex = MW_NONE};
     if (step->vertex == MW_NONE) return change;
-    change.vertex = f->vertex_number[step->vertex];
-    change.vertex_freed = vertices > f->vertex_count;
+    change.vertex = step->made > 0 ? step->vertices : f->vertex_number[step->vertex];
+    change.vertex_freed = (int)(vertices - f->vertex_count);
     change.vertex_made = step->edit.kind == MW_EDIT_REMOVE;
     return change;
 }
@@ -384,7 +382,7 @@ mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
     mw__fabric_revert(f);
     const mw_step *step = &f->step[f->step_count - 1];
     undo_value(editor, step);
-    if (editor->keeps_log) editor->log_count--;
+    if (editor->keeps_log) editor->log_count -= step->edits;
     editor->undoable--;
     editor->edits++;
     mw__editor_look(editor);

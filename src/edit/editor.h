@@ -14,7 +14,6 @@ struct mw_editor {
     size_t field_room; /* values of each field there is room for                        */
     mw_upkeep upkeep;
     mw_cursor cursor; /* finds where to insert */
-    bool borrows;     /* the vertex inserted last lies outside: it has the values of another one */
     bool keeps_log;
     uint32_t threads; /* as in the options */
     size_t undo, undoable;
@@ -27,6 +26,17 @@ struct mw_editor {
 
 /* The arrays of the fabric may have moved: have the view look at them. */
 void mw__editor_look(mw_editor *editor);
+
+/* One insertion within the step under way. Errors as mw_edit_apply; then the step is to be rolled back. */
+mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error);
+
+/* After the operations of the step under way, which had this outcome: all or nothing. `change` may be NULL, or is filled: with `own`, and the
+ * triangles. */
+mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
+                              mw_error *error);
+
+/* Room for so many more entries of the log, if there is one. */
+bool mw__log_room(mw_editor *editor, size_t more);
 
 /* Fix the edges that join pairs of vertices. MW_ERROR_INPUT: there is no such edge, or no such vertex. */
 mw_status mw__fix_edges(mw_fabric *fabric, const uint32_t *ends, size_t count, mw_error *error);

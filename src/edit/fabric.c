@@ -205,10 +205,10 @@ void mw__fabric_trim(mw_fabric *f)
     f->before_room = f->stack_room = 0;
 }
 
-bool mw__journal_room(mw_fabric *f)
+bool mw__journal_room(mw_fabric *f, size_t more)
 {
-    if (f->before_count < f->before_room) return true;
-    size_t room = enlarged(f->before_room);
+    if (f->before_count + more <= f->before_room) return true;
+    size_t room = enlarged(f->before_room + more);
     mw_before *before = mw__realloc(f->before, room, sizeof *before);
     if (!before) return false;
     f->before = before;
@@ -216,45 +216,42 @@ bool mw__journal_room(mw_fabric *f)
     return true;
 }
 
-bool mw__journal_more(mw_fabric *f, uint32_t t)
-{
-    if (MW_UNLIKELY(f->before_count == f->before_room) && !mw__journal_room(f)) return false;
-    mw_before *before = &f->before[f->before_count++];
-    before->place = t;
-    before->mark = f->mark[t] & MW_FIXED_EDGES;
-    before->tile = f->tiling->tri[t];
-    f->mark[t] |= MW_JOURNALED;
-    return true;
-}
-
 /* --- tiles and vertices come and go ----------------------------------------------------------------------------------- */
 
-uint32_t mw__add_tile(mw_fabric *f, uint32_t user)
+/* Room for n more numbers, tiles and records of the journal. */
+static bool room_for_tiles(mw_fabric *f, uint32_t n, bool users)
 {
     mw_tiling *tiling = f->tiling;
-    uint32_t t = tiling->tri_count;
-    if (user == MW_NONE || t >= MW_MAX_TRIANGLES || (t == f->tile_room && !more_tiles(f))) return MW_NONE;
-    if (!(f->mark[t] & MW_JOURNALED)) { /* as one that was not there */
-        tiling->tri[t].v[0] = MW_NONE;
-        if (!mw__journal_more(f, t)) return MW_NONE;
-    }
-    mw__set_fixed(f, t, 0);
-    tiling->tri[t] = (mw_triangle){.link = {MW_NONE, MW_NONE, MW_NONE}, .user = user};
-    if (user & MW_GHOST)
-        tiling->ghost_count++;
-    else
-        tiling->tile_of[user] = t;
-    tiling->tri_count++;
-    return t;
+    if (tiling->tri_count > MW_MAX_TRIANGLES - n) return false;
+    if (users && tiling->number_count > MW_USER_MASK - n) return false;
+    while (users && tiling->number_count + n > f->number_room)
+        if (!more_numbers(f)) return false;
+    while (tiling->tri_count + n > f->tile_room)
+        if (!more_tiles(f)) return false;
+    return mw__journal_room(f, n);
 }
 
-uint32_t mw__user_beside(mw_fabric *f, uint32_t t)
+bool mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles)
 {
     mw_tiling *tiling = f->tiling;
-    if (!mw__is_users(f, t)) return tiling->tri[t].user;
-    if (tiling->number_count >= MW_USER_MASK || (tiling->number_count == f->number_room && !more_numbers(f)))
-        return MW_NONE;
-    return tiling->number_count++;
+    bool users = mw__is_users(f, beside);
+    if (!room_for_tiles(f, n, users)) return false;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t t = tiling->tri_count++;
+        if (!(f->mark[t] & MW_JOURNALED)) { /* as one that was not there */
+            mw_before *before = &f->before[f->before_count++];
+            before->place = t;
+            before->tile.v[0] = MW_NONE;
+            f->mark[t] |= MW_JOURNALED;
+        }
+        tiling->tri[t].user = users ? tiling->number_count : tiling->tri[beside].user;
+        if (users)
+            tiling->tile_of[tiling->number_count++] = t;
+        else
+            tiling->ghost_count++;
+        tiles[i] = t;
+    }
+    return true;
 }
 
 void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir)

@@ -30,7 +30,9 @@ typedef struct mw_step {
     mw_edit edit;   /* vertices by number                       */
     size_t journal; /* its part of the journal begins here      */
     uint32_t tiles, ghosts, numbers, vertices, points, free_places, fixed_count;
-    uint32_t vertex; /* place of the vertex made, removed or moved; MW_NONE if there is none */
+    size_t edits;    /* more than one for many points                            */
+    uint32_t vertex; /* place of the vertex made (the last one), removed or moved; MW_NONE if there is none */
+    uint32_t made;   /* vertices made, with numbers from `vertices` on           */
     uint32_t number; /* of the vertex removed: others may have had its place since           */
     mw_point point;  /* where it was, if it was moved or removed                             */
     double value;    /* MW_EDIT_VALUE: as it was                                             */

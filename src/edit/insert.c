@@ -11,14 +11,63 @@
 
 /* --- where ------------------------------------------------------------------------------------------------------------ */
 
-/* The walk is the remembering one; where the mesh leads it in a circle the celestial one takes over. */
-static mw_verdict find(const mw_fabric *f, mw_point q, uint32_t *t)
+static MW_INLINE bool is_beyond(const mw_fabric *f, const mw_sight *a, const mw_sight *b, mw_point q)
 {
-    mw_walk walk = mw__walk_begin(f->tiling, q, *t, mw__walk_fuel(MW_WALK_REMEMBERING, MW_EXACT, f->tiling), 0, NULL);
-    mw_verdict verdict = mw__remembering.run[true][false](&walk);
-    if (verdict == MW_DRY) verdict = mw__walk_surely(&walk, false);
+    return mw__sights_side(f, a, b, q) < 0;
+}
+
+static void see_corners(const mw_fabric *f, uint32_t t, mw_point q, mw_sight corner[3])
+{
+    for (int k = 0; k < 3; k++) corner[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
+}
+
+/* Where the mesh is not Delaunay the remembering walk may go in a circle. */
+static __attribute__((noinline)) bool find_surely(const mw_fabric *f, mw_point q, uint32_t *t, mw_sight corner[3])
+{
+    mw_walk walk = mw__walk_begin(f->tiling, q, *t, 0, 0, NULL);
+    bool inside = mw__walk_surely(&walk, false) == MW_FOUND;
     *t = walk.t;
-    return verdict;
+    see_corners(f, walk.t, q, corner);
+    return inside;
+}
+
+/* The remembering walk from tile *t on [thesis, App. A, sec. 2], written once more because what it saw of the corners is of use for what
+ * follows. Is q in the tile *t where it ends? Else it is outside, beyond an edge of that. */
+static bool find(const mw_fabric *f, mw_point q, uint32_t *t, mw_sight corner[3])
+{
+    const mw_triangle *tri = f->tiling->tri;
+    uint32_t at = *t, fuel = f->tiling->tri_count, e = 0, exit = MW_NONE;
+    see_corners(f, at, q, corner);
+    mw_sight a = corner[0], b = corner[1], c = corner[2];
+    if (is_beyond(f, &a, &b, q)) {
+        exit = 0, c = a, a = b, b = c;
+    } else if (is_beyond(f, &b, &c, q)) {
+        exit = 1, a = c;
+    } else if (is_beyond(f, &c, &a, q)) {
+        exit = 2, b = c;
+    }
+    while (exit != MW_NONE) { /* by an edge from b to a, which in the next tile goes from a to b */
+        uint32_t link = tri[at].link[exit];
+        if (link == MW_NONE) {
+            *t = at;
+            return false;
+        }
+        if (MW_UNLIKELY(fuel-- == 0)) return find_surely(f, q, t, corner);
+        at = mw__link_triangle(link);
+        e = mw__link_edge(link);
+        c = mw__sight_of(f, tri[at].v[mw__prev(e)], q);
+        exit = MW_NONE;
+        if (is_beyond(f, &b, &c, q)) {
+            exit = mw__next(e), a = c;
+        } else if (is_beyond(f, &c, &a, q)) {
+            exit = mw__prev(e), b = c;
+        }
+    }
+    *t = at;
+    corner[e] = a;
+    corner[mw__next(e)] = b;
+    corner[mw__prev(e)] = c;
+    return true;
 }
 
 static mw_status refuse_outside(mw_point q, mw_error *error)
@@ -108,30 +157,18 @@ typedef struct fan {
     uint32_t first, last;
 } fan;
 
-/* MW_NONE from mw__add_tile means one of two things. */
-static mw_status tile_failure(const mw_fabric *f, mw_error *error)
+static mw_status tile_failure(const mw_fabric *f, size_t n, mw_error *error)
 {
-    if (f->tiling->number_count >= MW_USER_MASK || f->tiling->tri_count >= MW_MAX_TRIANGLES)
+    if (f->tiling->number_count > MW_USER_MASK - n || f->tiling->tri_count > MW_MAX_TRIANGLES - n)
         return mw__fail(error, MW_ERROR_LIMIT, "no more numbers for triangles");
     return mw__fail_memory(error);
-}
-
-/* New tiles beside tile `beside`, as many as the hole has steps more than tiles. */
-static mw_status add_tiles(mw_fabric *f, const hole *h, uint32_t beside, mw_error *error)
-{
-    for (size_t i = h->tiles; i < h->steps; i++) {
-        uint32_t t = mw__add_tile(f, mw__user_beside(f, beside));
-        if (t == MW_NONE) return tile_failure(f, error);
-        f->pool[h->pool + i] = t;
-    }
-    return MW_OK;
 }
 
 /* Fill the hole with tiles round v: its own, and others beside tile `beside`. */
 static mw_status fill(mw_fabric *f, const hole *h, uint32_t v, uint32_t beside, fan *made, mw_error *error)
 {
-    mw_status status = add_tiles(f, h, beside, error);
-    if (status) return status;
+    size_t more = h->steps - h->tiles;
+    if (!mw__add_tiles(f, beside, (uint32_t)more, f->pool + h->pool + h->tiles)) return tile_failure(f, more, error);
     mw_triangle *tri = f->tiling->tri;
     uint32_t *tile_at = f->tiling->tile_at, before = MW_NONE;
     const uint32_t *pool = f->pool + h->pool;
@@ -279,22 +316,19 @@ static mw_status put_inside(mw_fabric *f, uint32_t t, const mw_sight corner[3], 
     return put_in_tile(f, t, corner, q, v, error);
 }
 
-/* See the corners of tile t from q; the one that lies there, 3 if none does. */
-static uint32_t look(const mw_fabric *f, uint32_t t, mw_point q, mw_sight corner[3])
+/* The corner that lies at the point from which the three are seen; 3 if none does. */
+static uint32_t corner_there(const mw_sight corner[3])
 {
     uint32_t at = 3;
-    for (uint32_t k = 0; k < 3; k++) {
-        corner[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
-        if (corner[k].x == 0 && corner[k].y == 0) at = k;
-    }
+    for (uint32_t k = 0; k < 3; k++) at = corner[k].x == 0 && corner[k].y == 0 ? k : at;
     return at;
 }
 
 mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error)
 {
     mw_sight corner[3];
-    bool inside = find(f, q, &t) == MW_FOUND;
-    uint32_t at = inside ? look(f, t, q, corner) : 3;
+    bool inside = find(f, q, &t, corner);
+    uint32_t at = inside ? corner_there(corner) : 3;
     f->last = t;
     if (at < 3) {
         *vertex = corner[at].vertex;

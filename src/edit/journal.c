@@ -6,7 +6,7 @@
 
 bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit)
 {
-    if (!mw__journal_room(f)) return false;
+    if (!mw__journal_room(f, 1)) return false;
     if (f->step_count == f->step_room) {
         size_t room = f->step_room + f->step_room / 2 + 4;
         mw_step *step = mw__realloc(f->step, room, sizeof *step);
@@ -16,6 +16,7 @@ bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit)
     }
     const mw_tiling *tiling = f->tiling;
     f->step[f->step_count++] = (mw_step){.edit = *edit,
+                                         .edits = 1,
                                          .journal = f->before_count,
                                          .tiles = tiling->tri_count,
                                          .ghosts = tiling->ghost_count,
@@ -40,6 +41,8 @@ void mw__fabric_commit(mw_fabric *f)
 {
     const mw_before *first;
     size_t count = mw__fabric_journal(f, &first);
+    mw_step *step = &f->step[f->step_count - 1];
+    step->made = f->vertex_count - step->vertices;
     clear_marks(f, first, count);
 }
 
@@ -76,12 +79,13 @@ static void exchange_tiles(mw_fabric *f, const mw_step *step)
 static void restore_vertices(mw_fabric *f, const mw_step *step)
 {
     mw_tiling *tiling = f->tiling;
-    if (f->vertex_count > step->vertices) { /* one was made */
+    while (f->vertex_count > step->vertices) { /* the last one made first */
         uint32_t v = f->vertex_place[--f->vertex_count];
         tiling->tile_at[v] = MW_NONE;
-        if (f->free_count < step->free_places) f->free_place[f->free_count++] = v;
-        tiling->point_count = step->points;
-    } else if (f->free_count > step->free_places) {
+        if (v < step->points) f->free_place[f->free_count++] = v;
+    }
+    tiling->point_count = step->points;
+    if (f->free_count > step->free_places) {
         uint32_t v = f->free_place[--f->free_count];
         f->vertex_number[v] = step->number;
         f->vertex_place[step->number] = v;

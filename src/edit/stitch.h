@@ -6,20 +6,24 @@
 
 #include "edit/fabric.h"
 
+bool mw__journal_room(mw_fabric *f, size_t more); /* for so many records */
+
 /* Put the record of a tile into the journal of this edit, before its corners, marks or neighbours beyond a hull edge change. */
-bool mw__journal_more(mw_fabric *f, uint32_t t);
-bool mw__journal_room(mw_fabric *f); /* for one record */
 static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
 {
-    return f->mark[t] & MW_JOURNALED || mw__journal_more(f, t);
+    if (f->mark[t] & MW_JOURNALED) return true;
+    if (MW_UNLIKELY(f->before_count == f->before_room) && !mw__journal_room(f, 1)) return false;
+    mw_before *before = &f->before[f->before_count++];
+    before->place = t;
+    before->mark = f->mark[t] & MW_FIXED_EDGES;
+    before->tile = f->tiling->tri[t];
+    f->mark[t] |= MW_JOURNALED;
+    return true;
 }
 
-/* A tile at the end of the array, not journaled as one that was there; `user` as in the record, without links. MW_NONE when out of
- * memory or numbers (mw__tile_failure). */
-uint32_t mw__add_tile(mw_fabric *f, uint32_t user);
-
-/* The mark of a tile that is made beside tile t: a number of its own, or that of the ghost. */
-uint32_t mw__user_beside(mw_fabric *f, uint32_t t);
+/* n tiles at the end of the array, not journaled as ones that were there, with numbers of their own, or that of the ghost `beside`; corners,
+ * links and fixed edges are to be set. False when out of memory or numbers. */
+bool mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles);
 
 /* Free the number of a tile of the user's, which leads to another one from here on. */
 void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir);

@@ -18,6 +18,7 @@ static void begin_anew(mw_upkeep *u, mw_start_kind start)
     enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4, VERTICES_PER_EDIT = 2 };
     uint64_t n = live_vertices(u->fabric);
     u->since[start] = (mw_since){
+        .built = true,
         .most_edits = FEW + (start == MW_START_AUTO ? n / VERTICES_PER_EDIT : EDITS_PER_VERTEX * n),
         .most_outsiders = FEW + n / OUTSIDERS,
         .fewest = (n + 1) / 2,
@@ -117,7 +118,7 @@ enum { KEPT = sizeof kept / sizeof *kept };
 
 static bool is_built(const mw_upkeep *u, mw_start_kind start)
 {
-    return start == MW_START_AUTO || u->index[start].start == start;
+    return u->since[start].built;
 }
 
 /* Build anew what is built. Without memory the old one stays, and it is tried again when it is due again. */
@@ -168,8 +169,8 @@ static void note_place(mw_upkeep *u, mw_point p)
 {
     double *low = u->locator->low, *high = u->locator->high;
     u->since[MW_START_AUTO].outsiders += !covers(&u->locator->guide, p);
-    u->since[MW_START_GRID].outsiders += !covers(&u->index[MW_START_GRID], p);
-    u->since[MW_START_TWO_LEVEL_GRID].outsiders += !covers(&u->index[MW_START_TWO_LEVEL_GRID], p);
+    for (int i = 1; i < KEPT; i++)
+        if (is_built(u, kept[i])) u->since[kept[i]].outsiders += !covers(&u->index[kept[i]], p);
     if (p.x < low[0]) low[0] = p.x;
     if (p.y < low[1]) low[1] = p.y;
     if (p.x > high[0]) high[0] = p.x;
@@ -214,17 +215,13 @@ static bool is_there(const mw_fabric *f, uint32_t v)
     return v < f->tiling->point_count && f->tiling->tile_at[v] != MW_NONE;
 }
 
-/* What became of the vertex of an edit: the layers follow it. */
-static bool follow(mw_upkeep *u, const mw_step *step, bool undone)
+/* What an edit did to a vertex: the layers follow it. */
+static bool follow(mw_upkeep *u, const mw_step *step, uint32_t v)
 {
     const mw_fabric *f = u->fabric;
-    uint32_t v = step->vertex;
     bool there = is_there(f, v);
     switch (step->edit.kind) {
     case MW_EDIT_INSERT:
-        if (undone) return there || mw__live_layers_remove(&u->live, v);
-        if (f->vertex_count == step->vertices) return true; /* there was one already */
-        return mw__live_layers_insert(&u->live, v, f->tiling->point[v]);
     case MW_EDIT_REMOVE:
         return there ? mw__live_layers_insert(&u->live, v, f->tiling->point[v]) : mw__live_layers_remove(&u->live, v);
     case MW_EDIT_MOVE: return mw__live_layers_move(&u->live, v, f->tiling->point[v]);
@@ -233,6 +230,27 @@ static bool follow(mw_upkeep *u, const mw_step *step, bool undone)
 }
 
 /* --- after an edit ----------------------------------------------------------------------------------------------------- */
+
+/* One of the vertices that an edit made, or the one that it moved or took out. An insertion where there was one did nothing. */
+static uint32_t followed(const mw_upkeep *u, const mw_step *step, uint32_t i)
+{
+    return step->edit.kind == MW_EDIT_INSERT ? u->fabric->vertex_place[step->vertices + i] : step->vertex;
+}
+
+static void follow_vertices(mw_upkeep *u, const mw_step *step)
+{
+    const mw_fabric *f = u->fabric;
+    uint32_t n = step->edit.kind == MW_EDIT_INSERT ? step->made : step->vertex != MW_NONE;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t v = followed(u, step, i);
+        if (is_there(f, v)) note_place(u, f->tiling->point[v]);
+    }
+    if (!u->live.layers) return;
+    bool even = true; /* what is built anew knows all vertices already */
+    for (uint32_t i = 0; i < n && even; i++)
+        even = follow(u, step, followed(u, step, i)) && mw__live_layers_even(&u->live);
+    if (!even) refresh(u, MW_START_LAYERS);
+}
 
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
 {
@@ -245,16 +263,23 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     u->locator->epoch++;
     if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
     if (undone) redirect_names(u, step, first, count);
-    uint32_t v = step->vertex;
-    if (v != MW_NONE && is_there(f, v)) note_place(u, tiling->point[v]);
     note_tiles(u, first, count);
-    if (v != MW_NONE && u->live.layers && !(follow(u, step, undone) && mw__live_layers_even(&u->live)))
-        refresh(u, MW_START_LAYERS);
+    follow_vertices(u, step);
     for (int i = 0; i < KEPT; i++) {
         if (!is_built(u, kept[i])) continue;
-        u->since[kept[i]].edits++;
+        u->since[kept[i]].edits += step->edits;
         if (is_due(&u->since[kept[i]], live_vertices(f))) refresh(u, kept[i]);
     }
+}
+
+void mw__upkeep_grow(mw_upkeep *u)
+{
+    if (live_vertices(u->fabric) > u->since[MW_START_AUTO].most) refresh(u, MW_START_AUTO);
+}
+
+void mw__upkeep_rolled_back(mw_upkeep *u)
+{
+    if (live_vertices(u->fabric) < u->since[MW_START_AUTO].fewest) refresh(u, MW_START_AUTO);
 }
 
 void mw__upkeep_compact(mw_upkeep *u)

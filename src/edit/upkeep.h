@@ -21,7 +21,8 @@
 
 /* When is it to be built anew? */
 typedef struct mw_since {
-    uint32_t edits, outsiders;           /* since it was built: edits; vertices put where it has no cells */
+    bool built;
+    uint64_t edits, outsiders;           /* since it was built: edits; vertices put where it has no cells */
     uint64_t most_edits, most_outsiders; /* as many are borne                                             */
     uint64_t fewest, most;               /* vertices                                                      */
 } mw_since;
@@ -49,6 +50,12 @@ mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_inde
 /* After an edit was committed, or (undone) reverted, and before its step is forgotten or dropped: its journal tells what changed. Raises the
  * locator's epoch, by which cursors know that their tile has another place. */
 void mw__upkeep_edit(mw_upkeep *upkeep, bool undone);
+
+/* In the middle of an edit that puts in many vertices: the guide is built anew if there are twice as many. */
+void mw__upkeep_grow(mw_upkeep *upkeep);
+
+/* After an edit that did so failed, and was rolled back. */
+void mw__upkeep_rolled_back(mw_upkeep *upkeep);
 
 /* After everything was numbered anew: all is built anew. Raises the epoch so that cursors know that names are other ones. */
 void mw__upkeep_compact(mw_upkeep *upkeep);

@@ -1,0 +1,115 @@
+/* insert_points.c - many points at once: one step, whose journal has each tile once. */
+#include "edit/editor.h"
+#include "edit/stitch.h"
+
+#include "mesh/curve.h"
+
+#include <stdlib.h>
+
+/* --- in which order ----------------------------------------------------------------------------------------------------- */
+
+/* Do the points come along a curve? One that fills their extent makes steps of its diameter over sqrt(n), on average, points in random order
+ * half the diameter. */
+static bool come_along(const mw_point *p, size_t n)
+{
+    enum { LONGER = 4 };
+    double low[2] = {p[0].x, p[0].y}, high[2] = {p[0].x, p[0].y}, way = 0;
+    for (size_t i = 1; i < n; i++) {
+        way += fabs(p[i].x - p[i - 1].x) + fabs(p[i].y - p[i - 1].y);
+        low[0] = fmin(low[0], p[i].x);
+        low[1] = fmin(low[1], p[i].y);
+        high[0] = fmax(high[0], p[i].x);
+        high[1] = fmax(high[1], p[i].y);
+    }
+    return way <= LONGER * sqrt((double)n) * (high[0] - low[0] + high[1] - low[1]);
+}
+
+/* order[n], owned by the caller, or NULL for the order in which they come; false when out of memory. */
+static bool choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t **order)
+{
+    *order = NULL;
+    if (come_along(p, n)) return true;
+    *order = mw__alloc(n, sizeof **order);
+    if (*order && mw__curve_order(p, (uint32_t)n, threads, *order)) return true;
+    free(*order);
+    return false;
+}
+
+/* --- one step ----------------------------------------------------------------------------------------------------------- */
+
+typedef struct batch {
+    const mw_point *point;
+    size_t n;
+    uint32_t *order;
+} batch;
+
+static size_t item(const batch *b, size_t i)
+{
+    return b->order ? b->order[i] : i;
+}
+
+static mw_edit insertion(const batch *b, size_t i)
+{
+    mw_point p = b->point[item(b, i)];
+    return (mw_edit){.kind = MW_EDIT_INSERT, .x = p.x, .y = p.y, .value = NAN};
+}
+
+static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *own, mw_error *error)
+{
+    mw_error why;
+    for (size_t i = 0; i < b->n; i++) {
+        const mw_edit edit = insertion(b, i);
+        mw_change one = {.vertex = MW_NONE};
+        mw_status status = mw__editor_insert(editor, &edit, &one, &why);
+        if (status == MW_ERROR_MEMORY) return mw__fail_memory(error);
+        if (status) return mw__fail(error, status, "point %zu: %s", item(b, i), why.message);
+        if (one.vertex_made && own->vertex_made++ == 0) own->vertex = one.vertex;
+        if (vertices) vertices[item(b, i)] = one.vertex;
+        mw__upkeep_grow(&editor->upkeep);
+    }
+    return MW_OK;
+}
+
+enum { TILES_PER_POINT = 6 }; /* that are made or changed; room that is not used takes addresses only */
+
+static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *change, mw_error *error)
+{
+    mw_fabric *f = &editor->fabric;
+    mw_change own = {.vertex = MW_NONE};
+    const mw_edit first = insertion(b, 0);
+    if (!mw__log_room(editor, b->n) || !mw__fabric_begin(f, &first) || !mw__journal_room(f, TILES_PER_POINT * b->n))
+        return mw__fail_memory(error);
+    f->step[f->step_count - 1].edits = b->n;
+    mw_status status = insert_all(editor, b, vertices, &own, error);
+    status = mw__editor_conclude(editor, status, &own, change, error);
+    if (status) mw__upkeep_rolled_back(&editor->upkeep);
+    for (size_t i = 0; i < b->n && !status && editor->keeps_log; i++)
+        editor->log[editor->log_count++] = insertion(b, i);
+    return status;
+}
+
+/* --- the public function --------------------------------------------------------------------------------------------------- */
+
+static mw_point *copy_points(const double *points, size_t n, size_t stride)
+{
+    mw_point *copy = mw__alloc(n, sizeof *copy);
+    for (size_t i = 0; i < n && copy; i++) copy[i] = (mw_point){points[i * stride], points[i * stride + 1]};
+    return copy;
+}
+
+mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n, size_t stride, uint32_t *vertices,
+                                mw_change *change, mw_error *error)
+{
+    if (!editor || (!points && n > 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor and points");
+    if (stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "points are two doubles apart, or more");
+    if (n >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many points");
+    if (change) *change = (mw_change){.vertex = MW_NONE};
+    if (n == 0) return MW_OK;
+    mw_point *own = copy_points(points, n, stride ? stride : 2);
+    batch b = {own, n, NULL};
+    mw_status status = own && choose_order(own, n, editor->threads, &b.order) ? run(editor, &b, vertices, change, error)
+                                                                              : mw__fail_memory(error);
+    free(b.order);
+    free(own);
+    return status;
+}
