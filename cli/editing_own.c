@@ -72,6 +72,14 @@ static void corners_of(const mw_editor *editor, uint32_t triangle, double corner
     for (int k = 0; k < 3; k++) mw_editor_vertex(editor, v[k], corners + 2 * k);
 }
 
+/* Points lie in the steps as far apart as these. */
+static mw_status insert_points(own *o, const script *s)
+{
+    _Static_assert(sizeof(script_step) % sizeof(double) == 0, "steps are some doubles apart");
+    return mw_edit_insert_points(o->editor, s->steps->point, s->count, sizeof(script_step) / sizeof(double), NULL, NULL,
+                                 NULL);
+}
+
 /* Nothing is asked about what changed, as CGAL tells nothing: the number of a new vertex is the next one. */
 static double run(void *self, const script *s, double *corners)
 {
@@ -80,6 +88,10 @@ static double run(void *self, const script *s, double *corners)
     uint32_t inserted = (uint32_t)s->point_count;
     const mw_locator *locator = mw_editor_locator(o->editor);
     double clock = tally_clock();
+    if (s->at_once) {
+        status = insert_points(o, s);
+        return status == MW_OK ? tally_clock() - clock : EDITING_FAILED;
+    }
     for (const script_step *step = s->steps; step < s->steps + s->count && status == MW_OK; step++) {
         const double *p = step->point;
         switch (step->kind) {

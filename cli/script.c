@@ -160,6 +160,7 @@ static int make(maker *m, editing_task task, size_t steps)
     for (; m->alive_count < s->point_count; m->alive_count++) m->alive[m->alive_count] = (uint32_t)m->alive_count;
     int end = task == EDITING_INSERT_SORTED ? sort_fresh(m, steps) : task == EDITING_MOVE_NEAR ? find_reach(m) : 0;
     s->hinted = task == EDITING_INSERT_SORTED;
+    s->at_once = task == EDITING_INSERT_MANY;
     if (end == 0) write_steps(m, task, steps);
     return end;
 }

@@ -12,6 +12,7 @@
 typedef enum editing_task {
     EDITING_INSERT,        /* points in random order        */
     EDITING_INSERT_SORTED, /* points along a Hilbert curve */
+    EDITING_INSERT_MANY,   /* points in random order, given at once */
     EDITING_REMOVE,        /* random vertices        */
     EDITING_MOVE_NEAR,     /* random vertices, each a tenth of the mean length of its
                         edges               */
