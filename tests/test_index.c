@@ -378,7 +378,6 @@ static void test_outside(void **state)
             q[2 * i + 1] = i & 2 ? along : out;
         }
         for (int own = 0; own < 2; own++) {
-            if (!own && kind == 2) continue; /* too uneven for the guide to be a grid */
             mw_query_options options = {.index = own ? grid : NULL, .count = 1};
             mw_counters counters = answers(locator, &options, q, QUERIES, at);
             for (size_t k = 0; k < QUERIES; k++) assert_int_equal(at[k].where, MW_OUTSIDE);
@@ -389,6 +388,46 @@ static void test_outside(void **state)
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);
     }
+}
+
+/* Small clusters, far apart: between them the guide is a grid, in them a sample along the curve. */
+static void test_crowded(void **state)
+{
+    (void)state;
+    enum { N = 100000, CLUSTERS = 50, QUERIES = 20000 };
+    uint64_t random = 14;
+    double *p = malloc(2 * N * sizeof *p), centre[2 * CLUSTERS];
+    for (size_t i = 0; i < 2 * CLUSTERS; i++) centre[i] = random_unit(&random);
+    for (size_t i = 0; i < N; i++) {
+        const double *c = &centre[2 * mw__random_below(&random, CLUSTERS)];
+        double radius = 0.002 * random_unit(&random), angle = 6.28 * random_unit(&random);
+        p[2 * i] = c[0] + radius * cos(angle);
+        p[2 * i + 1] = c[1] + radius * sin(angle);
+    }
+    mw_mesh *mesh;
+    mw_error error;
+    if (mw_delaunay(p, N, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+    double *q = malloc(2 * QUERIES * sizeof *q);
+    mw_location *at = malloc(2 * QUERIES * sizeof *at), *want = at + QUERIES;
+    for (int at_vertices = 0; at_vertices < 2; at_vertices++) {
+        for (size_t i = 0; i < QUERIES; i++)
+            for (size_t k = 0; k < 2; k++)
+                q[2 * i + k] = at_vertices ? p[2 * i + k] + 1e-6 * random_unit(&random) : random_unit(&random);
+        mw_counters counters = answers(locator, &(mw_query_options){.count = 1}, q, QUERIES, at);
+        double visited = (double)counters.triangles_visited / QUERIES;
+        printf("%s clusters: %.2f triangles a query\n", at_vertices ? "in" : "between", visited);
+        assert_true(visited < 8);
+        answers(locator, &(mw_query_options){.walk = MW_WALK_CELESTIAL, .start = MW_START_SORTED}, q, QUERIES, want);
+        for (size_t i = 0; i < QUERIES; i++) expect_same(&want[i], &at[i], q + 2 * i, "counted");
+        answers(locator, NULL, q, QUERIES, at);
+        for (size_t i = 0; i < QUERIES; i++) expect_same(&want[i], &at[i], q + 2 * i, "plain");
+    }
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    free(at);
+    free(q);
+    free(p);
 }
 
 static void test_describe(void **state)
@@ -534,6 +573,7 @@ int main(void)
         cmocka_unit_test(test_fill),     cmocka_unit_test(test_other_mesh), cmocka_unit_test(test_guides_well),
         cmocka_unit_test(test_describe), cmocka_unit_test(test_refuses),    cmocka_unit_test(test_auto),
         cmocka_unit_test(test_memory),   cmocka_unit_test(test_stretched),  cmocka_unit_test(test_outside),
+        cmocka_unit_test(test_crowded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

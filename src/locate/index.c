@@ -21,7 +21,7 @@ mw_status mw__index_build(mw_index *index, const mw_locator *locator, const mw_i
     if (options->cells > MW_MAX_CELLS) return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
     bool done = false;
     switch (index->start) {
-    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, options->cells, 1, NULL); break;
+    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, options->cells); break;
     case MW_START_TWO_LEVEL_GRID:
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, options->cells);
         break;
@@ -143,14 +143,19 @@ static void two_level_grid_first_many(const mw_two_level_grid *grid, const mw_po
     for (uint32_t i = 0; i < n; i++) t[i] = mw__two_level_grid_first(grid, q[i]);
 }
 
+/* Cells that are crowded leave their points to the curve: these are moved up, and afterwards put in their places. */
 static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t n, uint32_t *t)
 {
-    for (uint32_t i = 0; i < n; i++) {
-        t[i] = mw__hilbert_key(&curve->hilbert, q[i].x, q[i].y);
-        __builtin_prefetch(&curve->from[t[i] >> curve->shift]);
+    uint32_t left[MW_INDEX_MANY], key[MW_INDEX_MANY], count = 0;
+    if (curve->sparse.tile) grid_first_many(&curve->sparse, q, n, t);
+    for (uint32_t i = 0; i < n; i++)
+        if (!curve->sparse.tile || t[i] == MW_NONE) left[count++] = i;
+    for (uint32_t i = 0; i < count; i++) {
+        key[i] = mw__hilbert_key(&curve->hilbert, q[left[i]].x, q[left[i]].y);
+        __builtin_prefetch(&curve->from[key[i] >> curve->shift]);
     }
-    for (uint32_t i = 0; i < n; i++) __builtin_prefetch(&curve->sample[curve->from[t[i] >> curve->shift] - 1]);
-    for (uint32_t i = 0; i < n; i++) t[i] = mw__curve_at(curve, t[i]);
+    for (uint32_t i = 0; i < count; i++) __builtin_prefetch(&curve->sample[curve->from[key[i] >> curve->shift] - 1]);
+    for (uint32_t i = 0; i < count; i++) t[left[i]] = mw__curve_at(curve, key[i]);
 }
 
 /* From names to tiles. */

@@ -77,32 +77,47 @@ static void find_extent(const mw_tiling *tiling, double low[2], double high[2])
     }
 }
 
-/* How queries begin where nothing is said: by a grid, or, where vertices are crowded, by a sample of the tiles along a Hilbert
+/* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie along one. Tiles that are edited do not
+ * keep to a curve; there crowded cells are grids themselves. False when out of memory. */
+static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, uint32_t cells)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    mw_curve curve = {0};
+    bool done = tiling->tile_of || mw__curve_create(&curve, tiling, locator->low, locator->high, 0);
+    if (curve.regular) {
+        mw__grid_end(&guide->grid, plan, true);
+        curve.sparse = guide->grid;
+        *guide = (mw_index){.start = MW_START_CURVE, .curve = curve};
+        return true;
+    }
+    mw__curve_release(&curve);
+    if (plan->even) {
+        mw__grid_end(&guide->grid, plan, false);
+        return done;
+    }
+    free(plan->site);
+    mw__index_release(guide);
+    *guide = (mw_index){.start = tiling->tile_of ? MW_START_TWO_LEVEL_GRID : MW_START_AUTO};
+    if (!tiling->tile_of) return done;
+    return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells);
+}
+
+/* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of the tiles along a Hilbert
  * curve, if they lie so. The grid is small, for half a byte a triangle, and of little work: a larger one makes queries up to
- * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. Tiles that are edited do not keep to a
- * curve; there crowded cells are grids themselves. */
+ * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. */
 enum { TRIANGLES_PER_CELL = 8 };
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
     enum { STRIDE = 2 };
     const mw_tiling *tiling = &locator->tiling;
-    bool even;
     *guide = (mw_index){0};
     if (tiling->open || !tiling->embedding) return true;
     uint32_t cells = tiling->tri_count / TRIANGLES_PER_CELL + 1;
+    mw_grid_plan plan = {.tiling = tiling, .stride = STRIDE};
     guide->start = MW_START_GRID;
-    if (!mw__grid_create(&guide->grid, tiling, locator->low, locator->high, cells, STRIDE, &even)) return false;
-    if (even) return true;
-    mw__index_release(guide);
-    if (tiling->tile_of) {
-        guide->start = MW_START_TWO_LEVEL_GRID;
-        return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells);
-    }
-    guide->start = MW_START_CURVE;
-    if (!mw__curve_create(&guide->curve, tiling, locator->low, locator->high, 0)) return false;
-    if (guide->curve.regular) return true;
-    mw__index_release(guide);
-    guide->start = MW_START_AUTO;
+    if (!mw__grid_begin(&guide->grid, &plan, locator->low, locator->high, cells)) return false;
+    if (plan.crowded || !plan.even) return guide_crowd(locator, guide, &plan, cells);
+    mw__grid_end(&guide->grid, &plan, false);
     return true;
 }
 

@@ -74,9 +74,11 @@ void mw__curve_release(mw_curve *curve)
 {
     free(curve->sample);
     free(curve->from);
+    mw__grid_release(&curve->sparse);
 }
 
 size_t mw__curve_bytes(const mw_curve *curve)
 {
-    return curve->count * sizeof *curve->sample + ((size_t)buckets(curve) + 1) * sizeof *curve->from;
+    size_t grid = curve->sparse.tile ? mw__grid_bytes(&curve->sparse) : 0;
+    return grid + curve->count * sizeof *curve->sample + ((size_t)buckets(curve) + 1) * sizeof *curve->from;
 }

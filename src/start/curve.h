@@ -4,6 +4,7 @@
 
 #include "base/hilbert.h"
 #include "domain/tiling.h"
+#include "start/grid.h"
 
 typedef struct mw_curve {
     mw_hilbert hilbert;
@@ -13,6 +14,8 @@ typedef struct mw_curve {
     uint32_t count, shift;
     uint32_t near; /* so many tiles at most lie between samples that are neighbours on the curve and in memory */
     bool regular;  /* nearly all neighbours on the curve are such */
+    mw_grid
+        sparse; /* of a guide: its cells name a tile where few are; MW_NONE: ask the curve. Without it, tile is NULL */
 } mw_curve;
 
 /* Sample about `samples` tiles (0: MW_CURVE_STRIDE) of a tiling with the extent low..high. Returns false when out of
@@ -40,6 +43,10 @@ static MW_INLINE uint32_t mw__curve_at(const mw_curve *curve, uint32_t key)
 
 static MW_INLINE uint32_t mw__curve_first(const mw_curve *curve, mw_point q)
 {
+    if (curve->sparse.tile) {
+        uint32_t t = mw__grid_first(&curve->sparse, q);
+        if (t != MW_NONE) return t;
+    }
     return mw__curve_at(curve, mw__hilbert_key(&curve->hilbert, q.x, q.y));
 }
 

@@ -9,11 +9,30 @@ typedef struct mw_grid {
     uint32_t *tile; /* of each cell: the name of the one that holds its middle, or near it */
 } mw_grid;
 
-/* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the extent of the tiling. Of the
- * tiles every stride-th is looked at: more make walks shorter. *even, unless NULL: a quarter of the cells have one
- * of these; if not, the vertices are too crowded for a grid, and it is left unfinished. Returns false when out of memory. */
-bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
-                     uint32_t stride, bool *even);
+/* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the extent of the tiling. Returns
+ * false when out of memory. */
+bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
+
+/* What is known of a cell while its grid is built. */
+typedef struct mw_grid_site {
+    float off; /* how far the middle of its tile is off its own, in widths of a cell, squared; infinite: it has none */
+    uint32_t
+        count; /* tiles in it, of those that were looked at                                                          */
+} mw_grid_site;
+
+/* The same in two steps, so that between them the choice can be made by what was seen. Of the tiles every stride-th is looked at: more
+ * make walks shorter. */
+typedef struct mw_grid_plan {
+    const mw_tiling *tiling;
+    uint32_t stride;
+    mw_grid_site *site; /* of each cell; released by mw__grid_end, or with free() */
+    bool even;          /* a quarter of the cells has a tile that was looked at   */
+    bool crowded;       /* a quarter of the tiles lies in cells with very many    */
+} mw_grid_plan;
+
+bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells);
+/* With `sparse` crowded cells are left without a tile: MW_NONE. */
+void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);
 
