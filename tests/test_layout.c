@@ -97,6 +97,21 @@ static void expect_same(const mw_mesh *a, const mw_mesh *b)
     assert_int_equal(a->flipped_count, b->flipped_count);
 }
 
+/* What the mesh tells of its edges is so. */
+static void expect_true_count(const mw_mesh *mesh)
+{
+    uint32_t border = 0;
+    for (uint32_t t = 0; t < mesh->tri_count && mesh->opposite; t++)
+        for (uint32_t k = 0; k < 3; k++) {
+            const mw_triangle *tri = &mesh->tri[t];
+            border += tri->link[k] == MW_NONE;
+            if (tri->link[k] == MW_NONE) continue;
+            const mw_triangle *other = &mesh->tri[mw__link_triangle(tri->link[k])];
+            assert_int_equal(other->v[mw__link_edge(tri->link[k])], tri->v[k + 1]);
+        }
+    if (mesh->opposite) assert_int_equal(mesh->border_count, border);
+}
+
 /* Neighbours in the plane are neighbours in memory: few links lead far. */
 static void expect_local(const mw_mesh *mesh)
 {
@@ -124,9 +139,97 @@ static void test_same_mesh_threads(void **state)
             assert_non_null(laid->vertex_place);
             expect_same(kept, laid);
             expect_local(laid);
+            assert_true(laid->opposite);
+            expect_true_count(laid);
             mw_mesh_destroy(laid);
         }
     mw_mesh_destroy(kept);
+    release(&s);
+}
+
+static void expect_same_laid_out(const scene *s)
+{
+    mw_mesh *kept, *laid;
+    assert_int_equal(create(s, 2, 1, &kept, NULL), MW_OK);
+    for (uint32_t threads = 1; threads < 4; threads++) {
+        assert_int_equal(create(s, 1, threads, &laid, NULL), MW_OK);
+        expect_same(kept, laid);
+        expect_true_count(laid);
+        mw_mesh_destroy(laid);
+    }
+    mw_mesh_destroy(kept);
+}
+
+/* Vertices at wrong places: triangles are folded over others, some without an area. */
+static void test_folded_threads(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    for (uint32_t share = 1; share <= 1000; share *= 10) {
+        scene s = make_scene(120, share);
+        for (uint32_t i = 0; i < s.point_count; i++)
+            if (mw__random_below(&random, share) == 0) s.points[2 * (size_t)i] = mw__random_below(&random, 120);
+        expect_same_laid_out(&s);
+        release(&s);
+    }
+}
+
+/* Triangles that share no vertex, and one vertex that all share, without an edge between. */
+static void test_loose_threads(void **state)
+{
+    (void)state;
+    enum { TRIANGLES = 20000 };
+    uint64_t random = 5;
+    for (int hub = 0; hub < 2; hub++) {
+        scene s = {.point_count = 3 * TRIANGLES, .triangle_count = TRIANGLES};
+        s.points = malloc(2 * (size_t)s.point_count * sizeof *s.points);
+        s.triangles = malloc(3 * (size_t)TRIANGLES * sizeof *s.triangles);
+        for (uint32_t i = 0; i < 2 * s.point_count; i++) s.points[i] = random_unit(&random);
+        shuffle(s.triangles, s.point_count, &random);
+        for (uint32_t t = 1; t < TRIANGLES && hub; t++) s.triangles[3 * (size_t)t] = s.triangles[0];
+        expect_same_laid_out(&s);
+        release(&s);
+    }
+}
+
+/* Every type of index, and points that are not packed. */
+static void test_views(void **state)
+{
+    (void)state;
+    scene s = make_scene(150, 6);
+    size_t indices = 3 * (size_t)s.triangle_count;
+    double *points = malloc(3 * (size_t)s.point_count * sizeof *points);
+    int64_t *triangles = malloc(indices * sizeof *triangles);
+    for (uint32_t i = 0; i < s.point_count; i++) {
+        points[3 * (size_t)i] = s.points[2 * (size_t)i];
+        points[3 * (size_t)i + 1] = s.points[2 * (size_t)i + 1];
+        points[3 * (size_t)i + 2] = NAN;
+    }
+    for (size_t i = 0; i < indices; i++) triangles[i] = s.triangles[i];
+    mw_arrays view = {.points = points,
+                      .point_count = s.point_count,
+                      .point_stride = 3,
+                      .triangles = s.triangles,
+                      .triangle_count = s.triangle_count,
+                      .index_type = MW_INT32};
+    mw_mesh *kept, *laid;
+    assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
+    for (int wide = 0; wide < 2; wide++) {
+        if (wide) view.triangles = triangles;
+        if (wide) view.index_type = MW_INT64;
+        assert_int_equal(mw_mesh_create(&view, &(mw_mesh_options){.layout = 1, .threads = 2}, &laid, NULL), MW_OK);
+        expect_same(kept, laid);
+        mw_mesh_destroy(laid);
+    }
+    mw_error error;
+    triangles[3 * 777 + 1] = -1;
+    triangles[3 * 888] = INT64_C(1) << 40;
+    assert_int_equal(mw_mesh_create(&view, &(mw_mesh_options){.layout = 1, .threads = 2}, &laid, &error),
+                     MW_ERROR_INPUT);
+    assert_int_equal(error.triangle, 777);
+    mw_mesh_destroy(kept);
+    free(points);
+    free(triangles);
     release(&s);
 }
 
@@ -229,6 +332,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_mesh_threads),
+        cmocka_unit_test(test_folded_threads),
+        cmocka_unit_test(test_loose_threads),
+        cmocka_unit_test(test_views),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_hub),
         cmocka_unit_test(test_curve),

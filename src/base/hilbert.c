@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-enum { CELLS = 1 << 16 };
-
 /* The curve in a quadrant is the curve mirrored at a diagonal or not: state 0 starts at the lower left and ends at the
  * lower right, 1 is its mirror image at the diagonal, 2 and 3 are 0 and 1 turned by 180 degrees.
  * step[state][2 * x + y] = 4 * next state + rank of the quadrant on the curve. */
@@ -33,51 +31,48 @@ mw_hilbert mw__hilbert(const double low[2], const double high[2])
     /* halves, so that an extent of the whole range of doubles does not overflow */
     double half_x = high[0] / 2 - low[0] / 2, half_y = high[1] / 2 - low[1] / 2;
     double half = half_x > half_y ? half_x : half_y;
-    double scale = half > 0 ? CELLS / 2 / half : 0;
+    double scale = half > 0 ? MW_HILBERT_CELLS / 2 / half : 0;
     mw_hilbert hilbert = {.x0 = low[0], .y0 = low[1], .scale = scale < 1e300 ? scale : 0};
     for (uint32_t state = 0; state < 4; state++)
         for (uint32_t cell = 0; cell < 256; cell++) hilbert.leap[state][cell] = leap(state, cell >> 4, cell & 15);
     return hilbert;
 }
 
-static MW_INLINE uint32_t cell(double offset)
+/* By so many digits of so many bits, both constants, from the lowest on. */
+static MW_INLINE void sort_digits(mw_key *keys, mw_key *scratch, size_t n, uint32_t digits, uint32_t bits)
 {
-    /* written so that NaN goes to 0 */
-    return offset > 0 ? offset < CELLS - 1 ? (uint32_t)offset : CELLS - 1 : 0;
-}
-
-uint32_t mw__hilbert_key(const mw_hilbert *hilbert, double x, double y)
-{
-    uint32_t column = cell((x - hilbert->x0) * hilbert->scale);
-    uint32_t row = cell((y - hilbert->y0) * hilbert->scale);
-    uint32_t key = 0, state = 0;
-    for (int bits = 12; bits >= 0; bits -= 4) {
-        uint32_t next = hilbert->leap[state][(column >> bits & 15) << 4 | (row >> bits & 15)];
-        key = key << 8 | (next & 255);
-        state = next >> 8;
-    }
-    return key;
-}
-
-void mw__sort_keys(mw_key *keys, mw_key *scratch, size_t n)
-{
-    enum { DIGITS = 3, BITS = 11, BUCKETS = 1 << BITS };
-    size_t count[DIGITS][BUCKETS];
-    memset(count, 0, sizeof count);
+    enum { DIGITS = 3, BUCKETS = 1 << 12 };
+    uint32_t next[DIGITS][BUCKETS], mask = (UINT32_C(1) << bits) - 1;
+    for (uint32_t d = 0; d < digits; d++) memset(next[d], 0, sizeof(uint32_t) << bits);
     for (size_t i = 0; i < n; i++)
-        for (int d = 0; d < DIGITS; d++) count[d][keys[i].key >> (d * BITS) & (BUCKETS - 1)]++;
+        for (uint32_t d = 0; d < digits; d++) next[d][keys[i].key >> (d * bits) & mask]++;
     mw_key *from = keys, *to = scratch;
-    for (int d = 0; d < DIGITS; d++) {
-        size_t sum = 0;
-        for (int b = 0; b < BUCKETS; b++) {
-            size_t here = count[d][b];
-            count[d][b] = sum;
+    for (uint32_t d = 0; d < digits; d++) {
+        uint32_t sum = 0;
+        for (uint32_t b = 0; b <= mask; b++) {
+            uint32_t here = next[d][b];
+            next[d][b] = sum;
             sum += here;
         }
-        for (size_t i = 0; i < n; i++) to[count[d][from[i].key >> (d * BITS) & (BUCKETS - 1)]++] = from[i];
+        for (size_t i = 0; i < n; i++) to[next[d][from[i].key >> (d * bits) & mask]++] = from[i];
         mw_key *swap = from;
         from = to;
         to = swap;
     }
-    memcpy(keys, from, n * sizeof *keys); /* three passes end in the scratch array */
+    if (from != keys) memcpy(keys, from, n * sizeof *keys);
+}
+
+void mw__sort_keys(mw_key *keys, mw_key *scratch, size_t n)
+{
+    sort_digits(keys, scratch, n, 3, 11);
+}
+
+void mw__sort_keys_by(mw_key *keys, mw_key *scratch, size_t n, uint32_t bits)
+{
+    if (bits <= 22)
+        sort_digits(keys, scratch, n, 2, 11);
+    else if (bits <= 24)
+        sort_digits(keys, scratch, n, 2, 12);
+    else
+        sort_digits(keys, scratch, n, 3, 11);
 }

@@ -13,18 +13,35 @@
  * triangle overlaps them. */
 #include "domain/convex.h"
 
-static bool is_folded(const mw_mesh *mesh, uint32_t t, uint32_t *border_count, uint32_t *border)
+static bool is_folded(const mw_mesh *mesh, uint32_t t)
 {
     const mw_triangle *tri = &mesh->tri[t];
-    for (uint32_t k = 0; k < 3; k++) {
-        if (tri->link[k] == MW_NONE) {
-            (*border_count)++;
-            *border = mw__link(t, k);
-        } else if (mesh->tri[mw__link_triangle(tri->link[k])].v[mw__link_edge(tri->link[k])] == tri->v[k]) {
+    for (uint32_t k = 0; k < 3; k++)
+        if (tri->link[k] != MW_NONE &&
+            mesh->tri[mw__link_triangle(tri->link[k])].v[mw__link_edge(tri->link[k])] == tri->v[k])
             return true;
-        }
-    }
     return false;
+}
+
+/* Is every inner edge run through in opposite directions? Then *count becomes the number of the others. */
+static bool is_unfolded(const mw_mesh *mesh, uint32_t *count)
+{
+    *count = mesh->border_count;
+    if (mesh->opposite) return true; /* whoever linked the triangles has seen it */
+    *count = 0;
+    for (uint32_t t = 0; t < mesh->tri_count; t++) {
+        if (is_folded(mesh, t)) return false;
+        for (uint32_t k = 0; k < 3; k++) *count += mesh->tri[t].link[k] == MW_NONE;
+    }
+    return true;
+}
+
+/* A border edge, of a mesh that has some. */
+static uint32_t find_border(const mw_mesh *mesh)
+{
+    for (uint32_t t = 0;; t++)
+        for (uint32_t k = 0; k < 3; k++)
+            if (mesh->tri[t].link[k] == MW_NONE) return mw__link(t, k);
 }
 
 /* The border edge that follows border edge h: turn round its end, from triangle to triangle, to the border again. */
@@ -69,8 +86,6 @@ static bool loop_is_convex(const mw_mesh *mesh, uint32_t h, uint32_t count)
 bool mw__convex(const mw_mesh *mesh)
 {
     if (mesh->flat_count > 0 || mesh->tri_count == 0) return false; /* what is not usable is flat, too */
-    uint32_t count = 0, border = MW_NONE;
-    for (uint32_t t = 0; t < mesh->tri_count; t++)
-        if (is_folded(mesh, t, &count, &border)) return false;
-    return border != MW_NONE && loop_is_convex(mesh, border, count);
+    uint32_t count;
+    return is_unfolded(mesh, &count) && count > 0 && loop_is_convex(mesh, find_border(mesh), count);
 }

@@ -15,8 +15,10 @@ static bool find_owners(mw_tiling *tiling)
         const mw_triangle *tri = &tiling->tri[t];
         if (tri->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tri))) continue;
         uint32_t user = tri->user & MW_USER_MASK;
-        for (int k = 0; k < 3; k++)
-            if (user < tiling->owner[tri->v[k]]) tiling->owner[tri->v[k]] = user;
+        for (int k = 0; k < 3; k++) {
+            uint32_t *owner = &tiling->owner[tri->v[k]], known = *owner;
+            *owner = user < known ? user : known; /* written anyway: which is lower cannot be foretold */
+        }
     }
     return true;
 }

@@ -14,37 +14,53 @@ enum {
     MOST_BITS = 12   /* of the key, by which it is parted                                              */
 };
 
-static void widen(mw_extent *e, mw_point p)
+static uint32_t chunks_of(uint32_t n)
+{
+    return (uint32_t)(((uint64_t)n + CHUNK - 1) / CHUNK);
+}
+
+static MW_INLINE void widen(mw_extent *e, mw_point p)
 {
     if (!isfinite(p.x) || !isfinite(p.y)) return;
-    if (p.x < e->low[0]) e->low[0] = p.x;
-    if (p.y < e->low[1]) e->low[1] = p.y;
-    if (p.x > e->high[0]) e->high[0] = p.x;
-    if (p.y > e->high[1]) e->high[1] = p.y;
+    e->low[0] = p.x < e->low[0] ? p.x : e->low[0];
+    e->low[1] = p.y < e->low[1] ? p.y : e->low[1];
+    e->high[0] = p.x > e->high[0] ? p.x : e->high[0];
+    e->high[1] = p.y > e->high[1] ? p.y : e->high[1];
 }
 
 /* Where no point is finite the extent is empty, and so is the one of all keys. */
-static mw_extent find_extent(const mw_point *points, uint32_t n, int team)
+mw_extent mw__find_extent(const mw_point *points, uint32_t n, uint32_t threads, bool *all_finite)
 {
+    int team = mw__team(threads, chunks_of(n));
+    bool finite = true;
     mw_extent all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     (void)team;
 #ifdef _OPENMP
 #pragma omp parallel num_threads(team) if (team > 1)
 #endif
     {
+        bool mine_finite = true;
         mw_extent mine = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 #ifdef _OPENMP
 #pragma omp for schedule(static) nowait
 #endif
-        for (uint32_t i = 0; i < n; i++) widen(&mine, points[i]);
+        for (uint32_t i = 0; i < n; i++) {
+            mw_point p = points[i];
+            if (MW_LIKELY(isfinite(p.x) && isfinite(p.y)))
+                widen(&mine, p);
+            else
+                mine_finite = false;
+        }
 #ifdef _OPENMP
 #pragma omp critical(mw_extent)
 #endif
         {
             widen(&all, (mw_point){mine.low[0], mine.low[1]});
             widen(&all, (mw_point){mine.high[0], mine.high[1]});
+            finite = finite && mine_finite;
         }
     }
+    *all_finite = finite;
     return all;
 }
 
@@ -52,9 +68,10 @@ static mw_extent find_extent(const mw_point *points, uint32_t n, int team)
  * this after some 130 levels, and in any case where all points fall into one cell. */
 static void sort_crowd(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n);
 
-static void sort_part(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n, bool again)
+/* The keys differ in their lower bits only. */
+static void sort_part(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n, uint32_t bits, bool again)
 {
-    mw__sort_keys(keys, scratch, n);
+    mw__sort_keys_by(keys, scratch, n, bits);
     for (size_t from = 0, to; from < n; from = to) {
         for (to = from + 1; to < n && keys[to].key == keys[from].key;) to++;
         if (to - from > MW_LONG_RUN && (to - from < n || again)) sort_crowd(points, keys + from, scratch, to - from);
@@ -77,7 +94,7 @@ static void sort_crowd(const mw_point *points, mw_key *keys, mw_key *scratch, si
 {
     uint32_t key = keys[0].key;
     mw__set_keys(points, keys, n);
-    sort_part(points, keys, scratch, n, false);
+    sort_part(points, keys, scratch, n, 32, false);
     for (size_t i = 0; i < n; i++) keys[i].key = key;
 }
 
@@ -129,7 +146,7 @@ static void sort_bucket(const sorting *s, uint32_t b)
 {
     const uint32_t *end = s->first + (size_t)(s->chunks - 1) * s->buckets;
     uint32_t from = b > 0 ? end[b - 1] : 0;
-    sort_part(s->points, s->scratch + from, s->keys + from, end[b] - from, true);
+    sort_part(s->points, s->scratch + from, s->keys + from, end[b] - from, s->shift, true);
 }
 
 static void sort_all(const sorting *s, const mw_extent *extent)
@@ -158,11 +175,6 @@ static void sort_all(const sorting *s, const mw_extent *extent)
     }
 }
 
-static uint32_t chunks_of(uint32_t n)
-{
-    return (uint32_t)(((uint64_t)n + CHUNK - 1) / CHUNK);
-}
-
 bool mw__curve_sort(const mw_point *points, uint32_t n, const mw_extent *extent, uint32_t threads, mw_key *keys,
                     mw_key *scratch)
 {
@@ -186,7 +198,8 @@ bool mw__curve_order(const mw_point *points, uint32_t n, uint32_t threads, uint3
 {
     if (n == 0) return true;
     mw_key *keys = mw__alloc(n, sizeof *keys), *scratch = mw__alloc(n, sizeof *scratch);
-    mw_extent extent = find_extent(points, n, mw__team(threads, chunks_of(n)));
+    bool finite;
+    mw_extent extent = mw__find_extent(points, n, threads, &finite);
     bool done = keys && scratch && mw__curve_sort(points, n, &extent, threads, keys, scratch);
     for (uint32_t i = 0; i < n && done; i++) order[i] = keys[i].item;
     free(keys);

@@ -9,6 +9,9 @@ typedef struct mw_extent {
     double low[2], high[2];
 } mw_extent;
 
+/* Of those points that are finite; *all_finite: they all are. Empty, low > high, where none is. */
+mw_extent mw__find_extent(const mw_point *points, uint32_t n, uint32_t threads, bool *all_finite);
+
 /* More points than this with one key are sorted again, on a finer curve through their own extent. */
 #define MW_LONG_RUN 256
 

@@ -1,17 +1,18 @@
 /* layout.c - vertices along a Hilbert curve, triangles by their lowest vertex. O(n).
  *
- * Triangles are scattered to the parts of their lowest vertices first, then sorted within each, in cache; a part is a
- * thread's work. */
+ * Triangles are piled up by ranges of their lowest vertices first (piles.c); then each range is sorted and linked, in cache
+ * (parts.c). */
 #include "mesh/layout.h"
 
 #include "base/threads.h"
 #include "mesh/curve.h"
+#include "mesh/parts.h"
 
 #include <stdlib.h>
 
 enum {
-    CHUNKS = 64,         /* of the caller's triangles, each scattered by one thread     */
-    PART_SHIFT = 12,     /* at least so many vertices, as a power of two, make a part   */
+    MOST_THREADS = 64,
+    PART_SHIFT = 12,     /* at least so many vertices, as a power of two, make a range  */
     MOST_PARTS = 1 << 12 /* written to at the same time                                 */
 };
 
@@ -97,222 +98,105 @@ bool mw__lay_out_vertices(mw_mesh *mesh, uint32_t threads)
     return done;
 }
 
+/* --- all --- */
+
 typedef struct layout {
     mw_mesh *mesh;
     const mw_arrays *arrays;
-    mw_parts *parts;
+    uint32_t threads;
     int team;
-    uint32_t bad; /* the first triangle that is unusable, or MW_NONE                                      */
     bool all_finite;
-    uint32_t *next; /* per chunk and part: the triangles that go there, then the place of the next of them */
+    void *scratch; /* for keys, then for piles */
+    mw_piles piles;
 } layout;
 
-static mw_point point_at(const mw_arrays *arrays, size_t i)
+/* The points of the arrays; the caller's own array if that is what it holds. *copy is to be released. */
+static const mw_point *read_points(const layout *l, mw_point **copy)
 {
-    const double *p = arrays->points + i * (arrays->point_stride ? arrays->point_stride : 2);
-    return (mw_point){p[0], p[1]};
+    uint32_t n = l->mesh->point_count;
+    size_t stride = l->arrays->point_stride;
+    const double *from = l->arrays->points;
+    *copy = NULL;
+    if (stride == 0 || stride == 2) return (const mw_point *)from;
+    *copy = mw__alloc_lines(n, sizeof **copy);
+#ifdef _OPENMP
+#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1)
+#endif
+    for (uint32_t i = 0; i < n; i++)
+        if (*copy) (*copy)[i] = (mw_point){from[i * stride], from[i * stride + 1]};
+    return *copy;
 }
 
-/* Number the vertices, and copy the points in their new order. */
-static bool place_vertices(layout *l, uint32_t threads)
+/* Points in their order; both numbers of each vertex. */
+static void copy_points(const layout *l, const mw_point *given, const mw_key *order)
 {
-    uint32_t n = l->mesh->point_count, *order = mw__alloc_lines(n, sizeof *order);
-    mw_point *given = mw__alloc_lines(n, sizeof *given);
-    bool finite = true, done = given && order;
+    enum { AHEAD = 16 };
+    mw_mesh *mesh = l->mesh;
+    uint32_t n = mesh->point_count;
 #ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1) reduction(&& : finite)
+#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1)
 #endif
     for (uint32_t i = 0; i < n; i++) {
-        if (!done) continue;
-        given[i] = point_at(l->arrays, i);
-        finite = finite && mw__is_finite(given[i]);
-    }
-    l->all_finite = finite;
-    done = done && mw__curve_order(given, n, threads, order);
-    if (!done) free(order);
-    done = done && mw__give_points(l->mesh, given, order, threads);
-    free(given);
-    return done;
-}
-
-/* --- triangles --- */
-
-static size_t chunk_begin(const layout *l, uint32_t chunk)
-{
-    return l->arrays->triangle_count * chunk / CHUNKS;
-}
-
-/* The vertices of a triangle by their new numbers, and the lowest; that is MW_NONE where the triangle is not usable. */
-typedef struct corners {
-    uint32_t v[3], low;
-} corners;
-
-static MW_INLINE corners take(const layout *l, size_t t)
-{
-    const mw_mesh *mesh = l->mesh;
-    corners c = {.low = MW_NONE};
-    for (size_t k = 0; k < 3; k++) {
-        uint32_t given = mw__index_at(l->arrays, 3 * t + k);
-        if (MW_UNLIKELY(given >= mesh->point_count)) return (corners){.low = MW_NONE};
-        c.v[k] = mesh->vertex_place[given];
-        if (MW_UNLIKELY(!l->all_finite && !mw__is_finite(mesh->point[c.v[k]]))) return (corners){.low = MW_NONE};
-        if (c.v[k] < c.low) c.low = c.v[k];
-    }
-    if (MW_UNLIKELY(c.v[0] == c.v[1] || c.v[1] == c.v[2] || c.v[2] == c.v[0])) c.low = MW_NONE;
-    return c;
-}
-
-/* Returns the first triangle of the chunk that is not usable, or MW_NONE. */
-static uint32_t count_chunk(const layout *l, uint32_t chunk)
-{
-    uint32_t *count = l->next + (size_t)chunk * l->parts->count;
-    for (size_t t = chunk_begin(l, chunk); t < chunk_begin(l, chunk + 1); t++) {
-        corners c = take(l, t);
-        if (MW_UNLIKELY(c.low == MW_NONE)) return (uint32_t)t;
-        count[mw__part_of(l->parts, c.low)]++;
-    }
-    return MW_NONE;
-}
-
-static void scatter_chunk(const layout *l, uint32_t chunk)
-{
-    uint32_t *next = l->next + (size_t)chunk * l->parts->count;
-    for (size_t t = chunk_begin(l, chunk); t < chunk_begin(l, chunk + 1); t++) {
-        corners c = take(l, t);
-        mw_triangle *to = &l->mesh->tri[next[mw__part_of(l->parts, c.low)]++];
-        *to = (mw_triangle){.v = {c.v[0], c.v[1], c.v[2]}, .user = (uint32_t)t};
-    }
-}
-
-/* Where the parts begin, and in them the triangles of each chunk. */
-static void add_up(const layout *l)
-{
-    uint32_t sum = 0, parts = l->parts->count;
-    for (uint32_t p = 0; p < parts; p++) {
-        l->parts->first[p] = sum;
-        for (uint32_t c = 0; c < CHUNKS; c++) {
-            uint32_t *next = &l->next[(size_t)c * parts + p], here = *next;
-            *next = sum;
-            sum += here;
+        if (i + AHEAD < n) {
+            __builtin_prefetch(&given[order[i + AHEAD].item]);
+            __builtin_prefetch(&mesh->vertex_place[order[i + AHEAD].item], 1);
         }
+        mesh->point[i] = given[order[i].item];
+        mesh->users_vertex[i] = order[i].item;
+        mesh->vertex_place[order[i].item] = i;
     }
-    l->parts->first[parts] = sum;
 }
 
-static void scatter(layout *l)
-{
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1)
-#endif
-    for (uint32_t c = 0; c < CHUNKS; c++) {
-        uint32_t bad = count_chunk(l, c);
-        if (bad == MW_NONE) continue;
-#ifdef _OPENMP
-#pragma omp critical(mw_layout)
-#endif
-        if (bad < l->bad) l->bad = bad;
-    }
-    if (l->bad != MW_NONE) return;
-    add_up(l);
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1)
-#endif
-    for (uint32_t c = 0; c < CHUNKS; c++) scatter_chunk(l, c);
-}
-
-static uint32_t lowest(const mw_triangle *t)
-{
-    uint32_t low = t->v[0] < t->v[1] ? t->v[0] : t->v[1];
-    return t->v[2] < low ? t->v[2] : low;
-}
-
-/* Sort the triangles of a part by their lowest vertices, in the caller's order where these are equal. */
-static void sort_part(const layout *l, uint32_t p, uint32_t *next, mw_triangle *scratch)
+static bool place_vertices(layout *l)
 {
     mw_mesh *mesh = l->mesh;
-    mw_triangle *tri = mesh->tri + l->parts->first[p];
-    uint32_t n = l->parts->first[p + 1] - l->parts->first[p], base = mw__part_begin(l->parts, p);
-    uint32_t size = mw__part_size(l->parts, p, mesh->point_count), sum = l->parts->first[p];
-    for (uint32_t i = 0; i < size; i++) next[i] = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        next[lowest(&tri[i]) - base]++;
-        scratch[i] = tri[i];
+    uint32_t n = mesh->point_count;
+    mesh->point = mw__alloc_lines(n, sizeof *mesh->point);
+    mesh->users_vertex = mw__alloc_lines(n, sizeof *mesh->users_vertex);
+    mesh->vertex_place = mw__alloc_lines(n, sizeof *mesh->vertex_place);
+    if (!mesh->point || !mesh->users_vertex || !mesh->vertex_place) return false;
+    mw_point *copy;
+    mw_key *keys = l->scratch;
+    const mw_point *given = read_points(l, &copy);
+    bool done = given || n == 0;
+    if (done) {
+        mw_extent extent = mw__find_extent(given, n, l->threads, &l->all_finite);
+        done = mw__curve_sort(given, n, &extent, l->threads, keys, keys + n);
     }
-    for (uint32_t i = 0; i < size; i++) {
-        uint32_t here = next[i];
-        next[i] = sum;
-        sum += here;
-    }
-    for (uint32_t i = 0; i < n; i++) {
-        uint32_t place = next[lowest(&scratch[i]) - base]++;
-        mesh->tri[place] = (mw_triangle){.v = {scratch[i].v[0], scratch[i].v[1], scratch[i].v[2], scratch[i].v[0]},
-                                         .link = {MW_NONE, MW_NONE, MW_NONE},
-                                         .user = scratch[i].user};
-        mesh->triangle_place[scratch[i].user] = place;
-    }
-}
-
-static bool sort_parts(const layout *l)
-{
-    uint32_t most = 0;
-    for (uint32_t p = 0; p < l->parts->count; p++) {
-        uint32_t n = l->parts->first[p + 1] - l->parts->first[p];
-        if (n > most) most = n;
-    }
-    int team = mw__team((uint32_t)l->team, l->parts->count);
-    (void)team; /* unused without OpenMP */
-    bool done = true;
-#ifdef _OPENMP
-#pragma omp parallel num_threads(team) if (team > 1)
-#endif
-    {
-        uint32_t *next = mw__alloc((size_t)1 << l->parts->shift, sizeof *next);
-        mw_triangle *scratch = mw__alloc_lines(most, sizeof *scratch);
-        bool mine = next && scratch;
-#ifdef _OPENMP
-#pragma omp for schedule(dynamic)
-#endif
-        for (uint32_t p = 0; p < l->parts->count; p++)
-            if (mine) sort_part(l, p, next, scratch);
-        free(next);
-        free(scratch);
-#ifdef _OPENMP
-#pragma omp critical(mw_layout)
-#endif
-        done = done && mine;
-    }
+    if (done) copy_points(l, given, keys);
+    free(copy);
     return done;
 }
 
-/* --- all --- */
-
-static void choose_parts(const mw_mesh *mesh, mw_parts *parts)
+static void choose_piles(layout *l)
 {
-    parts->shift = PART_SHIFT;
-    while (mesh->point_count >> parts->shift >= MOST_PARTS) parts->shift++;
-    parts->count = (mesh->point_count >> parts->shift) + 1;
-    parts->first = mw__alloc((size_t)parts->count + 1, sizeof *parts->first);
+    mw_piles *p = &l->piles;
+    *p = (mw_piles){.shift = PART_SHIFT, .stackers = (uint32_t)l->team, .triangle_count = l->mesh->tri_count};
+    while (l->mesh->point_count >> p->shift >= MOST_PARTS) p->shift++;
+    p->ranges = (l->mesh->point_count >> p->shift) + 1;
 }
 
-static mw_status place_all(layout *l, uint32_t threads, mw_error *error)
+static bool make_room(layout *l)
 {
     mw_mesh *mesh = l->mesh;
-    l->team = mw__team(threads, CHUNKS);
+    size_t keys = 2 * (size_t)mesh->point_count * sizeof(mw_key),
+           piles = mw__piles_room(&l->piles) * sizeof(mw_corners);
+    l->scratch = mw__alloc_lines(keys > piles ? keys : piles, 1);
     mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
     mesh->triangle_place = mw__alloc_lines(mesh->tri_count, sizeof *mesh->triangle_place);
-    l->next = mw__calloc((size_t)CHUNKS * l->parts->count, sizeof *l->next);
-    if (!mesh->tri || !mesh->triangle_place || !l->next || !l->parts->first || !place_vertices(l, threads))
-        return mw__fail_memory(error);
-    scatter(l);
-    if (l->bad != MW_NONE) return mw__copy_triangle(l->arrays, 2, false, l->bad, &mesh->tri[0], error);
-    return sort_parts(l) ? MW_OK : mw__fail_memory(error);
+    l->piles.at = l->scratch;
+    return l->scratch && mesh->tri && mesh->triangle_place;
 }
 
-mw_status mw__lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, mw_parts *parts, mw_error *error)
+mw_status mw__lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, uint32_t *extra, mw_error *error)
 {
-    choose_parts(mesh, parts);
-    layout l = {.mesh = mesh, .arrays = arrays, .parts = parts, .bad = MW_NONE};
-    mw_status status = place_all(&l, threads, error);
-    free(l.next);
-    return status;
+    layout l = {.mesh = mesh, .arrays = arrays, .threads = threads, .team = mw__team(threads, MOST_THREADS)};
+    choose_piles(&l);
+    uint32_t bad = MW_NONE;
+    bool done = make_room(&l) && place_vertices(&l) && mw__pile_up(&l.piles, mesh, arrays, l.all_finite, &bad) &&
+                (bad != MW_NONE || mw__work_parts(mesh, &l.piles, extra));
+    mw__piles_release(&l.piles);
+    free(l.scratch);
+    if (!done) return mw__fail_memory(error);
+    return bad == MW_NONE ? MW_OK : mw__copy_triangle(arrays, 2, false, bad, &mesh->tri[0], error);
 }

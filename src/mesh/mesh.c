@@ -121,18 +121,14 @@ static mw_status copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_error *e
 
 static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, const mw_mesh_options *options, mw_error *error)
 {
-    mw_parts parts = {0};
     bool lay_out = !mesh->tolerant && (options->layout == 1 || (options->layout == 0 && mw__is_scattered(arrays)));
-    mw_status status =
-        lay_out ? mw__lay_out(mesh, arrays, options->threads, &parts, error) : copy_arrays(mesh, arrays, error);
     uint32_t extra = MW_NONE;
-    if (!status) {
+    mw_status status =
+        lay_out ? mw__lay_out(mesh, arrays, options->threads, &extra, error) : copy_arrays(mesh, arrays, error);
+    if (!status && !lay_out) {
         orient_all(mesh, options->threads);
-        if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, lay_out ? &parts : NULL, options->threads,
-                         &extra))
-            status = mw__fail_memory(error);
+        if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &extra)) status = mw__fail_memory(error);
     }
-    free(parts.first);
     if (!status && extra != MW_NONE && !mesh->tolerant) status = refuse_shared(mesh, extra, error);
     return status;
 }

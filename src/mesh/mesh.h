@@ -85,6 +85,8 @@ struct mw_mesh {
     uint32_t flat_count, flipped_count;
     mw_field *field;
     size_t field_count;
+    uint32_t border_count; /* edges without link, where `opposite` is set */
+    bool opposite; /* surely both triangles of an edge run through it in opposite directions; false: it is not known */
     bool tolerant; /* may hold triangles that are not usable: see mw_mesh_options */
 };
 
@@ -126,17 +128,25 @@ mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tole
  * user's numbers. */
 mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to, mw_error *error);
 
-typedef struct mw_parts mw_parts; /* layout.h */
-
 /* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n).
- *   parts   of a mesh that is laid out; else NULL, and one thread does it
- *   threads 0 = as OpenMP gives
  *   extra   set to a link to the third or a further triangle of an edge, the one of the lowest user's number; MW_NONE if
  *           there is none. May be NULL
  * An edge of more than two triangles links the first two. Links two triangles whatever their orientation, but none that
  * names a vertex twice; does not write to links of edges that have one triangle. Returns false when out of memory. */
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, const mw_parts *parts, uint32_t threads,
-                 uint32_t *extra);
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *extra);
+
+/* Of three vertices, the lowest and the one between. */
+static MW_INLINE uint32_t mw__lowest(uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t low = a < b ? a : b;
+    return c < low ? c : low;
+}
+static MW_INLINE uint32_t mw__middle_of(uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    if (c < high) high = c;
+    return high > low ? high : low;
+}
 
 static MW_INLINE bool mw__is_finite(mw_point p)
 {

@@ -28,8 +28,7 @@ static mw_status link_triangles(mw_surface *surface, const mw_arrays *arrays, mw
     uint32_t extra;
     for (uint32_t t = 0; t < surface->tri_count && surface->place; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = surface->place[surface->tri[t].v[k]];
-    if (!mw__connect(surface->tri, surface->tri_count, surface->point_count, NULL, 1, &extra))
-        return mw__fail_memory(error);
+    if (!mw__connect(surface->tri, surface->tri_count, surface->point_count, &extra)) return mw__fail_memory(error);
     for (uint32_t t = 0; t < surface->tri_count && surface->place; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = mw__index_at(arrays, 3 * (size_t)t + k % 3);
     if (extra == MW_NONE || surface->tolerant) return MW_OK;

@@ -91,7 +91,7 @@ static bool lay_out(mw_triangulation *t)
         }
         free(t->tri);
         t->tri = tri;
-        done = mw__connect(t->tri, t->tri_count, t->point_count, NULL, 1, NULL);
+        done = mw__connect(t->tri, t->tri_count, t->point_count, NULL);
     } else {
         free(tri);
     }
