@@ -18,6 +18,7 @@
 
 #include "base/random.h"
 #include "locate/index.h"
+#include "locate/plain.h"
 
 #include <string.h>
 
@@ -28,13 +29,6 @@ enum {
     BOARDING = MW_INDEX_MANY, /* queries that get their first tile at a time */
     SHORT = 64                /* laps before the ways are looked at, and in which other than remembering walks end */
 };
-
-/* Areas that may be off by less than this share of their sum are weights, of sums within these bounds. mw__areas and mw__place
- * allow no less (2^-42: here the bound is one for all three, and takes what is lost to the smallest numbers once, not three
- * times); so they would come to the very same weights. */
-#define PLAIN 0x1p-44
-#define LEAST 0x1p-900
-#define MOST 0x1p900
 
 typedef double reals __attribute__((vector_size(8 * WIDTH)));
 typedef int64_t flags __attribute__((vector_size(8 * WIDTH))); /* 0 or all bits */
@@ -57,16 +51,6 @@ typedef struct crew {
     uint32_t query[BOARDING], t[BOARDING];
     mw_point q[BOARDING];
 } crew;
-
-static MW_INLINE mw_location inside(uint32_t user, double a, double b, double c)
-{
-    bool flipped = user & MW_FLIPPED;
-    return (mw_location){.weight = {a, flipped ? c : b, flipped ? b : c},
-                         .triangle = user & MW_USER_MASK,
-                         .hole = MW_NONE,
-                         .where = MW_INSIDE,
-                         .local = 255};
-}
 
 /* Which of the flags are set, as bits. */
 typedef uint32_t (*bits_of)(const flags *set);
@@ -91,7 +75,7 @@ static MW_INLINE bool read_point(const mw_flight *f, uint32_t query, mw_point *q
     const double *at = &f->queries->points[query * f->queries->stride];
     *q = (mw_point){at[0], at[1]};
     if (MW_LIKELY(isfinite(q->x) && isfinite(q->y))) return true;
-    f->queries->locations[query] = mw__nowhere(MW_BAD);
+    mw__put_nowhere(&f->queries->locations[query], MW_BAD, MW_NONE);
     return false;
 }
 
@@ -243,8 +227,8 @@ static MW_INLINE uint32_t cross_edges(const view *s, group *g, uint32_t *left, b
 static MW_INLINE uint32_t weigh(const view *s, double weight[3][WIDTH], bits_of bits)
 {
     reals sum = s->area[0] + s->area[1] + s->area[2];
-    flags inside = (s->area[0] > s->off) & (s->area[1] > s->off) & (s->area[2] > s->off) & (s->off < PLAIN * sum) &
-                   (sum > LEAST) & (sum < MOST);
+    flags inside = (s->area[0] > s->off) & (s->area[1] > s->off) & (s->area[2] > s->off) & (s->off < MW_PLAIN * sum) &
+                   (sum > MW_LEAST) & (sum < MW_MOST);
     for (uint32_t v = 0; v < 3; v++) {
         reals w = s->area[v] / sum;
         memcpy(weight[v], &w, sizeof w);
@@ -259,11 +243,11 @@ static MW_INLINE bool answer(const mw_flight *f, const mw_triangle *tile, uint32
 {
     mw_location *location = &f->queries->locations[query];
     if (MW_LIKELY(in && !(tile->user & MW_GHOST))) {
-        *location = inside(tile->user, weight[0][k], weight[1][k], weight[2][k]);
+        mw__put_inside(location, tile->user, weight[0][k], weight[1][k], weight[2][k]);
         return true;
     }
     if (f->cursor->tolerance > 0 || !f->locator->tiling.embedding || !(in || left)) return false;
-    *location = mw__in_none(in ? tile->user : 0);
+    mw__put_in_none(location, in ? tile->user : 0);
     return true;
 }
 
@@ -387,47 +371,4 @@ void mw__fly(const mw_flight *flight, uint32_t first, uint32_t count, uint32_t l
     }
 #endif
     fly_anywhere(&c, lanes / WIDTH, flight->chained);
-}
-
-/* --- alone -------------------------------------------------------------------------------------------------------- */
-
-/* The tiles across the edges: one of them comes next, and while the corners of this one are waited for they all come. */
-static MW_INLINE void fetch_across(const mw_triangle *tri, const mw_triangle *tile)
-{
-    for (uint32_t k = 0; k < 3; k++) __builtin_prefetch(&tri[mw__link_triangle(tile->link[k])]);
-}
-
-/* The same step for a single walk. The turn is a jump here: the processor guesses it, and does not wait for the areas before
- * it goes on. */
-bool mw__fly_alone(const mw_tiling *tiling, mw_point q, bool tolerant, uint32_t *t, mw_location *location)
-{
-    for (uint32_t steps = 0; steps < SHORT; steps++) {
-        const mw_triangle *tile = &tiling->tri[*t];
-        fetch_across(tiling->tri, tile);
-        mw_point a = tiling->point[tile->v[0]], b = tiling->point[tile->v[1]], c = tiling->point[tile->v[2]];
-        double ax = a.x - q.x, ay = a.y - q.y, bx = b.x - q.x, by = b.y - q.y, cx = c.x - q.x, cy = c.y - q.y;
-        double bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax, ab = ax * by, ba = ay * bx;
-        double off = mw__orient2d_bound(fabs(bc) + fabs(cb) + (fabs(ca) + fabs(ac)), fabs(ab) + fabs(ba));
-        double area[3] = {bc - cb, ca - ac, ab - ba}, sum = area[0] + area[1] + area[2];
-        uint32_t link;
-        if (area[2] < -off) {
-            link = tile->link[0];
-        } else if (area[0] < -off) {
-            link = tile->link[1];
-        } else if (area[1] < -off) {
-            link = tile->link[2];
-        } else {
-            if (!(area[0] > off && area[1] > off && area[2] > off && off < PLAIN * sum)) return false;
-            if (!(sum > LEAST && sum < MOST) || (tile->user & MW_GHOST && tolerant)) return false;
-            *location = tile->user & MW_GHOST ? mw__in_none(tile->user)
-                                              : inside(tile->user, area[0] / sum, area[1] / sum, area[2] / sum);
-            return true;
-        }
-        if (MW_UNLIKELY(link == MW_NONE)) {
-            *location = mw__in_none(0);
-            return !tolerant && tiling->embedding;
-        }
-        *t = mw__link_triangle(link);
-    }
-    return false;
 }

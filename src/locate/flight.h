@@ -1,4 +1,4 @@
-/* flight.h - plain queries: many in flight, or one alone. Private. */
+/* flight.h - plain queries: many in flight. Private. */
 #ifndef MW_SRC_FLIGHT_H
 #define MW_SRC_FLIGHT_H
 
@@ -20,9 +20,6 @@ static MW_INLINE bool mw__flies(const mw_tiling *tiling, const mw_query_options 
     return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && !options->count &&
            options->arithmetic == MW_EXACT && !tiling->open && !tiling->cut;
 }
-
-/* One query from tile *t; `tolerant`: points in no triangle are not plain. False: it is not plain; walk on from where *t now is. */
-bool mw__fly_alone(const mw_tiling *tiling, mw_point q, bool tolerant, uint32_t *t, mw_location *location);
 
 /* Walks that step together. Fewer lanes do not pay. */
 #define MW_FLIGHT_WIDTH 4

@@ -8,6 +8,7 @@
 #include "walk/walk.h"
 
 #include <meshwalk/locate.h>
+#include <string.h>
 
 struct mw_locator {
     const mw_mesh *mesh;
@@ -54,20 +55,43 @@ static MW_INLINE void mw__note_last(const mw_locator *locator, mw_cursor *cursor
     cursor->last_name = mw__tile_name(&locator->tiling, cursor->last);
 }
 
+typedef uint64_t mw_words __attribute__((vector_size(16)));
+
+/* A location, written as it is commonly copied, by 16 bytes: who reads more bytes at a time than were written has to wait
+ * until they have left for the cache. */
+static MW_INLINE void mw__put_location(mw_location *location, double a, double b, double c, uint32_t triangle,
+                                       uint32_t hole, mw_where where)
+{
+    const double weight[3] = {a, b, c};
+    const uint32_t numbers[2] = {triangle, hole};
+    const mw_location rest = {.where = (uint8_t)where, .local = 255};
+    uint64_t word[4];
+    memcpy(word, weight, sizeof weight);
+    memcpy(&word[3], numbers, sizeof numbers);
+    const mw_words first = {word[0], word[1]}, second = {word[2], word[3]};
+    memcpy(location, &first, sizeof first);
+    memcpy((char *)location + sizeof first, &second, sizeof second);
+    memcpy(&location->where, &rest.where, sizeof rest - offsetof(mw_location, where));
+}
+
 /* A location that names no triangle. */
+static MW_INLINE void mw__put_nowhere(mw_location *location, mw_where where, uint32_t hole)
+{
+    mw__put_location(location, NAN, NAN, NAN, MW_NONE, hole, where);
+}
+
 static MW_INLINE mw_location mw__nowhere(mw_where where)
 {
-    return (mw_location){
-        .weight = {NAN, NAN, NAN}, .triangle = MW_NONE, .hole = MW_NONE, .where = (uint8_t)where, .local = 255};
+    mw_location location;
+    mw__put_nowhere(&location, where, MW_NONE);
+    return location;
 }
 
 /* A location in no triangle: in a hole, if the mark of its tile says so, or outside. */
-static MW_INLINE mw_location mw__in_none(uint32_t mark)
+static MW_INLINE void mw__put_in_none(mw_location *location, uint32_t mark)
 {
     bool hole = (mark & MW_GHOST) && (mark & MW_USER_MASK) != MW_POCKET;
-    mw_location location = mw__nowhere(hole ? MW_IN_HOLE : MW_OUTSIDE);
-    if (hole) location.hole = mark & MW_USER_MASK;
-    return location;
+    mw__put_nowhere(location, hole ? MW_IN_HOLE : MW_OUTSIDE, hole ? mark & MW_USER_MASK : MW_NONE);
 }
 
 /* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to corner k: exact in sign,

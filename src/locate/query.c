@@ -4,6 +4,7 @@
 #include "locate/index.h"
 #include "locate/locator.h"
 #include "locate/pieces.h"
+#include "locate/plain.h"
 #include "start/start.h"
 
 /* --- the conclusion ---------------------------------------------------------------------------------------------- */
@@ -33,7 +34,8 @@ static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const d
 /* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the tolerance says so. */
 static mw_location outside(const mw_locator *locator, uint32_t mark, mw_point q, double tolerance)
 {
-    mw_location location = mw__in_none(mark);
+    mw_location location;
+    mw__put_in_none(&location, mark);
     if (tolerance > 0) mw__border_near(&locator->border, locator->mesh, q, tolerance, &location);
     return location;
 }
@@ -150,8 +152,9 @@ static MW_INLINE bool is_close(const mw_locator *locator, uint32_t t, mw_point q
     const mw_tiling *tiling = &locator->tiling;
     const uint32_t *v = tiling->tri[t].v;
     mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
-    double shortest = fmin(mw__distance2(a, b), fmin(mw__distance2(b, c), mw__distance2(c, a)));
-    return mw__distance2(a, q) <= fmin(LENGTHS * LENGTHS * shortest, locator->cell2);
+    double ab = mw__distance2(a, b), bc = mw__distance2(b, c), ca = mw__distance2(c, a);
+    double least = ab < bc ? ab : bc, shortest = least < ca ? least : ca, far = mw__distance2(a, q);
+    return far <= LENGTHS * LENGTHS * shortest && far <= locator->cell2;
 }
 
 /* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
@@ -307,37 +310,56 @@ void mw__catch_up(const mw_locator *locator, mw_cursor *cursor)
     cursor->epoch = locator->epoch;
 }
 
-static MW_INLINE mw_location locate(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+/* By the walk of the cursor: from tile cursor->last, if the query seemed plain, else from where the start says. */
+static __attribute__((noinline)) mw_location walk_to(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
-    mw_location location;
     mw_work work;
-    mw_walk walk;
-    if (cursor->plain) {
-        cursor->last = mw__first_tile(locator, cursor, cursor->last, q, &cursor->random, NULL);
-        if (MW_LIKELY(mw__fly_alone(&locator->tiling, q, cursor->tolerance > 0, &cursor->last, &location)))
-            return location;
-        walk = mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel, mw__random(&cursor->random), NULL);
-    } else {
-        walk = mw__depart(locator, cursor, cursor->last, q, &cursor->random, &work);
-    }
+    mw_walk walk = cursor->plain ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
+                                                  mw__random(&cursor->random), NULL)
+                                 : mw__depart(locator, cursor, cursor->last, q, &cursor->random, &work);
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
-    location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
+    mw_location location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
     cursor->last = walk.t;
     return location;
 }
 
+/* As mw__first_tile. A stream of queries is near where it was: no call for that. */
+static MW_INLINE uint32_t begin_plain(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+{
+    uint32_t last = cursor->last;
+    if (!cursor->index && cursor->start == MW_START_LAST) return last;
+    if (!cursor->index && cursor->start == MW_START_AUTO && locator->guide.start != MW_START_AUTO)
+        return is_close(locator, last, q) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
+    return mw__first_tile(locator, cursor, last, q, &cursor->random, NULL);
+}
+
+/* By the fast way; false: it is not plain. */
+static MW_INLINE bool locate_plain(const mw_locator *locator, mw_cursor *cursor, mw_point q, mw_location *location)
+{
+    if (MW_UNLIKELY(!cursor->plain)) return false;
+    cursor->last = begin_plain(locator, cursor, q);
+    return mw__fly_alone(&locator->tiling, q, cursor->tolerance > 0, &cursor->last, location);
+}
+
 static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
+    mw_location location;
     mw__catch_up(locator, cursor);
-    mw_location location = locate(locator, cursor, q);
+    if (!locate_plain(locator, cursor, q, &location)) location = walk_to(locator, cursor, q);
     mw__note_last(locator, cursor);
     return location;
 }
 
 mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y)
 {
-    if (MW_UNLIKELY(!isfinite(x) || !isfinite(y))) return mw__nowhere(MW_BAD);
-    if (MW_UNLIKELY(cursor->live)) return locate_live(locator, cursor, (mw_point){x, y});
-    return locate(locator, cursor, (mw_point){x, y});
+    mw_location location;
+    mw_point q = {x, y};
+    if (MW_UNLIKELY(!isfinite(x) || !isfinite(y)))
+        mw__put_nowhere(&location, MW_BAD, MW_NONE);
+    else if (MW_UNLIKELY(cursor->live))
+        location = locate_live(locator, cursor, q);
+    else if (MW_UNLIKELY(!locate_plain(locator, cursor, q, &location)))
+        location = walk_to(locator, cursor, q);
+    return location;
 }
