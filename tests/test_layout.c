@@ -155,8 +155,10 @@ static void expect_same_laid_out(const scene *s)
         assert_int_equal(create(s, 1, threads, &laid, NULL), MW_OK);
         expect_same(kept, laid);
         expect_true_count(laid);
+        assert_int_equal(kept->opposite, laid->opposite);
         mw_mesh_destroy(laid);
     }
+    expect_true_count(kept);
     mw_mesh_destroy(kept);
 }
 

@@ -21,16 +21,23 @@ static MW_INLINE uint32_t *link_of(mw_triangle *tri, uint32_t half)
     return &tri[mw__link_triangle(half)].link[mw__link_edge(half)];
 }
 
-static MW_INLINE void join(mw_triangle *tri, uint32_t a, uint32_t b)
+static MW_INLINE uint32_t from(const mw_triangle *tri, uint32_t half)
+{
+    return tri[mw__link_triangle(half)].v[mw__link_edge(half)];
+}
+
+static MW_INLINE void join(mw_triangle *tri, uint32_t a, uint32_t b, mw_links *links)
 {
     *link_of(tri, a) = b;
     *link_of(tri, b) = a;
+    links->linked += 2;
+    links->opposite &= from(tri, a) != from(tri, b);
 }
 
 enum { FEW = 32 }; /* half-edges at a vertex that are compared each with each */
 
 /* Join the halves of one lower vertex by comparing all. False, and nothing done, where an edge has more than two. */
-static MW_INLINE bool match_few(mw_triangle *tri, const mw_half_edge *half, uint32_t count)
+static MW_INLINE bool match_few(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
 {
     uint32_t mate[FEW];
     for (uint32_t i = 0; i < count; i++) {
@@ -43,7 +50,7 @@ static MW_INLINE bool match_few(mw_triangle *tri, const mw_half_edge *half, uint
         }
     }
     for (uint32_t i = 0; i < count; i++)
-        if (mate[i] < i) join(tri, half[i].half, half[mate[i]].half);
+        if (mate[i] < i) join(tri, half[i].half, half[mate[i]].half, links);
     return true;
 }
 
@@ -70,7 +77,7 @@ void mw__note_extra(const mw_triangle *tri, uint32_t half, uint32_t *extra)
 }
 
 /* The same for many, or for edges that more than two share: the first two in the user's order are joined. */
-bool mw__match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, uint32_t *extra)
+bool mw__match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
 {
     keyed_half *keyed = mw__alloc(count, sizeof *keyed);
     if (!keyed) return false;
@@ -78,8 +85,8 @@ bool mw__match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, 
     qsort(keyed, count, sizeof *keyed, compare_halves);
     for (uint32_t i = 0, next; i < count; i = next) {
         for (next = i + 1; next < count && keyed[next].to == keyed[i].to;) next++;
-        if (next - i > 1) join(tri, keyed[i].half, keyed[i + 1].half);
-        for (uint32_t j = i + 2; j < next; j++) mw__note_extra(tri, keyed[j].half, extra);
+        if (next - i > 1) join(tri, keyed[i].half, keyed[i + 1].half, links);
+        for (uint32_t j = i + 2; j < next; j++) mw__note_extra(tri, keyed[j].half, &links->extra);
     }
     free(keyed);
     return true;
@@ -104,19 +111,19 @@ static void gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, be
             b.half[--b.first[lower(&tri[t], e)]] = (mw_half_edge){upper(&tri[t], e), mw__link(t, e)};
 }
 
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *extra)
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_links *links)
 {
-    uint32_t none = MW_NONE;
-    bench b = {mw__calloc((size_t)vertex_count + 1, sizeof *b.first), mw__alloc(3 * (size_t)n, sizeof *b.half)};
+    mw_links found = mw__no_links();
+    bench b = {mw__calloc((size_t)vertex_count + 1, sizeof *b.first), mw__alloc_lines(3 * (size_t)n, sizeof *b.half)};
     bool done = b.first && b.half;
     if (done) gather(tri, n, vertex_count, b);
     for (uint32_t i = 0; i < vertex_count && done; i++) {
         const mw_half_edge *half = b.half + b.first[i];
         uint32_t count = b.first[i + 1] - b.first[i];
-        if (count > FEW || !match_few(tri, half, count)) done = mw__match_many(tri, half, count, &none);
+        if (count > FEW || !match_few(tri, half, count, &found)) done = mw__match_many(tri, half, count, &found);
     }
     free(b.first);
     free(b.half);
-    if (extra) *extra = none;
+    if (links) *links = found;
     return done;
 }

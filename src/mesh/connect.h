@@ -9,8 +9,8 @@ typedef struct mw_half_edge {
 } mw_half_edge;
 
 /* Link the halves of one lower vertex, however many they are, or an edge has: the first two in the user's order are joined, and
- * the others noted. Returns false when out of memory. */
-bool mw__match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, uint32_t *extra);
+ * the others noted. What is found is added to *links. Returns false when out of memory. */
+bool mw__match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links);
 
 /* Is the half-edge, a further one of its edge, the first such in the user's order? Then it becomes *extra. */
 void mw__note_extra(const mw_triangle *tri, uint32_t half, uint32_t *extra);

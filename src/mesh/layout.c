@@ -188,13 +188,13 @@ static bool make_room(layout *l)
     return l->scratch && mesh->tri && mesh->triangle_place;
 }
 
-mw_status mw__lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, uint32_t *extra, mw_error *error)
+mw_status mw__lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, mw_links *links, mw_error *error)
 {
     layout l = {.mesh = mesh, .arrays = arrays, .threads = threads, .team = mw__team(threads, MOST_THREADS)};
     choose_piles(&l);
     uint32_t bad = MW_NONE;
     bool done = make_room(&l) && place_vertices(&l) && mw__pile_up(&l.piles, mesh, arrays, l.all_finite, &bad) &&
-                (bad != MW_NONE || mw__work_parts(mesh, &l.piles, extra));
+                (bad != MW_NONE || mw__work_parts(mesh, &l.piles, links));
     mw__piles_release(&l.piles);
     free(l.scratch);
     if (!done) return mw__fail_memory(error);

@@ -22,8 +22,8 @@ bool mw__give_points(mw_mesh *mesh, const mw_point *given, uint32_t *order, uint
  * memory; then the mesh can only be destroyed. */
 bool mw__lay_out_vertices(mw_mesh *mesh, uint32_t threads);
 
-/* Make points, triangles, linked, and the numbers of both. *extra: see mw__connect; MW_NONE before. MW_ERROR_INPUT names the
+/* Make points, triangles, linked, and the numbers of both. MW_ERROR_INPUT names the
  * first triangle that is unusable; MW_ERROR_MEMORY. */
-mw_status mw__lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, uint32_t *extra, mw_error *error);
+mw_status mw__lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, mw_links *links, mw_error *error);
 
 #endif

@@ -190,10 +190,8 @@ static bool match_sorted(mw_triangle *tri, mw_arrow *arrow, const mw_bunch *b, m
     bool done = true;
     for (uint32_t i = 0, next; i < n && done; i = next) {
         for (next = i + 1; next < n && arrow[next].key >> 32 == arrow[i].key >> 32;) next++;
-        done = mw__match_many(tri, half + i, next - i, &links->extra);
+        done = mw__match_many(tri, half + i, next - i, links);
     }
-    for (uint32_t i = 0; i < n; i++) links->linked += *link_of(tri, arrow[i].half) != MW_NONE;
-    links->opposite = false;
     free(half);
     return done;
 }

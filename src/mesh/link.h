@@ -26,13 +26,6 @@ typedef struct mw_stray_list {
     uint32_t first, count;
 } mw_stray_list;
 
-/* What was found. */
-typedef struct mw_links {
-    uint64_t linked; /* half-edges that got a link                                                            */
-    uint32_t extra;  /* see mw__connect                                                                       */
-    bool opposite;   /* surely each edge is run through by its two triangles in opposite directions */
-} mw_links;
-
 /* Room for the half-edges of a part. */
 typedef struct mw_link_room {
     struct mw_arrow *arrow;

@@ -122,15 +122,17 @@ static mw_status copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_error *e
 static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, const mw_mesh_options *options, mw_error *error)
 {
     bool lay_out = !mesh->tolerant && (options->layout == 1 || (options->layout == 0 && mw__is_scattered(arrays)));
-    uint32_t extra = MW_NONE;
+    mw_links links = mw__no_links();
     mw_status status =
-        lay_out ? mw__lay_out(mesh, arrays, options->threads, &extra, error) : copy_arrays(mesh, arrays, error);
+        lay_out ? mw__lay_out(mesh, arrays, options->threads, &links, error) : copy_arrays(mesh, arrays, error);
     if (!status && !lay_out) {
         orient_all(mesh, options->threads);
-        if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &extra)) status = mw__fail_memory(error);
+        if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &links)) status = mw__fail_memory(error);
     }
-    if (!status && extra != MW_NONE && !mesh->tolerant) status = refuse_shared(mesh, extra, error);
-    return status;
+    if (status) return status;
+    mesh->opposite = links.opposite;
+    mesh->border_count = (uint32_t)(3 * (uint64_t)mesh->tri_count - links.linked);
+    return links.extra == MW_NONE || mesh->tolerant ? MW_OK : refuse_shared(mesh, links.extra, error);
 }
 
 mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out, mw_error *error)

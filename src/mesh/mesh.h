@@ -86,7 +86,7 @@ struct mw_mesh {
     mw_field *field;
     size_t field_count;
     uint32_t border_count; /* edges without link, where `opposite` is set */
-    bool opposite; /* surely both triangles of an edge run through it in opposite directions; false: it is not known */
+    bool opposite; /* both triangles of each edge run through it in opposite directions; false: it is not known */
     bool tolerant; /* may hold triangles that are not usable: see mw_mesh_options */
 };
 
@@ -128,12 +128,24 @@ mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tole
  * user's numbers. */
 mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to, mw_error *error);
 
-/* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n).
- *   extra   set to a link to the third or a further triangle of an edge, the one of the lowest user's number; MW_NONE if
- *           there is none. May be NULL
+/* What linking has found. */
+typedef struct mw_links {
+    uint64_t linked; /* half-edges that got a link                                                          */
+    uint32_t
+        extra;     /* a link to the third or a further triangle of an edge, the one of the lowest user's number; MW_NONE
+                        if there is none                                                                    */
+    bool opposite; /* both triangles of each edge run through it in opposite directions                   */
+} mw_links;
+
+static MW_INLINE mw_links mw__no_links(void)
+{
+    return (mw_links){.extra = MW_NONE, .opposite = true};
+}
+
+/* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). *links may be NULL.
  * An edge of more than two triangles links the first two. Links two triangles whatever their orientation, but none that
  * names a vertex twice; does not write to links of edges that have one triangle. Returns false when out of memory. */
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *extra);
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_links *links);
 
 /* Of three vertices, the lowest and the one between. */
 static MW_INLINE uint32_t mw__lowest(uint32_t a, uint32_t b, uint32_t c)

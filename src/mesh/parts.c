@@ -133,7 +133,7 @@ static bool link_part(const work *w, bench *b, uint32_t p)
 
 static bool open_bench(const work *w, bench *b)
 {
-    *b = (bench){.links = {.extra = MW_NONE, .opposite = true}};
+    *b = (bench){.links = mw__no_links()};
     b->next = mw__alloc((size_t)1 << w->piles->shift, sizeof *b->next);
     b->list = mw__calloc(w->piles->ranges, sizeof *b->list);
     b->lists = mw__alloc(w->team, sizeof *b->lists);
@@ -173,22 +173,20 @@ static void work_together(const work *w)
 }
 
 /* What all threads have found. */
-static bool gather(const work *w, uint32_t *extra)
+static bool gather(const work *w, mw_links *links)
 {
     mw_mesh *mesh = w->mesh;
-    uint64_t linked = 0;
     bool done = true;
-    mesh->opposite = true;
+    *links = mw__no_links();
     for (uint32_t i = 0; i < w->team; i++) {
         const bench *b = &w->bench[i];
         done = done && b->done;
         mesh->flat_count += b->flat;
         mesh->flipped_count += b->flipped;
-        mesh->opposite = mesh->opposite && b->links.opposite;
-        linked += b->links.linked;
-        if (b->links.extra != MW_NONE) mw__note_extra(mesh->tri, b->links.extra, extra);
+        links->linked += b->links.linked;
+        links->opposite = links->opposite && b->links.opposite;
+        if (b->links.extra != MW_NONE) mw__note_extra(mesh->tri, b->links.extra, &links->extra);
     }
-    mesh->border_count = (uint32_t)(3 * (uint64_t)mesh->tri_count - linked);
     return done;
 }
 
@@ -202,7 +200,7 @@ static void add_up(const work *w)
     w->first[w->piles->ranges] = sum;
 }
 
-bool mw__work_parts(mw_mesh *mesh, const mw_piles *piles, uint32_t *extra)
+bool mw__work_parts(mw_mesh *mesh, const mw_piles *piles, mw_links *links)
 {
     work w = {.mesh = mesh, .piles = piles, .team = piles->stackers};
     w.first = mw__alloc((size_t)piles->ranges + 1, sizeof *w.first);
@@ -215,7 +213,7 @@ bool mw__work_parts(mw_mesh *mesh, const mw_piles *piles, uint32_t *extra)
             work_together(&w);
         else
             work_alone(&w);
-        done = gather(&w, extra);
+        done = gather(&w, links);
     }
     for (uint32_t i = 0; i < w.team && w.bench; i++) close_bench(&w.bench[i]);
     free(w.bench);

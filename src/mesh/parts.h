@@ -5,7 +5,7 @@
 #include "mesh/piles.h"
 
 /* Fill the arrays of triangles, and of their places, of a mesh that has its vertices: by their lowest vertices, counter-clockwise,
- * linked. *extra: see mw__connect. Returns false when out of memory. */
-bool mw__work_parts(mw_mesh *mesh, const mw_piles *piles, uint32_t *extra);
+ * linked. Returns false when out of memory. */
+bool mw__work_parts(mw_mesh *mesh, const mw_piles *piles, mw_links *links);
 
 #endif

@@ -25,15 +25,15 @@ static bool take_points(mw_surface *surface, const mw_arrays *arrays)
 /* Find the neighbours: of a welded surface as if each triangle named the places of its vertices. */
 static mw_status link_triangles(mw_surface *surface, const mw_arrays *arrays, mw_error *error)
 {
-    uint32_t extra;
+    mw_links links;
     for (uint32_t t = 0; t < surface->tri_count && surface->place; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = surface->place[surface->tri[t].v[k]];
-    if (!mw__connect(surface->tri, surface->tri_count, surface->point_count, &extra)) return mw__fail_memory(error);
+    if (!mw__connect(surface->tri, surface->tri_count, surface->point_count, &links)) return mw__fail_memory(error);
     for (uint32_t t = 0; t < surface->tri_count && surface->place; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = mw__index_at(arrays, 3 * (size_t)t + k % 3);
-    if (extra == MW_NONE || surface->tolerant) return MW_OK;
-    const uint32_t *v = &surface->tri[mw__link_triangle(extra)].v[mw__link_edge(extra)];
-    return mw__fail_shared(surface->tri, extra, v[0], v[1], error);
+    if (links.extra == MW_NONE || surface->tolerant) return MW_OK;
+    const uint32_t *v = &surface->tri[mw__link_triangle(links.extra)].v[mw__link_edge(links.extra)];
+    return mw__fail_shared(surface->tri, links.extra, v[0], v[1], error);
 }
 
 static mw_status fill(mw_surface *surface, const mw_arrays *arrays, const mw_surface_options *options, mw_error *error)
