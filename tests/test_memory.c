@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <string.h>
 
 #include "domain/tiling.h"
 #include "memory.h"
@@ -106,6 +107,21 @@ static mw_status delaunay_job(const mw_arrays *view, mw_error *error)
     return status;
 }
 
+/* Laid out along a curve, from points that are not packed. */
+static mw_status layout_job(const mw_arrays *view, mw_error *error)
+{
+    mw_mesh *mesh;
+    mw_arrays wide = *view;
+    wide.points = __real_calloc(view->point_count, 3 * sizeof(double));
+    wide.point_stride = 3;
+    for (size_t i = 0; i < view->point_count; i++)
+        memcpy((double *)wide.points + 3 * i, view->points + 2 * i, 2 * sizeof(double));
+    mw_status status = mw_mesh_create(&wide, &(mw_mesh_options){.layout = 1, .threads = 1}, &mesh, error);
+    mw_mesh_destroy(mesh);
+    free((double *)wide.points);
+    return status;
+}
+
 /* Let allocation 0, 1, 2, ... of the job fail until it gets through. */
 static void exhaust(job *run, const arrays *a)
 {
@@ -199,6 +215,17 @@ static void test_bad_index(void **state)
     arrays_free(&a);
 }
 
+/* In several parts, with a fold in one of them. */
+static void test_layout(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    arrays a = grid_mesh(80, 0, &random);
+    a.points[2 * 999] += 5;
+    exhaust(layout_job, &a);
+    arrays_free(&a);
+}
+
 /* A field that could not be stored is not there, and those before it are. */
 static void test_fields(void **state)
 {
@@ -226,7 +253,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_convex),    cmocka_unit_test(test_punched),   cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_defective), cmocka_unit_test(test_bad_index), cmocka_unit_test(test_fields),
+        cmocka_unit_test(test_defective), cmocka_unit_test(test_bad_index), cmocka_unit_test(test_layout),
+        cmocka_unit_test(test_fields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
