@@ -78,7 +78,8 @@ typedef struct mw_change {
     uint32_t vertex;  /* the one inserted, removed or moved; where there was one at the place to insert at, that one */
     int vertex_made;  /* 1: it is new; more (mw_edit_insert_points): it is the first of so many                   */
     int vertex_freed; /* 1: it is gone; more (what mw_edit_undo takes back): it and those next in number          */
-    uint32_t flips;   /* edges exchanged to make the mesh Delaunay again                                          */
+    uint32_t flips;   /* edges exchanged to make the mesh Delaunay again: as many as one after another would be to
+                         put a vertex in; none where a small star is filled at once                               */
     uint32_t pieces;  /* MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE: edges on the way                                      */
     uint32_t reserved[6];
 } mw_change;

@@ -256,7 +256,7 @@ MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double 
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
  *   counters  NULL or filled with the sum over the batch (options->count)
- * MW_START_AUTO means the locator's guide: a small grid, or a sample as of MW_START_CURVE; where it has none, as where pockets and
+ * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; where it has none, as where pockets and
  * holes are open, MW_START_SORTED for 64 queries and more. MW_START_LAST and _SORTED: each thread takes 16,384
  * queries at a time, in `lanes` runs; the first query of a run begins as with MW_START_SAMPLE, each other where the one
  * before it ended.
