@@ -77,12 +77,13 @@ static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_c
     mw_fabric *f = &editor->fabric;
     mw_change own = {.vertex = MW_NONE};
     const mw_edit first = insertion(b, 0);
-    if (!mw__log_room(editor, b->n) || !mw__fabric_begin(f, &first) || !mw__journal_room(f, TILES_PER_POINT * b->n))
+    const uint64_t refreshes = editor->upkeep.refreshes;
+    if (!mw__log_room(editor, b->n) || !mw__journal_room(f, TILES_PER_POINT * b->n) || !mw__fabric_begin(f, &first))
         return mw__fail_memory(error);
     f->step[f->step_count - 1].edits = b->n;
     mw_status status = insert_all(editor, b, vertices, &own, error);
     status = mw__editor_conclude(editor, status, &own, change, error);
-    if (status) mw__upkeep_rolled_back(&editor->upkeep);
+    if (status && editor->upkeep.refreshes > refreshes) mw__upkeep_rolled_back(&editor->upkeep);
     for (size_t i = 0; i < b->n && !status && editor->keeps_log; i++)
         editor->log[editor->log_count++] = insertion(b, i);
     return status;

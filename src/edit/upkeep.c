@@ -279,7 +279,7 @@ void mw__upkeep_grow(mw_upkeep *u)
 
 void mw__upkeep_rolled_back(mw_upkeep *u)
 {
-    if (live_vertices(u->fabric) < u->since[MW_START_AUTO].fewest) refresh(u, MW_START_AUTO);
+    refresh(u, MW_START_AUTO);
 }
 
 void mw__upkeep_compact(mw_upkeep *u)

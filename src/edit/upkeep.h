@@ -54,7 +54,7 @@ void mw__upkeep_edit(mw_upkeep *upkeep, bool undone);
 /* In the middle of an edit that puts in many vertices: the guide is built anew if there are twice as many. */
 void mw__upkeep_grow(mw_upkeep *upkeep);
 
-/* After an edit that did so failed, and was rolled back. */
+/* After an edit in which the guide was built anew failed, and was rolled back: it names tiles that are not there. */
 void mw__upkeep_rolled_back(mw_upkeep *upkeep);
 
 /* After everything was numbered anew: all is built anew. Raises the epoch so that cursors know that names are other ones. */

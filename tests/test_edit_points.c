@@ -1,0 +1,594 @@
+/* test_edit_points.c - many points at once: mesh, numbers, values, report, undo and log are held against insertions one by one in the
+ * order that the log tells, and against a comparison of all that was there before and after. MW_TEST_SEED=n: other places. */
+/* wrap: malloc calloc realloc aligned_alloc */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "edit_twin.h"
+#include "memory.h"
+
+static uint64_t first_seed(void)
+{
+    const char *text = getenv("MW_TEST_SEED");
+    return text ? strtoull(text, NULL, 10) : 1;
+}
+
+/* --- places in a square of 16 ------------------------------------------------------------------------------------------------ */
+
+static void uniform(uint64_t *random, double *q)
+{
+    for (int k = 0; k < 2; k++) q[k] = mw__random_below(random, 1 << 24) * 0x1p-20;
+}
+
+static void lattice(uint64_t *random, double *q)
+{
+    for (int k = 0; k < 2; k++) q[k] = mw__random_below(random, 33) / 2.0;
+}
+
+/* Exactly on four circles. */
+static void cocircular(uint64_t *random, double *q)
+{
+    static const double leg[5][2] = {{16, 63}, {25, 60}, {33, 56}, {39, 52}, {65, 0}};
+    const double *l = leg[mw__random_below(random, 5)], size = (1 + mw__random_below(random, 4)) / 64.0;
+    uint32_t turn = mw__random_below(random, 8);
+    for (int k = 0; k < 2; k++) {
+        double away = l[(turn & 1) ^ (unsigned)k] * size;
+        q[k] = 8 + (turn >> (k + 1) & 1 ? -away : away);
+    }
+}
+
+static void clustered(uint64_t *random, double *q)
+{
+    static const double centre[3][2] = {{3, 4}, {13, 5}, {7, 12}};
+    const double *c = centre[mw__random_below(random, 3)];
+    for (int k = 0; k < 2; k++) q[k] = c[k] + mw__random_below(random, 1 << 16) * 0x1p-36;
+}
+
+/* At lattice places, but for a rounding. */
+static void near_lattice(uint64_t *random, double *q)
+{
+    lattice(random, q);
+    for (int k = 0; k < 2; k++) {
+        uint32_t which = mw__random_below(random, 4);
+        if (which == 1) q[k] = nextafter(q[k], 100);
+        if (which == 2) q[k] = nextafter(q[k], -100);
+    }
+}
+
+/* On two lines: most lie on edges, or on the hull. */
+static void in_line(uint64_t *random, double *q)
+{
+    uint32_t along = mw__random_below(random, 2);
+    q[along] = mw__random_below(random, 257) / 16.0;
+    q[!along] = 8;
+}
+
+static void huge(uint64_t *random, double *q)
+{
+    for (int k = 0; k < 2; k++) q[k] = (mw__random_below(random, 41) - 20.0) * 0x1p1018;
+}
+
+static void subnormal(uint64_t *random, double *q)
+{
+    for (int k = 0; k < 2; k++) q[k] = mw__random_below(random, 60) * 0x1p-1074;
+}
+
+/* --- sessions ------------------------------------------------------------------------------------------------------------------ */
+
+typedef struct session {
+    const char *name;
+    void (*place)(uint64_t *random, double *q);
+    int delaunay;     /* as in the options                              */
+    bool constraints; /* a few edges are fixed                          */
+    bool hole;        /* the mesh is a lattice that has one             */
+} session;
+
+static const session sessions[] = {
+    {"uniform", uniform, 0, false, false},
+    {"lattice", lattice, 0, false, false},
+    {"cocircular", cocircular, 0, false, false},
+    {"clustered", clustered, 0, false, false},
+    {"near lattice", near_lattice, 0, false, false},
+    {"in line", in_line, 0, false, false},
+    {"huge", huge, 0, false, false},
+    {"subnormal", subnormal, 0, false, false},
+    {"uniform, constraints", uniform, 0, true, false},
+    {"lattice, constraints", lattice, 0, true, false},
+    {"cocircular, constraints", cocircular, 0, true, false},
+    {"uniform, a hole", uniform, 1, false, true},
+    {"lattice, a hole, constraints", lattice, 1, true, true},
+    {"near lattice, a hole", near_lattice, 1, false, true},
+    {"uniform, not to be flipped", uniform, 2, true, false},
+    {"lattice, not to be flipped", lattice, 2, true, false},
+    {"cocircular, not to be flipped, a hole", cocircular, 2, true, true},
+};
+enum { SESSIONS = sizeof sessions / sizeof *sessions };
+
+static mw_mesh *first_mesh(const session *s, uint64_t *random)
+{
+    enum { FEW = 24 };
+    if (!s->hole) {
+        double points[2 * FEW];
+        for (int i = 0; i < FEW; i++) s->place(random, points + 2 * i);
+        if (s->place == in_line) points[0] = points[1] = 4;
+        return delaunay_mesh(points, FEW);
+    }
+    arrays a = grid_mesh(16, 0, random);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < a.triangle_count; i++) {
+        uint32_t x = i / 2 % 16, y = i / 32;
+        if (x >= 5 && x < 8 && y >= 4 && y < 9) continue;
+        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
+    }
+    a.triangle_count = kept;
+    scramble(&a, 0, random);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = 1 + (int)mw__random_below(random, 2)});
+    arrays_free(&a);
+    return mesh;
+}
+
+/* Edges of every fifth triangle, two vertices each; released by the caller. */
+static uint32_t *some_edges(const mw_mesh *mesh, size_t *count)
+{
+    uint32_t n = mw_mesh_triangle_count(mesh), *edge = room(2 * (size_t)n, sizeof *edge);
+    *count = 0;
+    for (uint32_t k = 0; k < n; k += 5) {
+        uint32_t v[3];
+        mw_mesh_triangle(mesh, k, v);
+        edge[2 * *count] = v[0];
+        edge[2 * (*count)++ + 1] = v[1];
+    }
+    return edge;
+}
+
+/* --- points -------------------------------------------------------------------------------------------------------------------- */
+
+typedef struct points {
+    double *at;
+    size_t n, stride;
+    bool along; /* each near the one before */
+} points;
+
+static const double *point_of(const points *p, size_t i)
+{
+    return p->at + i * (p->stride ? p->stride : 2);
+}
+
+static int by_x(const void *left, const void *right)
+{
+    const double *a = left, *b = right;
+    return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
+}
+
+/* Each becomes the nearest to the one before of those that are left. */
+static void line_up(points *p, size_t step)
+{
+    for (size_t i = 1; i < p->n; i++) {
+        const double *from = p->at + (i - 1) * step;
+        size_t best = i;
+        double least = INFINITY;
+        for (size_t j = i; j < p->n; j++) {
+            const double *q = p->at + j * step;
+            double away = fabs(q[0] / 2 - from[0] / 2) + fabs(q[1] / 2 - from[1] / 2);
+            best = away < least ? j : best;
+            least = fmin(away, least);
+        }
+        for (int k = 0; k < 2; k++) {
+            double swap = p->at[i * step + (size_t)k];
+            p->at[i * step + (size_t)k] = p->at[best * step + (size_t)k];
+            p->at[best * step + (size_t)k] = swap;
+        }
+    }
+}
+
+/* Some of which are where others or vertices are. */
+static points make_points(const session *s, const twin *t, size_t n, bool along, uint64_t *random)
+{
+    static const size_t strides[] = {0, 2, 3, 5};
+    points p = {.n = n, .stride = strides[mw__random_below(random, 4)], .along = along};
+    size_t step = p.stride ? p.stride : 2;
+    p.at = room(n * step, sizeof *p.at);
+    for (size_t i = 0; i < n; i++) {
+        double *q = p.at + i * step;
+        uint32_t chance = mw__random_below(random, 12), v = mw__random_below(random, t->vertex_range);
+        do {
+            s->place(random, q);
+            if (chance == 0 && t->state[v] == IS_USED) memcpy(q, at(t, v), 2 * sizeof *q);
+            if (chance == 1 && i > 0)
+                memcpy(q, p.at + (size_t)mw__random_below(random, (uint32_t)i) * step, 2 * sizeof *q);
+            for (size_t k = 2; k < step; k++) q[k] = NAN;
+        } while (!t->convex && twin_locate(t, q).triangle == MW_NONE);
+    }
+    if (along) line_up(&p, step);
+    return p;
+}
+
+/* The order in which they were inserted, by the log: all of them, and as they came where they come along a curve. */
+static void check_log(const twin *t, const points *p, size_t before)
+{
+    size_t count;
+    const mw_edit *log = mw_editor_log(t->editor, &count);
+    REQUIRE(count == before + p->n);
+    double *one = room(2 * p->n, sizeof *one), *two = room(2 * p->n, sizeof *two);
+    for (size_t i = 0; i < p->n; i++) {
+        const mw_edit *e = &log[before + i];
+        REQUIRE(e->kind == MW_EDIT_INSERT && isnan(e->value));
+        one[2 * i] = e->x;
+        one[2 * i + 1] = e->y;
+        memcpy(two + 2 * i, point_of(p, i), 2 * sizeof *two);
+    }
+    if (p->along) REQUIRE(memcmp(one, two, 2 * p->n * sizeof *one) == 0);
+    qsort(one, p->n, 2 * sizeof *one, by_x);
+    qsort(two, p->n, 2 * sizeof *two, by_x);
+    for (size_t i = 0; i < 2 * p->n; i++) REQUIRE(one[i] == two[i]);
+    free(one);
+    free(two);
+}
+
+/* --- what changed: all triangles before and after ---------------------------------------------------------------------------- */
+
+/* Take over what the editor holds now, and hold the report against it. */
+static void take_over_all(twin *t, const mw_change *change)
+{
+    mw_editor_info info;
+    mw_editor_describe(t->editor, &info);
+    const mw_changed_triangle *c[3] = {change->triangle, change->triangle + change->made,
+                                       change->triangle + change->made + change->reused};
+    size_t n[3] = {0};
+    uint32_t was_vertices = t->vertex_range, was_triangles = t->triangle_range;
+    grow(t, info.vertex_range, info.triangle_range);
+    uint32_t range = was_triangles > info.triangle_range ? was_triangles : info.triangle_range;
+    t->triangles = 0;
+    for (uint32_t k = 0; k < range; k++) {
+        uint32_t now[3] = {MW_NONE, MW_NONE, MW_NONE}, *mine = t->triangle + 3 * (size_t)k;
+        int there = mw_editor_triangle(t->editor, k, now);
+        t->triangles += there != 0;
+        if (memcmp(now, mine, sizeof now) == 0) continue;
+        int which = mine[0] == MW_NONE ? 0 : there ? 1 : 2;
+        REQUIRE(n[which] < (which == 0 ? change->made : which == 1 ? change->reused : change->freed));
+        REQUIRE(c[which][n[which]].triangle == k);
+        REQUIRE(memcmp(c[which][n[which]++].before, mine, sizeof now) == 0);
+        memcpy(mine, now, sizeof now);
+    }
+    REQUIRE(n[0] == change->made && n[1] == change->reused && n[2] == change->freed);
+    t->triangle_range = info.triangle_range;
+    uint32_t made = 0, freed = 0, first = MW_NONE;
+    range = was_vertices > info.vertex_range ? was_vertices : info.vertex_range;
+    for (uint32_t v = 0; v < range; v++) {
+        double p[2];
+        bool there = mw_editor_vertex(t->editor, v, p), was = t->state[v] != IS_GONE;
+        if (there != was && first == MW_NONE) first = v;
+        if (there != was) REQUIRE(v - first == made + freed);
+        made += there && !was;
+        freed += was && !there;
+        t->state[v] = !there ? IS_GONE : mw_editor_triangle_of(t->editor, v) == MW_NONE ? IS_ALONE : IS_USED;
+        if (!there || was) continue;
+        read_vertex(t, v);
+        split_fixed(t, v);
+    }
+    REQUIRE((uint32_t)change->vertex_made == made && (uint32_t)change->vertex_freed == freed);
+    REQUIRE(change->vertex == first);
+    t->vertices += made - freed;
+    t->vertex_range = info.vertex_range;
+    for (int i = 0; i < 6; i++) REQUIRE(change->reserved[i] == 0);
+}
+
+/* --- a batch --------------------------------------------------------------------------------------------------------------------- */
+
+static size_t log_length(const twin *t)
+{
+    size_t count;
+    mw_editor_log(t->editor, &count);
+    return count;
+}
+
+static uint64_t edits_of(const twin *t)
+{
+    mw_editor_info info;
+    mw_editor_describe(t->editor, &info);
+    return info.edits;
+}
+
+static void insert_all(twin *t, const points *p, uint32_t *vertices)
+{
+    mw_change change;
+    mw_error error = {0};
+    size_t logged = log_length(t);
+    uint64_t edits = edits_of(t);
+    uint32_t range = t->vertex_range;
+    memset(&change, 77, sizeof change);
+    vertices[p->n] = 4711;
+    expect_ok(mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error), "points", &error);
+    REQUIRE(vertices[p->n] == 4711);
+    take_over_all(t, &change);
+    REQUIRE(change.freed == 0 && change.vertex_freed == 0);
+    REQUIRE(t->vertex_range == range + (uint32_t)change.vertex_made && edits_of(t) == edits + p->n);
+    for (size_t i = 0; i < p->n; i++) {
+        REQUIRE(is_used(t, vertices[i]));
+        for (int k = 0; k < 2; k++) REQUIRE(at(t, vertices[i])[k] == point_of(p, i)[k]);
+    }
+    check_log(t, p, logged);
+}
+
+static void undo_all(twin *t, const twin *then)
+{
+    mw_change change;
+    mw_error error = {0};
+    memset(&change, 77, sizeof change);
+    expect_ok(mw_edit_undo(t->editor, &change, &error), "undo", &error);
+    take_over_all(t, &change);
+    twin c = twin_copy(then);
+    c.shared = t->shared;
+    t->shared = true;
+    twin_close(t);
+    *t = c;
+    check_same(t);
+}
+
+/* Some places of all kinds. */
+static void ask_some(const session *s, const twin *t, readers *r, uint64_t *random)
+{
+    for (int i = 0; i < 60; i++) {
+        double q[2];
+        uint32_t v = mw__random_below(random, t->vertex_range), around[8];
+        size_t n = mw_editor_around(t->editor, v, around, 8);
+        s->place(random, q);
+        for (int k = 0; k < 2 && n > 0 && i % 3 < 2; k++)
+            q[k] = i % 3 ? at(t, v)[k] : at(t, v)[k] / 2 + at(t, around[n < 8 ? n - 1 : 7])[k] / 2;
+        ask(r, t, q, twin_locate(t, q));
+    }
+}
+
+/* Vertices come and go between the points. */
+static void mix(const session *s, twin *t, uint64_t *random)
+{
+    for (int i = 0; i < 12; i++) {
+        mw_edit e = {.kind = i % 3 ? MW_EDIT_REMOVE : MW_EDIT_MOVE, .value = NAN};
+        double q[2];
+        s->place(random, q);
+        e.vertex = mw__random_below(random, t->vertex_range);
+        e.x = q[0];
+        e.y = q[1];
+        case_edit = e;
+        twin_apply(t, &e, false);
+    }
+}
+
+/* Insert, take back, insert again: the same numbers. The twin then is as it was, or with the points. */
+static void try_points(const session *s, twin *t, readers *r, const points *p, uint64_t *random)
+{
+    twin then = twin_copy(t);
+    uint32_t *vertices = room(p->n + 1, sizeof *vertices), *again = room(p->n + 1, sizeof *again);
+    size_t logged = log_length(t);
+    insert_all(t, p, vertices);
+    check_all(t);
+    ask_some(s, t, r, random);
+    if (p->n > 0) {
+        undo_all(t, &then);
+        REQUIRE(log_length(t) == logged);
+        check_all(t);
+        ask_some(s, t, r, random);
+        twin_close(&then);
+        then = twin_copy(t);
+        insert_all(t, p, again);
+        REQUIRE(memcmp(vertices, again, p->n * sizeof *again) == 0);
+        check_all(t);
+    }
+    ask_some(s, t, r, random);
+    if (p->n < 50) check_places(t, r);
+    twin_close(&then);
+    free(vertices);
+    free(again);
+}
+
+static void run_session(const session *s, uint64_t seed)
+{
+    static const size_t sizes[] = {1, 30, 0, 2, 400, 7, 1000};
+    uint64_t random = mw__random_seed(seed, 11);
+    mw_mesh *mesh = first_mesh(s, &random);
+    mw_editor_options options = {.delaunay = s->delaunay, .undo = SIZE_MAX, .log = 1};
+    uint32_t *edges = some_edges(mesh, &options.constraint_count);
+    twin t;
+    readers r;
+    options.constraints = edges;
+    if (!s->constraints) options.constraint_count = 0;
+    case_name = s->name;
+    case_seed = seed;
+    twin_open(&t, mesh, &options);
+    readers_open(&r, &t, true, random);
+    for (case_step = 0; case_step < sizeof sizes / sizeof *sizes; case_step++) {
+        points p = make_points(s, &t, sizes[case_step], mw__random_below(&random, 2), &random);
+        try_points(s, &t, &r, &p, &random);
+        free(p.at);
+        mix(s, &t, &random);
+        check_replay(&t, &options);
+    }
+    check_all(&t);
+    mw_editor_info info;
+    mw_editor_describe(t.editor, &info);
+    print_message("%-40s seed %llu: %u vertices, %zu constraints, %llu refreshes\n", s->name, (unsigned long long)seed,
+                  t.vertices, t.fixed_count, (unsigned long long)info.refreshes);
+    twin_close(&t);
+    free(edges);
+}
+
+static void test_sessions(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SESSIONS; i++) {
+        bare = i % 4 == 3;
+        run_session(&sessions[i], first_seed() + (uint64_t)i);
+    }
+    bare = false;
+}
+
+/* --- refused --------------------------------------------------------------------------------------------------------------------- */
+
+/* One point of many is bad: it is named, and nothing has changed. */
+static void refuse(const session *s, twin *t, readers *r, double x, double y, size_t n, uint64_t *random)
+{
+    points p = make_points(s, t, n, false, random);
+    size_t bad = mw__random_below(random, (uint32_t)n), named = 0, logged = log_length(t);
+    double *q = p.at + bad * (p.stride ? p.stride : 2);
+    uint64_t edits = edits_of(t);
+    uint32_t *vertices = room(n, sizeof *vertices);
+    mw_change change;
+    mw_error error = {0};
+    q[0] = x;
+    q[1] = y;
+    REQUIRE(mw_edit_insert_points(t->editor, p.at, n, p.stride, vertices, &change, &error) == MW_ERROR_INPUT);
+    REQUIRE(error.status == MW_ERROR_INPUT && sscanf(error.message, "point %zu: ", &named) == 1 && named == bad);
+    REQUIRE(log_length(t) == logged && edits_of(t) == edits);
+    check_all(t);
+    ask_some(s, t, r, random);
+    mix(s, t, random);
+    free(vertices);
+    free(p.at);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    for (int hole = 0; hole < 2; hole++) {
+        session s = {"refused", hole ? lattice : uniform, hole, false, hole};
+        uint64_t random = mw__random_seed(first_seed(), 5);
+        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = hole};
+        twin t;
+        readers r;
+        case_name = s.name;
+        case_seed = first_seed();
+        twin_open(&t, first_mesh(&s, &random), &options);
+        readers_open(&r, &t, true, random);
+        for (case_step = 0; case_step < 12; case_step++) {
+            size_t n = 1 + mw__random_below(&random, case_step % 4 == 3 ? 1500 : 60);
+            refuse(&s, &t, &r, NAN, 1, n, &random);
+            refuse(&s, &t, &r, 1, -INFINITY, n, &random);
+            if (hole) refuse(&s, &t, &r, 6.5, 6.5, n, &random);
+            if (hole) refuse(&s, &t, &r, 17, 3, n, &random);
+        }
+        check_places(&t, &r);
+        check_replay(&t, &options);
+        twin_close(&t);
+    }
+}
+
+static void test_arguments(void **state)
+{
+    (void)state;
+    const double square[] = {0, 0, 8, 0, 8, 8, 0, 8};
+    uint32_t vertex[2] = {4711, 4711};
+    mw_mesh *mesh = delaunay_mesh(square, 4);
+    mw_editor *editor;
+    mw_change change;
+    mw_error error;
+    expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = 2}, &editor, &error), "editor", &error);
+    assert_int_equal(mw_edit_insert_points(NULL, square, 4, 2, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_edit_insert_points(editor, NULL, 4, 2, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_edit_insert_points(editor, square, 4, 1, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_edit_insert_points(editor, NULL, 0, 0, NULL, &change, &error), MW_OK);
+    assert_true(change.vertex == MW_NONE && is_still(&change));
+    assert_int_equal(mw_edit_undo(editor, NULL, &error), MW_ERROR_INPUT); /* none is no edit */
+    assert_int_equal(mw_edit_insert_points(editor, square, 4, 0, NULL, &change, &error), MW_OK);
+    assert_true(change.vertex == MW_NONE && is_still(&change)); /* all are there */
+    assert_int_equal(mw_edit_undo(editor, &change, &error), MW_OK);
+    assert_true(change.vertex == MW_NONE && is_still(&change));
+    /* So many edits can be undone: those of points count as one. */
+    for (int i = 1; i <= 3; i++) {
+        const double q[] = {i, 2 * i, 2 * i, i};
+        assert_int_equal(mw_edit_insert_points(editor, q, 2, 0, vertex, NULL, NULL), MW_OK);
+        assert_int_equal(vertex[0], 2 + 2 * i);
+        assert_int_equal(vertex[1], 3 + 2 * i);
+    }
+    mw_editor_info info;
+    mw_editor_describe(editor, &info);
+    assert_int_equal(info.undoable, 2);
+    for (int i = 3; i > 1; i--) {
+        assert_int_equal(mw_edit_undo(editor, &change, &error), MW_OK);
+        assert_true(change.vertex_freed == 2 && change.vertex == 2 + 2 * (uint32_t)i && !change.vertex_made);
+    }
+    assert_int_equal(mw_edit_undo(editor, &change, &error), MW_ERROR_INPUT);
+    mw_editor_describe(editor, &info);
+    assert_true(info.vertices == 6 && info.vertex_range == 6);
+    mw_editor_destroy(editor);
+    mw_mesh_destroy(mesh);
+}
+
+/* --- each allocation fails once --------------------------------------------------------------------------------------------------- */
+
+static void fail_each(const session *s, twin *t, const points *p, long *failures)
+{
+    mw_change change;
+    mw_error error = {0};
+    twin then = twin_copy(t);
+    uint32_t *vertices = room(p->n, sizeof *vertices);
+    size_t logged = log_length(t);
+    mw_editor_info info;
+    mw_editor_describe(t->editor, &info);
+    for (long k = 0;; k++, (*failures)++) {
+        allocations_left = k;
+        mw_status status = mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error);
+        allocations_left = -1;
+        if (status == MW_OK) break;
+        REQUIRE(status == MW_ERROR_MEMORY && strcmp(error.message, "out of memory") == 0);
+        mw_editor_info now;
+        mw_editor_describe(t->editor, &now);
+        REQUIRE(now.undoable == info.undoable && now.edits == info.edits && log_length(t) == logged);
+        check_same(t);
+        if (k % 4 == 0) check_all(t);
+    }
+    take_over_all(t, &change);
+    check_all(t);
+    undo_all(t, &then);
+    check_all(t);
+    expect_ok(mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error), s->name, &error);
+    take_over_all(t, &change);
+    twin_close(&then);
+    free(vertices);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        session s = {"memory", i % 2 ? lattice : uniform, i / 2 == 1, false, i / 2 == 1};
+        uint64_t random = mw__random_seed(first_seed(), (uint32_t)i);
+        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = i / 2 == 1};
+        long failures = 0;
+        twin t;
+        readers r;
+        case_name = s.name;
+        case_seed = first_seed();
+        twin_open(&t, first_mesh(&s, &random), &options);
+        readers_open(&r, &t, i >= 4, random);
+        for (case_step = 0; case_step < 5; case_step++) {
+            points p = make_points(&s, &t, case_step == 3 ? 300 : 1 + 20 * case_step, case_step % 2, &random);
+            fail_each(&s, &t, &p, &failures);
+            ask_some(&s, &t, &r, &random);
+            free(p.at);
+        }
+        while (t.shared == false && log_length(&t) > 0) {
+            mw_error error = {0};
+            expect_ok(mw_edit_undo(t.editor, NULL, &error), "undo", &error);
+        }
+        mw_editor_info info;
+        mw_editor_describe(t.editor, &info);
+        REQUIRE(info.undoable == 0 && info.vertices == mw_mesh_vertex_count(t.first));
+        print_message("%ld allocations failed\n", failures);
+        assert_true(failures > 10);
+        twin_close(&t);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_sessions),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
