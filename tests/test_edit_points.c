@@ -235,8 +235,9 @@ static void take_over_all(twin *t, const mw_change *change)
 {
     mw_editor_info info;
     mw_editor_describe(t->editor, &info);
-    const mw_changed_triangle *c[3] = {change->triangle, change->triangle + change->made,
-                                       change->triangle + change->made + change->reused};
+    static const mw_changed_triangle none;
+    const mw_changed_triangle *list = change->triangle ? change->triangle : &none;
+    const mw_changed_triangle *c[3] = {list, list + change->made, list + change->made + change->reused};
     size_t n[3] = {0};
     uint32_t was_vertices = t->vertex_range, was_triangles = t->triangle_range;
     grow(t, info.vertex_range, info.triangle_range);
