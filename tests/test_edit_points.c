@@ -517,6 +517,37 @@ static void test_arguments(void **state)
     mw_mesh_destroy(mesh);
 }
 
+/* When they can no longer be undone, many points at once leave no more memory in use than one by one. */
+static void test_bytes(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    const double square[] = {0, 0, 16, 0, 16, 16, 0, 16};
+    double *p = room(2 * N, sizeof *p);
+    uint64_t random = first_seed();
+    for (size_t i = 0; i < N; i++) uniform(&random, p + 2 * i);
+    for (size_t undo = 0; undo < 6; undo += 5) {
+        size_t bytes[2];
+        for (int single = 0; single < 2; single++) {
+            mw_mesh *mesh = delaunay_mesh(square, 4);
+            mw_editor *editor;
+            mw_editor_info info;
+            mw_error error;
+            expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = undo}, &editor, &error), "editor", &error);
+            if (!single) expect_ok(mw_edit_insert_points(editor, p, N, 2, NULL, NULL, &error), "points", &error);
+            for (size_t i = 0; i < (single ? N : 20); i++)
+                expect_ok(mw_edit_insert(editor, p[2 * i], p[2 * i + 1], NULL, &error), "insert", &error);
+            mw_editor_describe(editor, &info);
+            bytes[single] = info.bytes;
+            mw_editor_destroy(editor);
+            mw_mesh_destroy(mesh);
+        }
+        print_message("%zu can be undone: %zu bytes, one by one %zu\n", undo, bytes[0], bytes[1]);
+        assert_true(bytes[0] <= bytes[1] + bytes[1] / 4);
+    }
+    free(p);
+}
+
 /* --- each allocation fails once --------------------------------------------------------------------------------------------------- */
 
 static void fail_each(const session *s, twin *t, const points *p, long *failures)
@@ -586,10 +617,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_sessions),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_arguments), cmocka_unit_test(test_bytes),  cmocka_unit_test(test_sessions),
+        cmocka_unit_test(test_refused),   cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,16 +119,30 @@ void mw__fabric_drop(mw_fabric *f)
     f->before_count = f->step[--f->step_count].journal;
 }
 
+/* What the journal of many edits at once needed goes when it is forgotten, if that is more than the mesh has tiles. */
+static void shrink_journal(mw_fabric *f)
+{
+    enum { FEW = 4096 };
+    size_t room = FEW + 2 * f->before_count;
+    if (f->before_room <= FEW + (size_t)f->tiling->tri_count || room > f->before_room / 2) return;
+    mw_before *before = mw__realloc(f->before, room, sizeof *before);
+    if (!before) return;
+    f->before = before;
+    f->before_room = room;
+}
+
 void mw__fabric_forget(mw_fabric *f, size_t steps)
 {
     if (f->step_count <= steps || f->step_count - steps < steps) return; /* so that each is moved once, on average */
     size_t gone = f->step_count - steps, entries = steps ? f->step[gone].journal : f->before_count;
     f->before_count -= entries;
     f->step_count = steps;
-    if (steps == 0) return;
-    memmove(f->before, f->before + entries, f->before_count * sizeof *f->before);
-    memmove(f->step, f->step + gone, steps * sizeof *f->step);
-    for (size_t i = 0; i < steps; i++) f->step[i].journal -= entries;
+    if (steps > 0) {
+        memmove(f->before, f->before + entries, f->before_count * sizeof *f->before);
+        memmove(f->step, f->step + gone, steps * sizeof *f->step);
+        for (size_t i = 0; i < steps; i++) f->step[i].journal -= entries;
+    }
+    shrink_journal(f);
 }
 
 /* --- what changed ----------------------------------------------------------------------------------------------------- */
