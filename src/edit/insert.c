@@ -21,7 +21,8 @@ static void see_corners(const mw_fabric *f, uint32_t t, mw_point q, mw_sight cor
     for (int k = 0; k < 3; k++) corner[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
 }
 
-/* Where the mesh is not Delaunay the remembering walk may go in a circle. */
+/* Where the mesh is not Delaunay the remembering walk may go in a circle: after so many tiles the celestial walk takes over, from there. */
+enum { MANY = 1 << 16 };
 static __attribute__((noinline)) bool find_surely(const mw_fabric *f, mw_point q, uint32_t *t, mw_sight corner[3])
 {
     mw_walk walk = mw__walk_begin(f->tiling, q, *t, 0, 0, NULL);
@@ -36,7 +37,7 @@ static __attribute__((noinline)) bool find_surely(const mw_fabric *f, mw_point q
 static bool find(const mw_fabric *f, mw_point q, uint32_t *t, mw_sight corner[3])
 {
     const mw_triangle *tri = f->tiling->tri;
-    uint32_t at = *t, fuel = f->tiling->tri_count, e = 0, exit = MW_NONE;
+    uint32_t at = *t, fuel = MANY, e = 0, exit = MW_NONE;
     see_corners(f, at, q, corner);
     mw_sight a = corner[0], b = corner[1], c = corner[2];
     if (is_beyond(f, &a, &b, q)) {
@@ -52,8 +53,11 @@ static bool find(const mw_fabric *f, mw_point q, uint32_t *t, mw_sight corner[3]
             *t = at;
             return false;
         }
-        if (MW_UNLIKELY(fuel-- == 0)) return find_surely(f, q, t, corner);
         at = mw__link_triangle(link);
+        if (MW_UNLIKELY(fuel-- == 0)) {
+            *t = at;
+            return find_surely(f, q, t, corner);
+        }
         e = mw__link_edge(link);
         c = mw__sight_of(f, tri[at].v[mw__prev(e)], q);
         exit = MW_NONE;
