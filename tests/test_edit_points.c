@@ -595,8 +595,9 @@ static void test_memory(void **state)
         case_seed = first_seed();
         twin_open(&t, first_mesh(&s, &random), &options);
         readers_open(&r, &t, i >= 4, random);
-        for (case_step = 0; case_step < 5; case_step++) {
-            points p = make_points(&s, &t, case_step == 3 ? 300 : 1 + 20 * case_step, case_step % 2, &random);
+        for (case_step = 0; case_step < 6; case_step++) { /* 300 in random order are sorted, fewer are not */
+            uint32_t count = case_step == 3 || case_step == 5 ? 300 : 1 + 20 * (uint32_t)case_step;
+            points p = make_points(&s, &t, count, case_step % 2 && case_step < 5, &random);
             fail_each(&s, &t, &p, &failures);
             ask_some(&s, &t, &r, &random);
             free(p.at);

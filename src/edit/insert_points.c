@@ -24,15 +24,13 @@ static bool come_along(const mw_point *p, size_t n)
     return way <= LONGER * sqrt((double)n) * (high[0] - low[0] + high[1] - low[1]);
 }
 
-/* order[n], owned by the caller, or NULL for the order in which they come; false when out of memory. */
+/* *order: n numbers, owned by the caller in any case, or NULL for the order in which they come; false when out of memory. */
 static bool choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t **order)
 {
     *order = NULL;
     if (come_along(p, n)) return true;
     *order = mw__alloc(n, sizeof **order);
-    if (*order && mw__curve_order(p, (uint32_t)n, threads, *order)) return true;
-    free(*order);
-    return false;
+    return *order && mw__curve_order(p, (uint32_t)n, threads, *order);
 }
 
 /* --- one step ----------------------------------------------------------------------------------------------------------- */
