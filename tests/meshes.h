@@ -164,6 +164,23 @@ static inline void scramble(arrays *a, int mixed, uint64_t *random)
     }
 }
 
+/* A grid of sixteen by sixteen squares, scrambled and laid out or not, with a hole from 5, 4 to `right`, 9. */
+static inline mw_mesh *holed_mesh(uint32_t right, uint64_t *random)
+{
+    arrays a = grid_mesh(16, 0, random);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < a.triangle_count; i++) {
+        uint32_t x = i / 2 % 16, y = i / 32;
+        if (x >= 5 && x < right && y >= 4 && y < 9) continue;
+        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
+    }
+    a.triangle_count = kept;
+    scramble(&a, 0, random);
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = 1 + (int)mw__random_below(random, 2)});
+    arrays_free(&a);
+    return mesh;
+}
+
 static inline void transform(arrays *a, double scale, double dx, double dy)
 {
     for (uint32_t i = 0; i < a->point_count; i++) {

@@ -116,18 +116,7 @@ static mw_mesh *first_mesh(const session *s, uint64_t *random)
         if (s->place == in_line) points[0] = points[1] = 4;
         return delaunay_mesh(points, FEW);
     }
-    arrays a = grid_mesh(16, 0, random);
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < a.triangle_count; i++) {
-        uint32_t x = i / 2 % 16, y = i / 32;
-        if (x >= 5 && x < 8 && y >= 4 && y < 9) continue;
-        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
-    }
-    a.triangle_count = kept;
-    scramble(&a, 0, random);
-    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = 1 + (int)mw__random_below(random, 2)});
-    arrays_free(&a);
-    return mesh;
+    return holed_mesh(8, random);
 }
 
 /* Edges of every fifth triangle, two vertices each; released by the caller. */

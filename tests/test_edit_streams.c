@@ -109,20 +109,7 @@ static mw_mesh *first_mesh(const stream *s, uint64_t *random)
 {
     mw_mesh *mesh;
     mw_error error;
-    if (s->hole) {
-        arrays a = grid_mesh(16, 0, random);
-        uint32_t kept = 0;
-        for (uint32_t i = 0; i < a.triangle_count; i++) {
-            uint32_t x = i / 2 % 16, y = i / 32;
-            if (x >= 5 && x < 10 && y >= 4 && y < 9) continue;
-            memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
-        }
-        a.triangle_count = kept;
-        scramble(&a, 0, random);
-        mesh = arrays_mesh(&a, (mw_mesh_options){.layout = 1 + (int)mw__random_below(random, 2)});
-        arrays_free(&a);
-        return mesh;
-    }
+    if (s->hole) return holed_mesh(10, random);
     double *places = room(2 * (size_t)s->vertices, sizeof *places);
     for (uint32_t i = 0; i < s->vertices; i++) s->place(random, places + 2 * (size_t)i);
     expect_ok(mw_delaunay(places, s->vertices, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
