@@ -47,6 +47,21 @@ static mw_status edit_job(call *c, mw_error *error)
     return mw_edit_apply(c->t->editor, c->edit, &c->change, error);
 }
 
+/* The same by an editor that keeps nothing of its edits, of which nobody asks what they changed. `before`: what it should hold. */
+static mw_status edit_plainly(mw_editor *plain, const twin *before, const mw_edit *edit)
+{
+    for (long k = 0;; k++) {
+        allocations_left = k;
+        mw_status status = mw_edit_apply(plain, edit, NULL, NULL);
+        allocations_left = -1;
+        if (status != MW_ERROR_MEMORY) return status;
+        twin held = *before;
+        held.editor = plain;
+        check_same(&held);
+        failures_seen++;
+    }
+}
+
 static mw_status undo_job(call *c, mw_error *error)
 {
     return mw_edit_undo(c->t->editor, &c->change, error);
@@ -137,6 +152,8 @@ static void run_session(bool hole, bool indexed, uint64_t seed)
     case_name = "session";
     twin_open(&t, square_mesh(hole), &options);
     call c = {.t = &t, .options = &options};
+    mw_editor *plain;
+    REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = 1}, &plain, NULL) == MW_OK);
     if (indexed) assert_int_equal(exhaust(index_job, &c), MW_OK);
     readers_open(&r, &t, indexed, seed);
     for (case_step = 0; case_step < STEPS; case_step++) {
@@ -148,6 +165,7 @@ static void run_session(bool hole, bool indexed, uint64_t seed)
         REQUIRE(expected == EITHER || (status == MW_OK) == (expected == DONE));
         if (status == MW_OK) {
             twin then = twin_copy(&t);
+            if (case_step % 8 != 3) REQUIRE(edit_plainly(plain, &then, &e) == MW_OK);
             take_over(&t, &e, &c.change);
             if (case_step % 8 == 3) {
                 assert_int_equal(exhaust(undo_job, &c), MW_OK);
@@ -164,6 +182,7 @@ static void run_session(bool hole, bool indexed, uint64_t seed)
     assert_int_equal(exhaust(constraints_job, &c), MW_OK);
     check_replay(&t, &options);
     assert_int_equal(exhaust(compact_job, &c), MW_OK);
+    mw_editor_destroy(plain);
     twin_close(&t);
 }
 
@@ -192,6 +211,45 @@ static void test_create(void **state)
         assert_true(failures_seen > 5);
         mw_editor_destroy(c.made);
         mw_mesh_destroy(c.mesh);
+    }
+}
+
+/* The middle of an edge of some triangle. */
+static mw_edit halve_any(const mw_editor *editor, uint64_t *random)
+{
+    mw_editor_info info;
+    uint32_t v[3];
+    double a[2], b[2];
+    mw_editor_describe(editor, &info);
+    while (!mw_editor_triangle(editor, mw__random_below(random, info.triangle_range), v)) {
+    }
+    uint32_t k = mw__random_below(random, 3);
+    mw_editor_vertex(editor, v[k], a);
+    mw_editor_vertex(editor, v[(k + 1) % 3], b);
+    return (mw_edit){.kind = MW_EDIT_INSERT, .x = (a[0] + b[0]) / 2, .y = (a[1] + b[1]) / 2, .value = NAN};
+}
+
+/* A point on an edge changes tiles on either side: where there is no room for those of the second, the first have to be put back. */
+static void test_halves(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 8; seed++) {
+        twin t;
+        mw_editor *plain;
+        uint64_t random = case_seed = seed;
+        mw_editor_options options = {.delaunay = 1, .undo = SIZE_MAX, .log = 1};
+        case_name = "halves";
+        failures_seen = 0;
+        twin_open(&t, square_mesh(seed % 2), &options);
+        REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = 1}, &plain, NULL) == MW_OK);
+        for (case_step = 0; case_step < 300; case_step++) {
+            mw_edit e = case_edit = halve_any(t.editor, &random);
+            REQUIRE(edit_plainly(plain, &t, &e) == MW_OK);
+            REQUIRE(twin_apply(&t, &e, false) == MW_OK);
+        }
+        print_message("seed %d: %ld allocations failed\n", (int)seed, failures_seen);
+        mw_editor_destroy(plain);
+        twin_close(&t);
     }
 }
 
@@ -226,6 +284,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sessions),
+        cmocka_unit_test(test_halves),
         cmocka_unit_test(test_create),
         cmocka_unit_test(test_value),
     };

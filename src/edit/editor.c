@@ -25,7 +25,7 @@ void mw__editor_look(mw_editor *editor)
 
 mw_status mw__fix_edges(mw_fabric *f, const uint32_t *ends, size_t count, mw_error *error)
 {
-    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN})) return mw__fail_memory(error);
+    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
     mw_status status = MW_OK;
     for (size_t i = 0; i < count && !status; i++) {
         uint32_t a = mw__vertex_there(f, ends[2 * i]), b = mw__vertex_there(f, ends[2 * i + 1]), pieces;
@@ -59,8 +59,8 @@ static mw_status choose_delaunay(mw_fabric *f, int wanted, mw_error *error)
 {
     f->delaunay = wanted != 2 && is_delaunay(f);
     if (wanted != 1 || f->delaunay) return MW_OK;
-    mw_status status =
-        mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}) ? mw__fabric_mend(f, error) : mw__fail_memory(error);
+    mw_status status = mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, true) ? mw__fabric_mend(f, error)
+                                                                                   : mw__fail_memory(error);
     if (status) return status;
     mw__fabric_commit(f);
     mw__fabric_forget(f, 0);
@@ -308,8 +308,7 @@ bool mw__log_room(mw_editor *editor, size_t more)
 /* For the report of the step under way. */
 static bool report_room(mw_editor *editor)
 {
-    const mw_before *first;
-    size_t count = 3 * mw__fabric_journal(&editor->fabric, &first), room = count + count / 2 + 16;
+    size_t count = 3 * mw__fabric_extent(&editor->fabric), room = count + count / 2 + 16;
     if (editor->changed && count <= editor->changed_room) return true;
     mw_changed_triangle *changed = mw__realloc(editor->changed, room, sizeof *changed);
     if (!changed) return false;
@@ -346,7 +345,8 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
     if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
     const mw_edit copy = *edit; /* it may stand in the log, which grows */
     mw_change own = {.vertex = MW_NONE};
-    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy)) return mw__fail_memory(error);
+    bool recorded = change || editor->undo > 0 || edit->kind != MW_EDIT_INSERT || mw__upkeep_asks(&editor->upkeep);
+    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy, recorded)) return mw__fail_memory(error);
     mw_status status = mw__editor_conclude(editor, carry_out(editor, &copy, &own, error), &own, change, error);
     if (status) return status;
     if (editor->keeps_log) editor->log[editor->log_count++] = copy;
@@ -379,7 +379,7 @@ mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
     if (change && !report_room(editor)) return mw__fail_memory(error);
     mw_fabric *f = &editor->fabric;
     uint32_t vertices = f->vertex_count;
-    mw__fabric_revert(f);
+    if (!mw__fabric_revert(f)) return mw__fail_memory(error);
     const mw_step *step = &f->step[f->step_count - 1];
     undo_value(editor, step);
     if (editor->keeps_log) editor->log_count -= step->edits;

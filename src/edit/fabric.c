@@ -16,6 +16,12 @@ static size_t enlarged(size_t room)
     return 2 * room + 16;
 }
 
+static uint32_t enlarged_up_to(uint32_t room, uint32_t most)
+{
+    size_t more = enlarged(room);
+    return more < most ? (uint32_t)more : most;
+}
+
 /* An array that begins with a cache line, which realloc would not keep, in a larger room; the old one goes unless it is borrowed. */
 static void *enlarge_lines(void *old, bool borrowed, size_t count, size_t room, size_t size)
 {
@@ -29,7 +35,7 @@ static void *enlarge_lines(void *old, bool borrowed, size_t count, size_t room, 
 static bool more_tiles(mw_fabric *f)
 {
     mw_tiling *tiling = f->tiling;
-    uint32_t room = (uint32_t)enlarged(tiling->tri_count);
+    uint32_t room = enlarged_up_to(tiling->tri_count, MW_MAX_TRIANGLES);
     uint8_t *mark = mw__realloc(f->mark, room, sizeof *mark);
     if (!mark) return false;
     f->mark = mark;
@@ -43,11 +49,11 @@ static bool more_tiles(mw_fabric *f)
 
 static bool more_numbers(mw_fabric *f)
 {
-    size_t room = enlarged(f->number_room);
+    uint32_t room = enlarged_up_to(f->number_room, MW_USER_MASK);
     uint32_t *tile_of = mw__realloc(f->tiling->tile_of, room, sizeof *tile_of);
     if (!tile_of) return false;
     f->tiling->tile_of = tile_of;
-    f->number_room = (uint32_t)room;
+    f->number_room = room;
     return true;
 }
 
@@ -171,6 +177,7 @@ void mw__fabric_release(mw_fabric *f)
     free(f->rim);
     free(f->pool);
     free(f->ahead);
+    free(f->sight);
     *f = (mw_fabric){0};
 }
 
@@ -218,8 +225,8 @@ bool mw__journal_room(mw_fabric *f, size_t more)
 
 /* --- tiles and vertices come and go ----------------------------------------------------------------------------------- */
 
-/* Room for n more numbers, tiles and records of the journal. */
-static bool room_for_tiles(mw_fabric *f, uint32_t n, bool users)
+/* Room for n more numbers and tiles. */
+static __attribute__((noinline)) bool room_for_tiles(mw_fabric *f, uint32_t n, bool users)
 {
     mw_tiling *tiling = f->tiling;
     if (tiling->tri_count > MW_MAX_TRIANGLES - n) return false;
@@ -228,29 +235,24 @@ static bool room_for_tiles(mw_fabric *f, uint32_t n, bool users)
         if (!more_numbers(f)) return false;
     while (tiling->tri_count + n > f->tile_room)
         if (!more_tiles(f)) return false;
-    return mw__journal_room(f, n);
+    return true;
 }
 
 bool mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles)
 {
     mw_tiling *tiling = f->tiling;
-    bool users = mw__is_users(f, beside);
-    if (!room_for_tiles(f, n, users)) return false;
+    uint32_t like = tiling->tri[beside].user, first = tiling->tri_count, number = tiling->number_count;
+    bool users = !(like & MW_GHOST), room = first + n <= f->tile_room && number + n <= f->number_room;
+    if (MW_UNLIKELY(!room) && !room_for_tiles(f, n, users)) return false;
+    mw_triangle *tri = tiling->tri;
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t t = tiling->tri_count++;
-        if (!(f->mark[t] & MW_JOURNALED)) { /* as one that was not there */
-            mw_before *before = &f->before[f->before_count++];
-            before->place = t;
-            before->tile.v[0] = MW_NONE;
-            f->mark[t] |= MW_JOURNALED;
-        }
-        tiling->tri[t].user = users ? tiling->number_count : tiling->tri[beside].user;
-        if (users)
-            tiling->tile_of[tiling->number_count++] = t;
-        else
-            tiling->ghost_count++;
-        tiles[i] = t;
+        uint32_t t = tiles[i] = first + i;
+        f->mark[t] &= MW_JOURNALED; /* one of the journal may have gone before */
+        tri[t].user = users ? number + i : like;
+        if (users) tiling->tile_of[number + i] = t;
     }
+    tiling->tri_count += n;
+    *(users ? &tiling->number_count : &tiling->ghost_count) += n;
     return true;
 }
 

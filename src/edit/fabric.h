@@ -4,9 +4,10 @@
  * tile of the user's has a number (tri[t].user), and tiling->tile_of finds the tile of a number. Ghosts have none. Vertices have a number
  * and a place too; a place that is free is taken again by the next vertex, its number is not.
  *
- * An edit is bracketed: mw__fabric_begin, operations, mw__fabric_commit or mw__fabric_rollback. Before a tile gets other corners, or goes, its
- * record is put into the journal, once an edit. Links of tiles round about are not: they follow from those of the tiles put back. The
- * journal of an edit tells what it changed, and, exchanged with the tiles as they are, takes it back. */
+ * An edit is bracketed: mw__fabric_begin, operations, mw__fabric_commit or mw__fabric_rollback. Before a tile that was there gets other corners,
+ * or goes, its record is put into the journal, once an edit. Links of tiles round about are not: they follow from those of the tiles put back.
+ * The journal of an edit, with the places at the end of the array that it has taken, tells what it changed; exchanged with the tiles as they
+ * are, it takes it back. An insertion about which nobody will ask, and which cannot fail once it has begun to change tiles, needs none. */
 #ifndef MW_SRC_FABRIC_H
 #define MW_SRC_FABRIC_H
 
@@ -42,6 +43,7 @@ typedef struct mw_step {
 /* A step of the boundary of tiles that are to be replaced, which lie to its left: see rim.h. */
 typedef struct mw_rim_step mw_rim_step;
 typedef struct mw_step_ahead mw_step_ahead; /* insert.c */
+typedef struct mw_sight mw_sight;
 
 typedef struct mw_fabric {
     mw_tiling *tiling;       /* its arrays belong to the fabric as long as it lives; with tile_of */
@@ -55,14 +57,16 @@ typedef struct mw_fabric {
     bool delaunay;     /* edges that are not fixed are Delaunay, and are to stay so          */
     mw_before *before; /* the journal of this edit and of those that can be undone       */
     size_t before_count, before_room;
-    mw_step *step; /* the edits in it; the last one is under way between begin and commit */
+    uint32_t journaled; /* of this edit: tiles from here on need no record, as they are new, or as nobody will ask */
+    mw_step *step;      /* the edits in it; the last one is under way between begin and commit */
     size_t step_count, step_room;
     uint32_t *stack; /* half-edges that may have to be flipped, and other scratch        */
     size_t stack_count, stack_room;
     mw_rim_step *rim;     /* scratch */
     uint32_t *pool;       /* scratch: tiles that are to be replaced */
     mw_step_ahead *ahead; /* scratch: steps that are yet to be looked at */
-    size_t rim_room;      /* of the three */
+    mw_sight *sight;      /* scratch: vertices that were looked at */
+    size_t rim_room;      /* of the four */
     uint32_t last;        /* a tile where the last edit was */
     uint32_t flips;       /* of this edit                   */
 } mw_fabric;
@@ -107,14 +111,14 @@ size_t mw__fabric_bytes(const mw_fabric *f); /* but for the tiling's own (mw__ti
 
 /* --- an edit as a whole (journal.c) ----------------------------------------------------------------------------------- */
 
-/* False when out of memory. */
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit);
+/* False when out of memory. `recorded`: somebody will ask what the edit changed, or have it taken back. */
+bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded);
 /* After the operations. Between this and mw__fabric_forget the journal of the last step can be read. */
 void mw__fabric_commit(mw_fabric *f);
 void mw__fabric_rollback(mw_fabric *f);
-/* Take back the last step. Its journal then holds the tiles as they were after the edit, and is the last thing in the journal until the
- * step is dropped (mw__fabric_drop). */
-void mw__fabric_revert(mw_fabric *f);
+/* Take back the last step, which was recorded. Its journal then holds the tiles as they were after the edit, and is the last thing in the
+ * journal until the step is dropped (mw__fabric_drop). False when out of memory; then nothing has changed. */
+bool mw__fabric_revert(mw_fabric *f);
 void mw__fabric_drop(mw_fabric *f);
 /* Keep the journal of the last `steps` edits only. */
 void mw__fabric_forget(mw_fabric *f, size_t steps);
@@ -129,7 +133,15 @@ static MW_INLINE size_t mw__fabric_journal(const mw_fabric *f, const mw_before *
     return f->before_count - begin;
 }
 
-/* The triangles that the last step changed, by its journal: `list` has room for three times that. */
+/* How many places the last step changed at most. */
+static MW_INLINE size_t mw__fabric_extent(const mw_fabric *f)
+{
+    const mw_step *step = &f->step[f->step_count - 1];
+    uint32_t tiles = f->tiling->tri_count;
+    return f->before_count - step->journal + (tiles > step->tiles ? tiles - step->tiles : 0);
+}
+
+/* The triangles that the last step, which was recorded, changed: `list` has room for three times its extent. */
 void mw__fabric_report(const mw_fabric *f, mw_changed_triangle *list, mw_change *change);
 
 /* The numbers of a tile's vertices, in the user's order. */

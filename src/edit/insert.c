@@ -11,67 +11,69 @@
 
 /* --- where ------------------------------------------------------------------------------------------------------------ */
 
-static MW_INLINE bool is_beyond(const mw_fabric *f, const mw_sight *a, const mw_sight *b, mw_point q)
-{
-    return mw__sights_side(f, a, b, q) < 0;
-}
+/* Where a point is: in `tile`, whose corners are the first three of f->sight, seen from there; or outside, beyond an edge of that tile. */
+typedef struct place {
+    uint32_t tile;
+    bool inside, on_boundary; /* the tile's own */
+} place;
 
-static void see_corners(const mw_fabric *f, uint32_t t, mw_point q, mw_sight corner[3])
+static void see_corners(mw_fabric *f, uint32_t t, mw_point q)
 {
-    for (int k = 0; k < 3; k++) corner[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
+    for (int k = 0; k < 3; k++) f->sight[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
 }
 
 /* Where the mesh is not Delaunay the remembering walk may go in a circle: after so many tiles the celestial walk takes over, from there. */
 enum { MANY = 1 << 16 };
-static __attribute__((noinline)) bool find_surely(const mw_fabric *f, mw_point q, uint32_t *t, mw_sight corner[3])
+static __attribute__((noinline)) place find_surely(mw_fabric *f, mw_point q, uint32_t t)
 {
-    mw_walk walk = mw__walk_begin(f->tiling, q, *t, 0, 0, NULL);
+    mw_walk walk = mw__walk_begin(f->tiling, q, t, 0, 0, NULL);
     bool inside = mw__walk_surely(&walk, false) == MW_FOUND;
-    *t = walk.t;
-    see_corners(f, walk.t, q, corner);
-    return inside;
+    place at = {.tile = walk.t, .inside = inside};
+    see_corners(f, at.tile, q);
+    for (int k = 0; k < 3; k++) {
+        const mw_sight *a = &f->sight[k], *b = &f->sight[mw__next((uint32_t)k)];
+        at.on_boundary |= mw__sights_side(f, a, b, q) == 0;
+    }
+    return at;
 }
 
-/* The remembering walk from tile *t on [thesis, App. A, sec. 2], written once more because what it saw of the corners is of use for what
- * follows. Is q in the tile *t where it ends? Else it is outside, beyond an edge of that. */
-static bool find(const mw_fabric *f, mw_point q, uint32_t *t, mw_sight corner[3])
+/* The remembering walk from tile t on [thesis, App. A, sec. 2], written once more because what it saw of the corners is of use for what
+ * follows. There has to be room for sights. */
+static place find(mw_fabric *f, mw_point q, uint32_t t)
 {
     const mw_triangle *tri = f->tiling->tri;
-    uint32_t at = *t, fuel = MANY, e = 0, exit = MW_NONE;
-    see_corners(f, at, q, corner);
-    mw_sight a = corner[0], b = corner[1], c = corner[2];
-    if (is_beyond(f, &a, &b, q)) {
+    uint32_t fuel = MANY, e = 0, exit = MW_NONE;
+    see_corners(f, t, q);
+    mw_sight a = f->sight[0], b = f->sight[1], c = f->sight[2];
+    double ab = mw__sights_side(f, &a, &b, q), bc = mw__sights_side(f, &b, &c, q), ca = mw__sights_side(f, &c, &a, q);
+    if (ab < 0) {
         exit = 0, c = a, a = b, b = c;
-    } else if (is_beyond(f, &b, &c, q)) {
+    } else if (bc < 0) {
         exit = 1, a = c;
-    } else if (is_beyond(f, &c, &a, q)) {
+    } else if (ca < 0) {
         exit = 2, b = c;
     }
     while (exit != MW_NONE) { /* by an edge from b to a, which in the next tile goes from a to b */
-        uint32_t link = tri[at].link[exit];
-        if (link == MW_NONE) {
-            *t = at;
-            return false;
-        }
-        at = mw__link_triangle(link);
-        if (MW_UNLIKELY(fuel-- == 0)) {
-            *t = at;
-            return find_surely(f, q, t, corner);
-        }
+        uint32_t link = tri[t].link[exit];
+        if (link == MW_NONE) return (place){.tile = t};
+        t = mw__link_triangle(link);
+        if (MW_UNLIKELY(fuel-- == 0)) return find_surely(f, q, t);
         e = mw__link_edge(link);
-        c = mw__sight_of(f, tri[at].v[mw__prev(e)], q);
+        c = mw__sight_of(f, tri[t].v[mw__prev(e)], q);
         exit = MW_NONE;
-        if (is_beyond(f, &b, &c, q)) {
+        ab = 1; /* it came over this edge */
+        bc = mw__sights_side(f, &b, &c, q);
+        if (bc < 0) {
             exit = mw__next(e), a = c;
-        } else if (is_beyond(f, &c, &a, q)) {
-            exit = mw__prev(e), b = c;
+            continue;
         }
+        ca = mw__sights_side(f, &c, &a, q);
+        if (ca < 0) exit = mw__prev(e), b = c;
     }
-    *t = at;
-    corner[e] = a;
-    corner[mw__next(e)] = b;
-    corner[mw__prev(e)] = c;
-    return true;
+    f->sight[e] = a;
+    f->sight[mw__next(e)] = b;
+    f->sight[mw__prev(e)] = c;
+    return (place){.tile = t, .inside = true, .on_boundary = ab == 0 || bc == 0 || ca == 0};
 }
 
 static mw_status refuse_outside(mw_point q, mw_error *error)
@@ -86,6 +88,7 @@ typedef struct hole {
     mw_point q;
     size_t first, pool; /* in f->rim, in f->pool                          */
     size_t steps, tiles, ahead;
+    uint32_t sights;
     size_t most; /* tiles that there is room for, with the steps they bring */
 } hole;
 
@@ -98,10 +101,10 @@ static MW_INLINE bool in_circle(const mw_fabric *f, const mw_sight *a, const mw_
     return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
 }
 
-/* Room for more tiles, and the steps they bring: each brings one more. */
+/* Room for more tiles, and the steps and sights they bring: each brings one more. */
 static bool deepen(mw_fabric *f, hole *h)
 {
-    size_t used = h->first + h->pool + h->steps + h->ahead + 4;
+    size_t used = h->first + h->pool + h->steps + h->ahead + h->sights + 4;
     if (!mw__rim_room(f, used + 2 * h->tiles + 8)) return false;
     h->most = f->rim_room - used;
     return true;
@@ -115,29 +118,33 @@ static MW_INLINE bool take(mw_fabric *f, hole *h, uint32_t t)
     return mw__journal(f, t);
 }
 
-static MW_INLINE void look_ahead(mw_fabric *f, hole *h, const mw_sight *end, uint32_t beyond, bool fixed)
+/* A step to the vertex at f->sight[end]. */
+static MW_INLINE void look_ahead(mw_fabric *f, hole *h, uint32_t end, uint32_t beyond, bool fixed)
 {
-    f->ahead[h->ahead++] = (mw_step_ahead){*end, beyond, fixed};
+    f->ahead[h->ahead++] = (mw_step_ahead){end, beyond, fixed};
 }
 
-/* Go along the steps ahead, the last one first, which begins at vertex a: where the tile beyond has q in its circle, its two other edges are
- * steps instead. No tile is met twice, for a vertex all of whose tiles were in the hole would lie where q does. */
-static bool dig(mw_fabric *f, hole *h, mw_sight a)
+/* Go along the steps ahead, the last one first, which begins at f->sight[begin]: where the tile beyond has q in its circle, its two other edges
+ * are steps instead. No tile is met twice, for a vertex all of whose tiles were in the hole would lie where q does. */
+static bool dig(mw_fabric *f, hole *h, uint32_t begin)
 {
     const mw_triangle *tri = f->tiling->tri;
     const bool delaunay = f->delaunay;
     const size_t taken = h->tiles;
+    mw_sight a = f->sight[begin];
     mw_step_ahead step = f->ahead[--h->ahead];
     for (;;) {
         if (step.beyond != MW_NONE && !step.fixed && delaunay) {
-            const mw_triangle *tile = &tri[mw__link_triangle(step.beyond)];
-            uint32_t e = mw__link_edge(step.beyond), next = mw__next(e), prev = mw__prev(e);
+            uint32_t t = mw__link_triangle(step.beyond), e = mw__link_edge(step.beyond);
+            uint32_t next = mw__next(e), prev = mw__prev(e);
+            const mw_triangle *tile = &tri[t];
             mw_sight d = mw__sight_of(f, tile->v[prev], h->q);
-            if (in_circle(f, &step.end, &a, &d, h->q)) {
-                uint32_t t = mw__link_triangle(step.beyond), fixed = f->mark[t];
+            if (in_circle(f, &f->sight[step.end], &a, &d, h->q)) {
+                uint32_t fixed = f->mark[t];
                 if (!take(f, h, t)) return false;
-                look_ahead(f, h, &step.end, tile->link[prev], fixed >> prev & 1);
-                step = (mw_step_ahead){d, tile->link[next], fixed >> next & 1};
+                look_ahead(f, h, step.end, tile->link[prev], fixed >> prev & 1);
+                f->sight[h->sights] = d;
+                step = (mw_step_ahead){h->sights++, tile->link[next], fixed >> next & 1};
                 continue;
             }
         }
@@ -145,7 +152,7 @@ static bool dig(mw_fabric *f, hole *h, mw_sight a)
         rim->vertex = a.vertex;
         rim->beyond = step.beyond;
         rim->fixed = step.fixed;
-        a = step.end;
+        a = f->sight[step.end];
         if (h->ahead == 0) break;
         step = f->ahead[--h->ahead];
     }
@@ -154,9 +161,15 @@ static bool dig(mw_fabric *f, hole *h, mw_sight a)
     return true;
 }
 
+/* From here on something may fail after tiles have changed. */
+static void record(mw_fabric *f)
+{
+    f->journaled = f->step[f->step_count - 1].tiles;
+}
+
 /* --- the star --------------------------------------------------------------------------------------------------------- */
 
-/* Tiles round v, counter-clockwise, from the one whose edge 2 to the one whose edge 1 is not linked. */
+/* Tiles round v, counter-clockwise. */
 typedef struct fan {
     uint32_t first, last;
 } fan;
@@ -174,42 +187,45 @@ static mw_status fill(mw_fabric *f, const hole *h, uint32_t v, uint32_t beside, 
     size_t more = h->steps - h->tiles;
     if (!mw__add_tiles(f, beside, (uint32_t)more, f->pool + h->pool + h->tiles)) return tile_failure(f, more, error);
     mw_triangle *tri = f->tiling->tri;
-    uint32_t *tile_at = f->tiling->tile_at, before = MW_NONE;
-    const uint32_t *pool = f->pool + h->pool;
+    uint32_t *tile_at = f->tiling->tile_at;
+    const uint32_t *pool = f->pool + h->pool, *last = pool + h->steps - 1;
     const mw_rim_step *step = f->rim + h->first;
-    for (size_t i = 0; i < h->steps; i++, step++) {
-        uint32_t t = pool[i];
-        mw_triangle *tile = &tri[t];
-        tile->v[0] = tile->v[3] = step->vertex;
-        tile->v[1] = step[1].vertex;
-        tile->v[2] = v;
-        tile->user &= ~MW_FLIPPED;
-        tile->link[2] = before == MW_NONE ? before : mw__link(before, 1);
+    uint32_t before = *last;
+    for (const uint32_t *at = pool; at <= last; at++, step++) { /* as if they went all the way round */
+        uint32_t t = *at, after = at < last ? at[1] : *pool;
+        tri[t].v[0] = tri[t].v[3] = step->vertex;
+        tri[t].v[1] = step[1].vertex;
+        tri[t].v[2] = v;
+        tri[t].link[1] = mw__link(after, 2);
+        tri[t].link[2] = mw__link(before, 1);
+        tri[t].user &= ~MW_FLIPPED;
         mw__attach(f, mw__link(t, 0), step->beyond);
-        if (before != MW_NONE) tri[before].link[1] = mw__link(t, 2);
         mw__set_fixed(f, t, step->fixed);
         tile_at[step->vertex] = before = t;
     }
-    tri[before].link[1] = MW_NONE;
     tile_at[step->vertex] = tile_at[v] = before;
-    *made = (fan){pool[0], before};
+    *made = (fan){*pool, before};
     return MW_OK;
 }
 
-/* `corner`: those of tile t. */
-static mw_status put_in_tile(mw_fabric *f, uint32_t t, const mw_sight corner[3], mw_point q, uint32_t v,
-                             mw_error *error)
+/* The fan does not go all the way round. */
+static void open_fan(mw_fabric *f, const fan *made)
+{
+    mw__attach(f, mw__link(made->last, 1), MW_NONE);
+    mw__attach(f, mw__link(made->first, 2), MW_NONE);
+}
+
+/* Tile t, whose corners are the first three sights. */
+static mw_status put_in_tile(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
 {
     if (!mw__is_users(f, t)) return refuse_outside(q, error);
-    hole h = {.q = q};
+    hole h = {.q = q, .sights = 3};
     fan made;
     if (!take(f, &h, t)) return mw__fail_memory(error);
     const mw_triangle *tile = &f->tiling->tri[t];
-    for (uint32_t k = 3; k-- > 0;) look_ahead(f, &h, &corner[mw__next(k)], tile->link[k], f->mark[t] >> k & 1);
-    if (!dig(f, &h, corner[0])) return mw__fail_memory(error);
-    mw_status status = fill(f, &h, v, t, &made, error);
-    if (!status) mw__attach(f, mw__link(made.last, 1), mw__link(made.first, 2));
-    return status;
+    for (uint32_t k = 3; k-- > 0;) look_ahead(f, &h, mw__next(k), tile->link[k], f->mark[t] >> k & 1);
+    if (!dig(f, &h, 0)) return mw__fail_memory(error);
+    return fill(f, &h, v, t, &made, error);
 }
 
 /* --- on an edge ------------------------------------------------------------------------------------------------------- */
@@ -232,12 +248,14 @@ static mw_status put_beside(mw_fabric *f, uint32_t half, hole *h, uint32_t v, fa
     if (!take(f, h, t)) return mw__fail_memory(error);
     const mw_triangle *tile = &f->tiling->tri[t];
     uint32_t next = mw__next(k), prev = mw__prev(k), marks = f->mark[t];
-    mw_sight from = mw__sight_of(f, tile->v[k], h->q), apex = mw__sight_of(f, tile->v[prev], h->q);
-    look_ahead(f, h, &from, tile->link[prev], marks >> prev & 1);
-    look_ahead(f, h, &apex, tile->link[next], marks >> next & 1);
-    if (!dig(f, h, mw__sight_of(f, tile->v[next], h->q))) return mw__fail_memory(error);
+    see_corners(f, t, h->q);
+    look_ahead(f, h, k, tile->link[prev], marks >> prev & 1);
+    look_ahead(f, h, prev, tile->link[next], marks >> next & 1);
+    if (!dig(f, h, next)) return mw__fail_memory(error);
     mw_status status = fill(f, h, v, t, made, error);
-    if (status || !fixed) return status;
+    if (status) return status;
+    open_fan(f, made);
+    if (!fixed) return MW_OK;
     f->mark[made->first] |= 4;
     f->mark[made->last] |= 2;
     return MW_OK;
@@ -250,8 +268,9 @@ static mw_status put_on_edge(mw_fabric *f, uint32_t half, mw_point q, uint32_t v
     bool users = mw__is_users(f, t),
          border = other == MW_NONE ? !f->convex && users : users != mw__is_users(f, mw__link_triangle(other));
     if (!users && !border) return refuse_outside(q, error);
+    record(f);
     if (mw__is_fixed(f, half) && !border) f->fixed_count++;
-    hole one = {.q = q}, two = one;
+    hole one = {.q = q, .sights = 3}, two = one;
     fan left, right;
     mw_status status = put_beside(f, half, &one, v, &left, error);
     if (status || other == MW_NONE) return status;
@@ -291,51 +310,53 @@ static uint32_t hull_before(const mw_fabric *f, uint32_t half)
 static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
 {
     if (!f->convex) return refuse_outside(q, error);
+    record(f);
     uint32_t half = mw__link(t, 0);
     while (mw__beyond(f, half) != MW_NONE || !sees(f, q, half)) half = mw__half_next(half);
     for (uint32_t before = hull_before(f, half); sees(f, q, before); before = hull_before(f, half)) half = before;
     hole h = {.q = q};
     fan made;
-    mw_sight begin;
     do {
         uint32_t at = mw__link_triangle(half), k = mw__link_edge(half);
         if (!mw__journal(f, at) || !mw__rim_room(f, h.ahead + 4)) return mw__fail_memory(error);
-        mw_sight end = mw__sight_of(f, f->tiling->tri[at].v[k], q);
-        look_ahead(f, &h, &end, half, mw__is_fixed(f, half));
-        begin = mw__sight_of(f, f->tiling->tri[at].v[k + 1], q);
+        look_ahead(f, &h, h.sights, half, mw__is_fixed(f, half));
+        f->sight[h.sights++] = mw__sight_of(f, f->tiling->tri[at].v[k], q);
+        f->sight[h.sights] =
+            mw__sight_of(f, f->tiling->tri[at].v[k + 1], q); /* where the next one ends, if there is one */
         half = hull_after(f, half);
     } while (sees(f, q, half));
-    if (!dig(f, &h, begin)) return mw__fail_memory(error);
-    return fill(f, &h, v, t, &made, error);
+    if (!dig(f, &h, h.sights++)) return mw__fail_memory(error);
+    mw_status status = fill(f, &h, v, t, &made, error);
+    if (!status) open_fan(f, &made);
+    return status;
 }
 
-/* --- both ------------------------------------------------------------------------------------------------------------- */
+/* --- all of them ------------------------------------------------------------------------------------------------------ */
 
-/* Put a vertex at q into tile t, where the walk found it. */
-static mw_status put_inside(mw_fabric *f, uint32_t t, const mw_sight corner[3], mw_point q, uint32_t v, mw_error *error)
+/* Of the first three sights that which is q itself; 3 if none is. */
+static uint32_t corner_there(const mw_fabric *f)
 {
-    for (uint32_t k = 0; k < 3; k++)
-        if (mw__sights_side(f, &corner[k], &corner[mw__next(k)], q) == 0)
-            return put_on_edge(f, mw__link(t, k), q, v, error);
-    return put_in_tile(f, t, corner, q, v, error);
+    uint32_t k = 0;
+    while (k < 3 && (f->sight[k].x != 0 || f->sight[k].y != 0)) k++;
+    return k;
 }
 
-/* The corner that lies at the point from which the three are seen; 3 if none does. */
-static uint32_t corner_there(const mw_sight corner[3])
+/* The edge of a tile, whose corners are the first three sights, on which q lies. */
+static uint32_t edge_there(const mw_fabric *f, uint32_t t, mw_point q)
 {
-    uint32_t at = 3;
-    for (uint32_t k = 0; k < 3; k++) at = corner[k].x == 0 && corner[k].y == 0 ? k : at;
-    return at;
+    uint32_t k = 0;
+    while (k < 2 && mw__sights_side(f, &f->sight[k], &f->sight[k + 1], q) != 0) k++;
+    return mw__link(t, k);
 }
 
 mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error)
 {
-    mw_sight corner[3];
-    bool inside = find(f, q, &t, corner);
-    uint32_t at = inside ? corner_there(corner) : 3;
-    f->last = t;
-    if (at < 3) {
-        *vertex = corner[at].vertex;
+    enum { SIGHTS = 16 };
+    if (!mw__rim_room(f, SIGHTS)) return mw__fail_memory(error);
+    place at = find(f, q, t);
+    f->last = at.tile;
+    if (MW_UNLIKELY(at.on_boundary) && corner_there(f) < 3) {
+        *vertex = f->sight[corner_there(f)].vertex;
         return MW_OK;
     }
     if (*vertex == MW_NONE) {
@@ -343,5 +364,7 @@ mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vert
         if (!mw__add_vertex(f, q, vertex)) return mw__fail_memory(error);
         f->step[f->step_count - 1].vertex = *vertex;
     }
-    return inside ? put_inside(f, t, corner, q, *vertex, error) : put_outside(f, t, q, *vertex, error);
+    if (MW_UNLIKELY(!at.inside)) return put_outside(f, at.tile, q, *vertex, error);
+    if (MW_UNLIKELY(at.on_boundary)) return put_on_edge(f, edge_there(f, at.tile, q), q, *vertex, error);
+    return put_in_tile(f, at.tile, q, *vertex, error);
 }

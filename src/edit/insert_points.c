@@ -68,7 +68,7 @@ static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertice
     return MW_OK;
 }
 
-enum { TILES_PER_POINT = 6 }; /* that are made or changed; room that is not used takes addresses only */
+enum { TILES_PER_POINT = 4 }; /* that are changed; room that is not used takes addresses only */
 
 static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *change, mw_error *error)
 {
@@ -76,7 +76,8 @@ static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_c
     mw_change own = {.vertex = MW_NONE};
     const mw_edit first = insertion(b, 0);
     const uint64_t refreshes = editor->upkeep.refreshes;
-    if (!mw__log_room(editor, b->n) || !mw__journal_room(f, TILES_PER_POINT * b->n) || !mw__fabric_begin(f, &first))
+    if (!mw__log_room(editor, b->n) || !mw__journal_room(f, TILES_PER_POINT * b->n) ||
+        !mw__fabric_begin(f, &first, true))
         return mw__fail_memory(error);
     f->step[f->step_count - 1].edits = b->n;
     mw_status status = insert_all(editor, b, vertices, &own, error);

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit)
+bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded)
 {
-    if (!mw__journal_room(f, 1)) return false;
+    if (MW_UNLIKELY(!f->before) && !mw__journal_room(f, 1)) return false;
     if (f->step_count == f->step_room) {
         size_t room = f->step_room + f->step_room / 2 + 4;
         mw_step *step = mw__realloc(f->step, room, sizeof *step);
@@ -27,6 +27,7 @@ bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit)
                                          .fixed_count = f->fixed_count,
                                          .vertex = MW_NONE,
                                          .delaunay = f->delaunay};
+    f->journaled = recorded ? tiling->tri_count : 0;
     f->flips = 0;
     f->stack_count = 0;
     return true;
@@ -106,12 +107,25 @@ void mw__fabric_rollback(mw_fabric *f)
     mw__fabric_drop(f);
 }
 
-void mw__fabric_revert(mw_fabric *f)
+/* Put the tiles at the end of the array that an edit has made into its journal, for those who ask what was taken back. */
+static bool journal_made(mw_fabric *f, const mw_step *step)
+{
+    const mw_tiling *tiling = f->tiling;
+    if (tiling->tri_count <= step->tiles) return true;
+    if (!mw__journal_room(f, tiling->tri_count - step->tiles)) return false;
+    for (uint32_t t = step->tiles; t < tiling->tri_count; t++)
+        f->before[f->before_count++] = (mw_before){t, f->mark[t] & MW_FIXED_EDGES, tiling->tri[t]};
+    return true;
+}
+
+bool mw__fabric_revert(mw_fabric *f)
 {
     const mw_step *step = &f->step[f->step_count - 1];
+    if (!journal_made(f, step)) return false;
     exchange_tiles(f, step);
     restore_vertices(f, step);
     f->flips = 0;
+    return true;
 }
 
 void mw__fabric_drop(mw_fabric *f)
@@ -159,9 +173,9 @@ static const mw_triangle *tile_now(const mw_tiling *tiling, uint32_t number)
     return &tiling->tri[tiling->tile_of[number]];
 }
 
-static const mw_triangle *tile_at(const mw_tiling *tiling, uint32_t place)
+static mw_changed_triangle made_triangle(const mw_triangle *tile)
 {
-    return place < tiling->tri_count ? &tiling->tri[place] : NULL;
+    return (mw_changed_triangle){tile->user & MW_USER_MASK, {MW_NONE, MW_NONE, MW_NONE}};
 }
 
 void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3])
@@ -204,17 +218,21 @@ static size_t list_before(const mw_fabric *f, const mw_before *first, size_t cou
     return n;
 }
 
-/* Those that are there now and were not: appended, sorted. */
+/* Those that are there now and were not: appended, sorted. In places of the journal, and in those after them. */
 static size_t list_made(const mw_fabric *f, const mw_before *first, size_t count, mw_changed_triangle *list,
                         size_t known)
 {
+    const mw_tiling *tiling = f->tiling;
+    uint32_t tiles = f->step[f->step_count - 1].tiles;
     size_t n = known;
     for (size_t i = 0; i < count; i++) {
-        const mw_triangle *now = tile_at(f->tiling, first[i].place);
-        if (!now || !is_users(now)) continue;
-        mw_changed_triangle made = {now->user & MW_USER_MASK, {MW_NONE, MW_NONE, MW_NONE}};
-        if (!bsearch(&made, list, known, sizeof *list, by_number)) list[n++] = made;
+        if (first[i].place >= tiling->tri_count) continue;
+        const mw_triangle *now = &tiling->tri[first[i].place];
+        mw_changed_triangle made = made_triangle(now);
+        if (is_users(now) && !bsearch(&made, list, known, sizeof *list, by_number)) list[n++] = made;
     }
+    for (uint32_t t = tiles; t < tiling->tri_count; t++)
+        if (is_users(&tiling->tri[t])) list[n++] = made_triangle(&tiling->tri[t]);
     sort(list + known, n - known);
     return n - known;
 }
@@ -235,7 +253,7 @@ void mw__fabric_report(const mw_fabric *f, mw_changed_triangle *list, mw_change 
 {
     const mw_before *first;
     size_t count = mw__fabric_journal(f, &first);
-    mw_changed_triangle *before = list + 2 * count; /* scratch */
+    mw_changed_triangle *before = list + 2 * mw__fabric_extent(f); /* scratch */
     size_t were = list_before(f, first, count, before), n = 0;
     memcpy(list, before, were * sizeof *list);
     change->made = list_made(f, first, count, list, were);

@@ -17,13 +17,16 @@ bool mw__rim_room(mw_fabric *f, size_t steps)
     mw_step_ahead *ahead = mw__realloc(f->ahead, room, sizeof *ahead);
     if (!ahead) return false;
     f->ahead = ahead;
+    mw_sight *sight = mw__realloc(f->sight, room, sizeof *sight);
+    if (!sight) return false;
+    f->sight = sight;
     f->rim_room = room;
     return true;
 }
 
 size_t mw__rim_bytes(const mw_fabric *f)
 {
-    return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead);
+    return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead + sizeof *f->sight);
 }
 
 /* --- the star of a vertex --------------------------------------------------------------------------------------------- */

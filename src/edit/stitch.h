@@ -11,7 +11,7 @@ bool mw__journal_room(mw_fabric *f, size_t more); /* for so many records */
 /* Put the record of a tile into the journal of this edit, before its corners, marks or neighbours beyond a hull edge change. */
 static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
 {
-    if (f->mark[t] & MW_JOURNALED) return true;
+    if (t >= f->journaled || f->mark[t] & MW_JOURNALED) return true;
     if (MW_UNLIKELY(f->before_count == f->before_room) && !mw__journal_room(f, 1)) return false;
     mw_before *before = &f->before[f->before_count++];
     before->place = t;
@@ -21,8 +21,8 @@ static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
     return true;
 }
 
-/* n tiles at the end of the array, not journaled as ones that were there, with numbers of their own, or that of the ghost `beside`; corners,
- * links and fixed edges are to be set. False when out of memory or numbers. */
+/* n tiles at the end of the array with numbers of their own, or that of the ghost `beside`; corners, links and fixed edges are to be set.
+ * False when out of memory or numbers; then nothing has changed. */
 bool mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles);
 
 /* Free the number of a tile of the user's, which leads to another one from here on. */

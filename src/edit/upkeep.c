@@ -11,12 +11,18 @@ static uint32_t live_vertices(const mw_fabric *f)
     return f->tiling->point_count - f->free_count;
 }
 
+static bool is_built(const mw_upkeep *u, mw_start_kind start)
+{
+    return u->since[start].built;
+}
+
 /* The guide does not follow edits: two edits for each vertex would double the walks from it, and to build it costs less than a tenth of half so
  * many edits. */
 static void begin_anew(mw_upkeep *u, mw_start_kind start)
 {
     enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4, VERTICES_PER_EDIT = 2 };
     uint64_t n = live_vertices(u->fabric);
+    if (!is_built(u, start) && start != MW_START_CURVE) u->kept[u->kept_count++] = start;
     u->since[start] = (mw_since){
         .built = true,
         .most_edits = FEW + (start == MW_START_AUTO ? n / VERTICES_PER_EDIT : EDITS_PER_VERTEX * n),
@@ -112,15 +118,6 @@ static bool is_due(const mw_since *s, uint32_t vertices)
     return s->edits > s->most_edits || s->outsiders > s->most_outsiders || vertices > s->most || vertices < s->fewest;
 }
 
-/* What follows edits: the guide, and indices. */
-static const mw_start_kind kept[] = {MW_START_AUTO, MW_START_GRID, MW_START_TWO_LEVEL_GRID, MW_START_LAYERS};
-enum { KEPT = sizeof kept / sizeof *kept };
-
-static bool is_built(const mw_upkeep *u, mw_start_kind start)
-{
-    return u->since[start].built;
-}
-
 /* Build anew what is built. Without memory the old one stays, and it is tried again when it is due again. */
 static void refresh(mw_upkeep *u, mw_start_kind start)
 {
@@ -145,17 +142,26 @@ static void put_in_indices(mw_upkeep *u, const mw_entry *e)
     put(&u->index[MW_START_TWO_LEVEL_GRID], e);
 }
 
-/* The tiles that an edit changed, as they are now: for the indices that were asked for. The guide has to do with the names it was built of,
- * since to find the cells of six tiles would cost a fifth of an insertion. */
-static void note_tiles(mw_upkeep *u, const mw_before *first, size_t count)
+bool mw__upkeep_asks(const mw_upkeep *u)
+{
+    return is_built(u, MW_START_GRID) || is_built(u, MW_START_TWO_LEVEL_GRID);
+}
+
+static void note_tile(mw_upkeep *u, uint32_t t)
 {
     const mw_tiling *tiling = u->fabric->tiling;
-    if (!is_built(u, MW_START_GRID) && !is_built(u, MW_START_TWO_LEVEL_GRID)) return;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t t = first[i].place;
-        if (t >= tiling->tri_count) continue;
-        put_in_indices(u, &(mw_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
-    }
+    put_in_indices(u, &(mw_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
+}
+
+/* The tiles that an edit changed, as they are now: for the indices that were asked for. The guide has to do with the names it was built of,
+ * since to find the cells of six tiles would cost a fifth of an insertion. */
+static void note_tiles(mw_upkeep *u, const mw_step *step, const mw_before *first, size_t count)
+{
+    const mw_tiling *tiling = u->fabric->tiling;
+    if (!mw__upkeep_asks(u)) return;
+    for (size_t i = 0; i < count; i++)
+        if (first[i].place < tiling->tri_count) note_tile(u, first[i].place);
+    for (uint32_t t = step->tiles; t < tiling->tri_count; t++) note_tile(u, t);
 }
 
 static bool covers(const mw_index *index, mw_point p)
@@ -168,9 +174,10 @@ static bool covers(const mw_index *index, mw_point p)
 static void note_place(mw_upkeep *u, mw_point p)
 {
     double *low = u->locator->low, *high = u->locator->high;
-    u->since[MW_START_AUTO].outsiders += !covers(&u->locator->guide, p);
-    for (int i = 1; i < KEPT; i++)
-        if (is_built(u, kept[i])) u->since[kept[i]].outsiders += !covers(&u->index[kept[i]], p);
+    for (uint32_t i = 0; i < u->kept_count; i++) {
+        mw_start_kind start = u->kept[i];
+        u->since[start].outsiders += !covers(start == MW_START_AUTO ? &u->locator->guide : &u->index[start], p);
+    }
     if (p.x < low[0]) low[0] = p.x;
     if (p.y < low[1]) low[1] = p.y;
     if (p.x > high[0]) high[0] = p.x;
@@ -263,12 +270,12 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     u->locator->epoch++;
     if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
     if (undone) redirect_names(u, step, first, count);
-    note_tiles(u, first, count);
+    note_tiles(u, step, first, count);
     follow_vertices(u, step);
-    for (int i = 0; i < KEPT; i++) {
-        if (!is_built(u, kept[i])) continue;
-        u->since[kept[i]].edits += step->edits;
-        if (is_due(&u->since[kept[i]], live_vertices(f))) refresh(u, kept[i]);
+    for (uint32_t i = 0; i < u->kept_count; i++) {
+        mw_since *since = &u->since[u->kept[i]];
+        since->edits += step->edits;
+        if (MW_UNLIKELY(is_due(since, live_vertices(f)))) refresh(u, u->kept[i]);
     }
 }
 
@@ -287,6 +294,6 @@ void mw__upkeep_compact(mw_upkeep *u)
     u->locator->epoch = ((u->locator->epoch >> 32) + 1) << 32;
     u->fabric->tiling->name_count = u->fabric->tiling->number_count;
     mw__live_layers_drop(&u->live); /* they know vertices by places that are others now */
-    for (int i = 0; i < KEPT; i++) refresh(u, kept[i]);
+    for (uint32_t i = 0; i < u->kept_count; i++) refresh(u, u->kept[i]);
     refresh(u, MW_START_CURVE);
 }

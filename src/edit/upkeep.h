@@ -32,9 +32,11 @@ typedef struct mw_upkeep {
     const mw_fabric *fabric;        /* whose tiling is the locator's */
     mw_index index[MW_START_COUNT]; /* by start; its own start is MW_START_AUTO where there is none */
     mw_index_options options[MW_START_COUNT];
-    mw_since since[MW_START_COUNT]; /* that of MW_START_AUTO is the guide's */
-    mw_live_layers live;            /* what follows the vertices of index[MW_START_LAYERS] */
-    uint64_t refreshes;             /* times that something was built anew */
+    mw_since since[MW_START_COUNT];     /* that of MW_START_AUTO is the guide's */
+    mw_start_kind kept[MW_START_COUNT]; /* those that follow edits: the guide, and what is built but for a curve */
+    uint32_t kept_count;
+    mw_live_layers live; /* what follows the vertices of index[MW_START_LAYERS] */
+    uint64_t refreshes;  /* times that something was built anew */
 } mw_upkeep;
 
 /* Take a locator whose `tiling` is the fabric's, and all else is zero: find its extent, walks, guide, and what else it keeps. None of the three may
@@ -46,6 +48,9 @@ size_t mw__upkeep_bytes(const mw_upkeep *upkeep); /* of indices and guide */
 /* Build the index of a start, or build it anew, at &upkeep->index[start]. options: NULL = all zero. Errors as mw_index_create; then nothing
  * has changed. */
 mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_index_options *options, mw_error *error);
+
+/* Has an edit to be recorded for mw__upkeep_edit? */
+bool mw__upkeep_asks(const mw_upkeep *upkeep);
 
 /* After an edit was committed, or (undone) reverted, and before its step is forgotten or dropped: its journal tells what changed. Raises the
  * locator's epoch, by which cursors know that their tile has another place. */
