@@ -1,0 +1,40 @@
+/* cache.c - how large the caches of the processor are.
+ *
+ * Asked each time: the library keeps no state of its own, and the C library knows the answer. */
+#include "base/cache.h"
+
+#include <unistd.h>
+
+enum {
+    SECOND = 1 << 19, /* where nothing is said */
+    SHARE = 8         /* what a core has of the last cache, in second-level caches */
+};
+
+/* 0: not known. */
+static size_t second_level(void)
+{
+#ifdef _SC_LEVEL2_CACHE_SIZE
+    long bytes = sysconf(_SC_LEVEL2_CACHE_SIZE);
+    if (bytes > 0) return (size_t)bytes;
+#endif
+    return 0;
+}
+
+static size_t third_level(void)
+{
+#ifdef _SC_LEVEL3_CACHE_SIZE
+    long bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
+    if (bytes > 0) return (size_t)bytes;
+#endif
+    return 0;
+}
+
+/* The third level is told as a whole, some systems tell that of all processors together; a core's share of it is not. It is eight
+ * second-level caches or so: 256 KiB and 2 MiB, 512 KiB and 4 MiB, 2 MiB and 16 MiB. */
+mw_caches mw__caches(void)
+{
+    size_t second = second_level(), third = third_level();
+    if (second == 0) second = SECOND;
+    size_t share = SHARE * second;
+    return (mw_caches){.second = second, .reach = third >= second && third < share ? third : share};
+}

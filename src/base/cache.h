@@ -1,0 +1,15 @@
+/* cache.h - how large the caches of the processor are. Private. */
+#ifndef MW_SRC_CACHE_H
+#define MW_SRC_CACHE_H
+
+#include "base/base.h"
+
+typedef struct mw_caches {
+    size_t second; /* bytes of a core's own second-level cache                                              */
+    size_t reach;  /* bytes that are near as a rule: what a core has of the caches, those it shares counted */
+} mw_caches;
+
+/* What the system says, common sizes where it says nothing. Takes 20 ns. */
+mw_caches mw__caches(void);
+
+#endif

@@ -1,0 +1,188 @@
+/* spread.c - what the queries of a batch have in common.
+ *
+ * All is rounded. Comparisons are written so that what is no number chooses as if nothing were known of the queries. */
+#include "locate/spread.h"
+
+#include "start/start.h"
+
+/* --- how much of the mesh they touch ------------------------------------------------------------------------------ */
+
+enum {
+    SAMPLE = 64, /* queries looked at: */
+    LEAST = 512, /* of no fewer than these */
+    TILES = 8,   /* of so many the tiles are looked at, too */
+    OFTEN = 4    /* tiles for each query: where there are more most are not met again, and need not be in a cache */
+};
+
+static mw_room room_of(double bytes, const mw_caches *caches)
+{
+    if (bytes <= (double)caches->second) return MW_ROOM_SECOND;
+    return bytes <= (double)caches->reach ? MW_ROOM_REACH : MW_ROOM_BEYOND;
+}
+
+static double all_bytes(const mw_tiling *tiling)
+{
+    return (double)tiling->tri_count * sizeof(mw_triangle) + (double)tiling->point_count * sizeof(mw_point);
+}
+
+static const double *sampled(const mw_queries *queries, size_t i, size_t count)
+{
+    return &queries->points[queries->n / count * i * queries->stride];
+}
+
+/* The part of the mesh's extent over which the queries lie, along x or y. Of s points anywhere in an interval the outermost
+ * ones are (s - 1) / (s + 1) of it apart, on the average. */
+static double find_part(const mw_locator *locator, const mw_queries *queries, size_t axis)
+{
+    size_t count = queries->n < SAMPLE ? queries->n : SAMPLE;
+    double low = locator->low[axis], high = locator->high[axis], from = high, to = low;
+    for (size_t i = 0; i < count; i++) {
+        double value = sampled(queries, i, count)[axis];
+        if (value < from) from = value;
+        if (value > to) to = value;
+    }
+    if (from < low) from = low;
+    if (to > high) to = high;
+    double part = (to - from) / (high - low) * (double)(count + 1) / (double)(count - 1);
+    return part < 1 ? part : 1;
+}
+
+/* Twice the area, rounded. */
+static double tile_area(const mw_tiling *tiling, uint32_t t)
+{
+    const uint32_t *v = tiling->tri[t].v;
+    mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/* Tiles for a unit of area, where the queries are. */
+static double find_density(const mw_locator *locator, const mw_queries *queries)
+{
+    mw_point q[TILES];
+    uint32_t t[TILES];
+    for (size_t i = 0; i < TILES; i++) {
+        const double *at = sampled(queries, i, TILES);
+        q[i] = (mw_point){at[0], at[1]};
+    }
+    mw__index_first_many(&locator->tiling, &locator->guide, q, TILES, t);
+    double sum = 0;
+    for (size_t i = 0; i < TILES; i++) sum += 2 / tile_area(&locator->tiling, t[i]);
+    return sum / TILES;
+}
+
+mw_room mw__room_of_all(const mw_locator *locator, const mw_caches *caches)
+{
+    return room_of(all_bytes(&locator->tiling), caches);
+}
+
+mw_room mw__room_touched(const mw_locator *locator, const mw_caches *caches, const mw_queries *queries)
+{
+    mw_room room = mw__room_of_all(locator, caches);
+    if (room == MW_ROOM_SECOND || queries->n < LEAST || locator->guide.start == MW_START_AUTO) return room;
+    double x = find_part(locator, queries, 0), y = find_part(locator, queries, 1), all = all_bytes(&locator->tiling);
+    mw_room even = room_of(x * y * all, caches);
+    if (even == room || x * y * locator->tiling.tri_count > (double)queries->n * OFTEN) return room;
+    /* Where the mesh is refined a small part of the extent may hold most of it. */
+    double width = x * (locator->high[0] - locator->low[0]), height = y * (locator->high[1] - locator->low[1]);
+    double tiles = width * find_density(locator, queries) * height;
+    if (!(tiles <= (double)queries->n * OFTEN)) return room;
+    mw_room dense = room_of(tiles / locator->tiling.tri_count * all, caches);
+    return dense > room ? room : dense > even ? dense : even;
+}
+
+/* --- in which order they come ------------------------------------------------------------------------------------- */
+
+enum { STRETCH = 64 }; /* queries between two decisions */
+
+/* Sum of |dx| + |dy| from each of `count` queries to the next: 1.27 times that of the distances, on the average. In four parts, which
+ * do not wait for one another. */
+static double find_way(const double *at, size_t count, size_t stride)
+{
+    double way[4] = {0, 0, 0, 0};
+    size_t i = 0;
+    for (; i + 2 <= count; i += 2, at += 2 * stride) {
+        way[0] += fabs(at[stride] - at[0]);
+        way[1] += fabs(at[stride + 1] - at[1]);
+        way[2] += fabs(at[2 * stride] - at[stride]);
+        way[3] += fabs(at[2 * stride + 1] - at[stride + 1]);
+    }
+    if (i < count) way[0] += fabs(at[stride] - at[0]) + fabs(at[stride + 1] - at[1]);
+    return way[0] + way[1] + way[2] + way[3];
+}
+
+static double shortest_edge(const mw_tiling *tiling, uint32_t t)
+{
+    const uint32_t *v = tiling->tri[t].v;
+    mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
+    double ab = mw__distance2(a, b), bc = mw__distance2(b, c), ca = mw__distance2(c, a);
+    double least = ab < bc ? ab : bc;
+    return sqrt(least < ca ? least : ca);
+}
+
+/* Lengths that a query may be off the one before it, to be found as soon as by a guide that is a grid, or has to ask its curve, which
+ * takes longer. Queries a common edge apart come to about 2.8 lengths, so GRID is a step of 0.18; at a step of 0.1 the guide took
+ * twice as long. */
+static const double GRID = 0.5, CURVE = 1.5;
+
+/* How the way from a query on is judged. */
+typedef struct measure {
+    double
+        length; /* the shortest edge of the guide's tile, or two common edges if they are shorter: along a hull tiles are large */
+    double worth; /* GRID or CURVE */
+} measure;
+
+static measure take_measure(const mw_locator *locator, const double *at)
+{
+    const mw_index *guide = &locator->guide;
+    mw_point p = {at[0], at[1]};
+    bool crowded = guide->start == MW_START_CURVE && guide->curve.sparse.tile &&
+                   mw__grid_first(&guide->curve.sparse, p) == MW_NONE;
+    double edge = shortest_edge(&locator->tiling, mw__index_tile(&locator->tiling, guide, p));
+    double longest = sqrt(locator->cell2);
+    return (measure){.length = edge < longest ? edge : longest, .worth = crowded ? CURVE : GRID};
+}
+
+/* What a stretch of `count` ways is worth beyond what they take; at most so much. */
+static double judge(const mw_locator *locator, const mw_queries *queries, size_t first, size_t count, double left)
+{
+    const double *at = &queries->points[first * queries->stride];
+    double way = find_way(at, count, queries->stride), longest = sqrt(locator->cell2);
+    if (!(way <= (left + CURVE * (double)count) * longest)) return -INFINITY; /* whatever the tiles are */
+    measure from = take_measure(locator, at), to = take_measure(locator, at + count * queries->stride);
+    return from.worth * (double)count - way / (from.length < to.length ? from.length : to.length);
+}
+
+/* Ways may not take more than those looked at so far are worth, and a part of all; stretches are looked at from all over the queries. So
+ * it is known soon of most that are not near. */
+bool mw__come_densely(const mw_locator *locator, const mw_queries *queries)
+{
+    static const double PART = 1.0 / 32;
+    enum { LAPS = 16 };
+    double left = GRID * PART * (double)queries->n;
+    for (size_t lap = 0; lap < LAPS; lap++)
+        for (size_t i = lap * STRETCH; i + 1 < queries->n; i += LAPS * STRETCH) {
+            size_t count = queries->n - 1 - i < STRETCH ? queries->n - 1 - i : STRETCH;
+            left += judge(locator, queries, i, count, left);
+            if (!(left >= 0)) return false;
+        }
+    return true;
+}
+
+/* Sorted, n queries are as far apart as on a square lattice over their extent. A way that is longer costs a walk of two tiles for
+ * each common edge, and sorting as much as SORT of them. But of an extent that one stray query makes large nothing follows: ways
+ * are short, too. */
+bool mw__come_in_order(const mw_locator *locator, const mw_queries *queries)
+{
+    static const double SORT = 0.4, SHORT = 4, SUM = 1.27; /* common edges; |dx| + |dy| for a distance */
+    double n = (double)queries->n, edge = sqrt(locator->cell2) / 2;
+    double width = find_part(locator, queries, 0) * (locator->high[0] - locator->low[0]);
+    double height = find_part(locator, queries, 1) * (locator->high[1] - locator->low[1]);
+    double sorted = sqrt(width) * sqrt(height) / sqrt(n) + SORT * edge;
+    double left = SUM * n * (sorted < SHORT * edge ? sorted : SHORT * edge);
+    for (size_t i = 0; i + 1 < queries->n; i += STRETCH) {
+        size_t count = queries->n - 1 - i < STRETCH ? queries->n - 1 - i : STRETCH;
+        left -= find_way(&queries->points[i * queries->stride], count, queries->stride);
+        if (!(left >= 0)) return false;
+    }
+    return true;
+}

@@ -1,0 +1,29 @@
+/* spread.h - what the queries of a batch have in common: how much of the mesh they touch, and whether they come in a good
+ * order already. For choices on which no answer depends. Private. */
+#ifndef MW_SRC_SPREAD_H
+#define MW_SRC_SPREAD_H
+
+#include "base/cache.h"
+#include "locate/locator.h"
+
+typedef struct mw_queries {
+    const double *points;
+    size_t n, stride; /* doubles from point to point, at least 2 */
+} mw_queries;
+
+/* Where the tiles and points that queries touch find room. */
+typedef enum mw_room { MW_ROOM_SECOND, MW_ROOM_REACH, MW_ROOM_BEYOND } mw_room;
+
+/* The room of the whole mesh, and of what the queries touch of it: by where a few of them lie, and the size of the guide's
+ * tiles there. */
+mw_room mw__room_of_all(const mw_locator *locator, const mw_caches *caches);
+mw_room mw__room_touched(const mw_locator *locator, const mw_caches *caches, const mw_queries *queries);
+
+/* Is each query so near the one before it, on the average, that its tile is found sooner from there than by the locator's guide,
+ * which there must be? Where they are not, few of them are looked at. */
+bool mw__come_densely(const mw_locator *locator, const mw_queries *queries);
+
+/* Do they come in an order in which the walks from one to the next take no longer than if they were sorted, the sort counted? */
+bool mw__come_in_order(const mw_locator *locator, const mw_queries *queries);
+
+#endif
