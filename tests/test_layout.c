@@ -1,4 +1,4 @@
-/* test_layout.c - a mesh laid out along a curve is the mesh of the arrays, for any number of threads. */
+/* test_layout.c - a mesh laid out along a curve, or not, is the mesh of the arrays, for any number of threads. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -133,12 +133,12 @@ static void test_same_mesh_threads(void **state)
     mw_mesh *kept, *laid;
     assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
     assert_null(kept->vertex_place);
-    for (uint32_t threads = 0; threads < 4; threads++)
-        for (int layout = 0; layout < 2; layout++) {
+    for (uint32_t threads = 0; threads < 8; threads++)
+        for (int layout = 0; layout < 3; layout++) {
             assert_int_equal(create(&s, layout, threads, &laid, NULL), MW_OK);
-            assert_non_null(laid->vertex_place);
+            assert_true((laid->vertex_place != NULL) == (layout < 2));
             expect_same(kept, laid);
-            expect_local(laid);
+            if (layout < 2) expect_local(laid);
             assert_true(laid->opposite);
             expect_true_count(laid);
             mw_mesh_destroy(laid);
@@ -147,17 +147,18 @@ static void test_same_mesh_threads(void **state)
     release(&s);
 }
 
-static void expect_same_laid_out(const scene *s)
+static void expect_same_linked(const scene *s)
 {
     mw_mesh *kept, *laid;
     assert_int_equal(create(s, 2, 1, &kept, NULL), MW_OK);
-    for (uint32_t threads = 1; threads < 4; threads++) {
-        assert_int_equal(create(s, 1, threads, &laid, NULL), MW_OK);
-        expect_same(kept, laid);
-        expect_true_count(laid);
-        assert_int_equal(kept->opposite, laid->opposite);
-        mw_mesh_destroy(laid);
-    }
+    for (uint32_t threads = 1; threads < 4; threads++)
+        for (int layout = 1; layout < 3; layout++) {
+            assert_int_equal(create(s, layout, threads, &laid, NULL), MW_OK);
+            expect_same(kept, laid);
+            expect_true_count(laid);
+            assert_int_equal(kept->opposite, laid->opposite);
+            mw_mesh_destroy(laid);
+        }
     expect_true_count(kept);
     mw_mesh_destroy(kept);
 }
@@ -171,7 +172,7 @@ static void test_folded_threads(void **state)
         scene s = make_scene(120, share);
         for (uint32_t i = 0; i < s.point_count; i++)
             if (mw__random_below(&random, share) == 0) s.points[2 * (size_t)i] = mw__random_below(&random, 120);
-        expect_same_laid_out(&s);
+        expect_same_linked(&s);
         release(&s);
     }
 }
@@ -189,7 +190,7 @@ static void test_loose_threads(void **state)
         for (uint32_t i = 0; i < 2 * s.point_count; i++) s.points[i] = random_unit(&random);
         shuffle(s.triangles, s.point_count, &random);
         for (uint32_t t = 1; t < TRIANGLES && hub; t++) s.triangles[3 * (size_t)t] = s.triangles[0];
-        expect_same_laid_out(&s);
+        expect_same_linked(&s);
         release(&s);
     }
 }

@@ -1,17 +1,15 @@
-/* connect.c - neighbours of triangles in O(n): half-edges are gathered at their lower vertex by a counting sort; at one
- * vertex, the two halves of an edge find each other by their upper vertex. Meshes that are laid out are linked otherwise (link.c). */
+/* connect.c - neighbours of triangles in O(n), whatever their order: half-edges are parted by ranges of their lower vertices; then
+ * each range is linked, in cache (link.c), by any thread. Meshes that are laid out are linked on the way (parts.c). */
 #include "mesh/connect.h"
+
+#include "base/threads.h"
+#include "mesh/link.h"
 
 #include <stdlib.h>
 
 static MW_INLINE uint32_t lower(const mw_triangle *t, uint32_t e)
 {
     return t->v[e] < t->v[e + 1] ? t->v[e] : t->v[e + 1];
-}
-
-static MW_INLINE uint32_t upper(const mw_triangle *t, uint32_t e)
-{
-    return t->v[e] < t->v[e + 1] ? t->v[e + 1] : t->v[e];
 }
 
 /* --- matching --- */
@@ -77,7 +75,7 @@ void mw__note_extra(const mw_triangle *tri, uint32_t half, uint32_t *extra)
 }
 
 /* The same for many, or for edges that more than two share: the first two in the user's order are joined. */
-bool mw__match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
+static bool match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
 {
     keyed_half *keyed = mw__alloc(count, sizeof *keyed);
     if (!keyed) return false;
@@ -92,38 +90,153 @@ bool mw__match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, 
     return true;
 }
 
-/* --- all --- */
-
-/* Room for the half-edges: those of vertex i are half[first[i]] to before half[first[i + 1]]. */
-typedef struct bench {
-    uint32_t *first;
-    mw_half_edge *half;
-} bench;
-
-static void gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, bench b)
+bool mw__match(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
 {
-    uint32_t sum = 0;
-    for (uint32_t t = 0; t < n; t++)
-        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++) b.first[lower(&tri[t], e)]++;
-    for (uint32_t i = 0; i <= vertex_count; i++) b.first[i] = sum += b.first[i];
-    for (uint32_t t = 0; t < n; t++)
-        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++)
-            b.half[--b.first[lower(&tri[t], e)]] = (mw_half_edge){upper(&tri[t], e), mw__link(t, e)};
+    return (count <= FEW && match_few(tri, half, count, links)) || match_many(tri, half, count, links);
 }
 
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_links *links)
+/* --- all --- */
+
+enum {
+    WORTHWHILE = 1 << 14, /* triangles for a thread to be worth it          */
+    PART_SHIFT = 12,      /* at least so many vertices, as a power of two, make a part */
+    MOST_PARTS = 1 << 12  /* written to at the same time                    */
+};
+
+/* Of one thread: its share of the triangles is piled up by parts, then it links parts as they come. */
+typedef struct bench {
+    uint32_t *next; /* per part: how many half-edges of the share it gets; then where the next one goes */
+    mw_link_room room;
+    mw_links links;
+    bool done;
+    char apart[64]; /* from the next bench: threads write to these */
+} bench;
+
+typedef struct work {
+    mw_triangle *tri;
+    uint32_t n, vertex_count, shift, parts;
+    uint32_t *half;  /* half-edges by the parts of their lower vertices */
+    uint32_t *first; /* of each part */
+    int team;
+    bench *bench;
+} work;
+
+static uint32_t share_begin(const work *w, int share)
 {
-    mw_links found = mw__no_links();
-    bench b = {mw__calloc((size_t)vertex_count + 1, sizeof *b.first), mw__alloc_lines(3 * (size_t)n, sizeof *b.half)};
-    bool done = b.first && b.half;
-    if (done) gather(tri, n, vertex_count, b);
-    for (uint32_t i = 0; i < vertex_count && done; i++) {
-        const mw_half_edge *half = b.half + b.first[i];
-        uint32_t count = b.first[i + 1] - b.first[i];
-        if (count > FEW || !match_few(tri, half, count, &found)) done = mw__match_many(tri, half, count, &found);
+    return (uint32_t)((uint64_t)w->n * (uint32_t)share / (uint32_t)w->team);
+}
+
+static void count_share(const work *w, int share)
+{
+    uint32_t *next = w->bench[share].next;
+    for (uint32_t t = share_begin(w, share), end = share_begin(w, share + 1); t < end; t++)
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&w->tri[t]); e++) next[lower(&w->tri[t], e) >> w->shift]++;
+}
+
+static void add_up(const work *w)
+{
+    uint32_t sum = 0;
+    for (uint32_t p = 0; p < w->parts; p++) {
+        w->first[p] = sum;
+        for (int i = 0; i < w->team; i++) {
+            uint32_t here = w->bench[i].next[p];
+            w->bench[i].next[p] = sum;
+            sum += here;
+        }
     }
-    free(b.first);
-    free(b.half);
+    w->first[w->parts] = sum;
+}
+
+static void pile_share(const work *w, int share)
+{
+    uint32_t *next = w->bench[share].next;
+    for (uint32_t t = share_begin(w, share), end = share_begin(w, share + 1); t < end; t++)
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&w->tri[t]); e++)
+            w->half[next[lower(&w->tri[t], e) >> w->shift]++] = mw__link(t, e);
+}
+
+static void link_part(const work *w, uint32_t p, bench *b)
+{
+    uint64_t base = (uint64_t)p << w->shift, size = UINT64_C(1) << w->shift;
+    if (base + size > w->vertex_count) size = w->vertex_count - base;
+    mw_strays all = {w->half + w->first[p], w->first[p + 1] - w->first[p]};
+    b->done =
+        b->done && mw__link_part(w->tri, (mw_part){(uint32_t)base, (uint32_t)size, 0, 0}, all, &b->room, &b->links);
+}
+
+static void link_all(const work *w)
+{
+#ifdef _OPENMP
+#pragma omp parallel num_threads(w->team) if (w->team > 1)
+#endif
+    {
+#ifdef _OPENMP
+        bench *b = &w->bench[omp_get_thread_num()];
+#pragma omp for schedule(static)
+#else
+        bench *b = w->bench;
+#endif
+        for (int i = 0; i < w->team; i++) count_share(w, i);
+#ifdef _OPENMP
+#pragma omp single
+#endif
+        add_up(w);
+#ifdef _OPENMP
+#pragma omp for schedule(static)
+#endif
+        for (int i = 0; i < w->team; i++) pile_share(w, i);
+#ifdef _OPENMP
+#pragma omp for schedule(dynamic)
+#endif
+        for (uint32_t p = 0; p < w->parts; p++) link_part(w, p, b);
+    }
+}
+
+static bool open_work(work *w)
+{
+    while (w->vertex_count >> w->shift >= MOST_PARTS) w->shift++;
+    w->parts = (w->vertex_count >> w->shift) + 1;
+    w->half = mw__alloc_lines(3 * (size_t)w->n, sizeof *w->half);
+    w->first = mw__alloc((size_t)w->parts + 1, sizeof *w->first);
+    w->bench = mw__calloc((size_t)w->team, sizeof *w->bench);
+    bool done = w->half && w->first && w->bench;
+    for (int i = 0; i < w->team && done; i++) {
+        w->bench[i] = (bench){.next = mw__calloc(w->parts, sizeof(uint32_t)), .links = mw__no_links(), .done = true};
+        done = w->bench[i].next;
+    }
+    return done;
+}
+
+static void close_work(work *w)
+{
+    for (int i = 0; i < w->team && w->bench; i++) {
+        free(w->bench[i].next);
+        mw__link_room_release(&w->bench[i].room);
+    }
+    free(w->bench);
+    free(w->first);
+    free(w->half);
+}
+
+void mw__links_add(const mw_triangle *tri, const mw_links *more, mw_links *links)
+{
+    links->linked += more->linked;
+    links->opposite = links->opposite && more->opposite;
+    if (more->extra != MW_NONE) mw__note_extra(tri, more->extra, &links->extra);
+}
+
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links)
+{
+    work w = {.tri = tri, .n = n, .vertex_count = vertex_count, .shift = PART_SHIFT};
+    w.team = mw__team(threads, n / WORTHWHILE + 1);
+    bool done = open_work(&w);
+    mw_links found = mw__no_links();
+    if (done) link_all(&w);
+    for (int i = 0; i < w.team && done; i++) {
+        done = w.bench[i].done;
+        mw__links_add(tri, &w.bench[i].links, &found);
+    }
+    close_work(&w);
     if (links) *links = found;
     return done;
 }

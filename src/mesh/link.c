@@ -4,7 +4,7 @@
  * downwards. So the halves that go down are put into a table first, and those that go up find them there. A bunch of vertices
  * at a time: their halves stay in the nearest cache, and slots of the table are seldom wanted by two. What was left there by
  * earlier bunches is known by its number, and nothing is ever cleared. A triangle has one half of either kind at its lowest vertex, at
- * places that are known beforehand; the third edge is sorted in. Where a bunch is not as simple, all its halves are sorted. */
+ * places that are known beforehand; the third edge is sorted in. Where a bunch is not as simple, each vertex is looked at by itself. */
 #include "mesh/link.h"
 
 #include "mesh/connect.h"
@@ -13,8 +13,9 @@
 #include <string.h>
 
 enum {
-    BUNCH_SHIFT = 6, /* so many vertices, as a power of two, make a bunch             */
-    MOST = 1024,     /* halves of a bunch, expected are 384; with more it is not simple */
+    BUNCH_SHIFT = 6, /* so many vertices, as a power of two, make a bunch; parts begin with one  */
+    BUNCH = 1 << BUNCH_SHIFT,
+    MOST = 1024, /* halves of a bunch, expected are 384; with more it is not simple */
     SLOT_BITS = 13
 };
 
@@ -52,13 +53,20 @@ static MW_INLINE uint32_t low_corner(const uint32_t v[3])
     return (uint32_t)(v[1] == low) + 2 * (uint32_t)(v[2] == low);
 }
 
+/* The vertices that stray i runs from and to. Its triangle may lie anywhere. */
+static MW_INLINE const uint32_t *stray_ends(const mw_triangle *tri, mw_strays strays, uint32_t i)
+{
+    enum { AHEAD = 16 };
+    if (i + AHEAD < strays.count) __builtin_prefetch(&tri[mw__link_triangle(strays.half[i + AHEAD])]);
+    return &tri[mw__link_triangle(strays.half[i])].v[mw__link_edge(strays.half[i])];
+}
+
 static MW_INLINE void count_other(mw_bunch *bunch, mw_part part, uint32_t from, uint32_t to)
 {
     bunch_of(bunch, part, from < to ? from : to)->next[from < to]++;
 }
 
-static void count(const mw_triangle *tri, mw_part part, const mw_stray_list *strays, uint32_t stray_lists,
-                  mw_bunch *bunch)
+static void count(const mw_triangle *tri, mw_part part, mw_strays strays, mw_bunch *bunch)
 {
     for (uint32_t t = part.first; t < part.end; t++) {
         const uint32_t *v = tri[t].v;
@@ -66,9 +74,10 @@ static void count(const mw_triangle *tri, mw_part part, const mw_stray_list *str
         bunch_of(bunch, part, v[k])->triangles = t + 1 - part.first;
         if (MW_LIKELY(mw__part_has(part, x < y ? x : y))) count_other(bunch, part, x, y);
     }
-    for (uint32_t l = 0; l < stray_lists; l++)
-        for (uint32_t i = strays[l].count, s = strays[l].first; i-- > 0; s = strays[l].stray[s].next)
-            count_other(bunch, part, strays[l].stray[s].from, strays[l].stray[s].to);
+    for (uint32_t i = 0; i < strays.count; i++) {
+        const uint32_t *ends = stray_ends(tri, strays, i);
+        count_other(bunch, part, ends[0], ends[1]);
+    }
 }
 
 static void add_up(mw_part part, uint32_t bunches, mw_bunch *bunch)
@@ -101,8 +110,7 @@ static MW_INLINE void put_other(mw_arrow *arrow, mw_bunch *bunch, mw_part part, 
     put(&arrow[bunch_of(bunch, part, low)->next[from < to]++], low, high, half);
 }
 
-static void fill(const mw_triangle *tri, mw_part part, const mw_stray_list *strays, uint32_t stray_lists,
-                 mw_bunch *bunch, mw_arrow *arrow)
+static void fill(const mw_triangle *tri, mw_part part, mw_strays strays, mw_bunch *bunch, mw_arrow *arrow)
 {
     for (uint32_t t = part.first; t < part.end; t++) {
         const uint32_t *v = tri[t].v;
@@ -113,9 +121,10 @@ static void fill(const mw_triangle *tri, mw_part part, const mw_stray_list *stra
         put(&arrow[down], low, y, mw__link(t, mw__prev(k)));
         if (MW_LIKELY(mw__part_has(part, x < y ? x : y))) put_other(arrow, bunch, part, x, y, mw__link(t, mw__next(k)));
     }
-    for (uint32_t l = 0; l < stray_lists; l++)
-        for (uint32_t i = strays[l].count, s = strays[l].first; i-- > 0; s = strays[l].stray[s].next)
-            put_other(arrow, bunch, part, strays[l].stray[s].from, strays[l].stray[s].to, strays[l].stray[s].half);
+    for (uint32_t i = 0; i < strays.count; i++) {
+        const uint32_t *ends = stray_ends(tri, strays, i);
+        put_other(arrow, bunch, part, ends[0], ends[1], strays.half[i]);
+    }
 }
 
 /* --- matching --- */
@@ -169,29 +178,33 @@ static bool find_mates(mw_triangle *tri, mw_arrow *arrow, const uint32_t *slot, 
     return true;
 }
 
-static int compare_arrows(const void *left, const void *right)
+/* Part the bunch's halves by their lower vertices: those of vertex i of the bunch go to half[first[i]] and before half[first[i + 1]]. Whatever
+ * links they have are forgotten. */
+static void part_bunch(mw_triangle *tri, const mw_arrow *arrow, uint32_t n, mw_half_edge *half, uint32_t *first)
 {
-    const mw_arrow *a = left, *b = right;
-    return a->key < b->key ? -1 : a->key > b->key;
+    uint32_t next[BUNCH] = {0}, sum = 0;
+    for (uint32_t i = 0; i < n; i++) next[(arrow[i].key >> 32) % BUNCH]++;
+    for (uint32_t v = 0; v < BUNCH; v++) {
+        first[v] = sum;
+        sum += next[v];
+        next[v] = first[v];
+    }
+    first[BUNCH] = sum;
+    for (uint32_t i = 0; i < n; i++) {
+        *link_of(tri, arrow[i].half) = MW_NONE;
+        half[next[(arrow[i].key >> 32) % BUNCH]++] = (mw_half_edge){(uint32_t)arrow[i].key, arrow[i].half};
+    }
 }
 
 /* Whatever they are, and whether some are linked already. */
-static bool match_sorted(mw_triangle *tri, mw_arrow *arrow, const mw_bunch *b, mw_links *links)
+static bool match_each(mw_triangle *tri, const mw_arrow *arrow, const mw_bunch *b, mw_links *links)
 {
-    uint32_t n = b->next[1] - b->from;
+    uint32_t n = b->next[1] - b->from, first[BUNCH + 1];
     mw_half_edge *half = mw__alloc(n, sizeof *half);
     if (!half) return false;
-    arrow += b->from;
-    qsort(arrow, n, sizeof *arrow, compare_arrows);
-    for (uint32_t i = 0; i < n; i++) {
-        *link_of(tri, arrow[i].half) = MW_NONE;
-        half[i] = (mw_half_edge){(uint32_t)arrow[i].key, arrow[i].half};
-    }
+    part_bunch(tri, arrow + b->from, n, half, first);
     bool done = true;
-    for (uint32_t i = 0, next; i < n && done; i = next) {
-        for (next = i + 1; next < n && arrow[next].key >> 32 == arrow[i].key >> 32;) next++;
-        done = mw__match_many(tri, half + i, next - i, links);
-    }
+    for (uint32_t v = 0; v < BUNCH && done; v++) done = mw__match(tri, half + first[v], first[v + 1] - first[v], links);
     free(half);
     return done;
 }
@@ -201,7 +214,7 @@ static bool match_bunch(mw_triangle *tri, const mw_link_room *room, const mw_bun
     mw_arrow *arrow = room->arrow;
     bool simple =
         b->next[1] - b->from <= MOST && enter(arrow, room->slot, b) && find_mates(tri, arrow, room->slot, b, links);
-    return simple || match_sorted(tri, arrow, b, links);
+    return simple || match_each(tri, arrow, b, links);
 }
 
 /* --- all --- */
@@ -224,19 +237,17 @@ static bool make_room(mw_link_room *room, size_t arrows, size_t bunches)
     return room->arrow && room->bunch && room->slot;
 }
 
-bool mw__link_part(mw_triangle *tri, mw_part part, const mw_stray_list *strays, uint32_t stray_lists,
-                   mw_link_room *room, mw_links *links)
+bool mw__link_part(mw_triangle *tri, mw_part part, mw_strays strays, mw_link_room *room, mw_links *links)
 {
     uint32_t bunches = (part.size >> BUNCH_SHIFT) + 1;
-    size_t arrows = 3 * (size_t)(part.end - part.first) + 1;
-    for (uint32_t l = 0; l < stray_lists; l++) arrows += strays[l].count;
+    size_t arrows = 3 * (size_t)(part.end - part.first) + strays.count + 1;
     if (!make_room(room, arrows, bunches)) return false;
     memset(room->bunch, 0, bunches * sizeof *room->bunch);
     memset(room->slot, 0, sizeof *room->slot << SLOT_BITS);
     room->arrow[0] = (mw_arrow){0};
-    count(tri, part, strays, stray_lists, room->bunch);
+    count(tri, part, strays, room->bunch);
     add_up(part, bunches, room->bunch);
-    fill(tri, part, strays, stray_lists, room->bunch, room->arrow);
+    fill(tri, part, strays, room->bunch, room->arrow);
     bool done = true;
     for (uint32_t i = 0; i < bunches && done; i++) done = match_bunch(tri, room, &room->bunch[i], links);
     return done;

@@ -15,16 +15,11 @@ static MW_INLINE bool mw__part_has(mw_part part, uint32_t vertex)
     return vertex - part.base < part.size;
 }
 
-/* An edge of a triangle of an earlier part. */
-typedef struct mw_stray {
-    uint32_t from, to, half;
-    uint32_t next; /* in its list */
-} mw_stray;
-
-typedef struct mw_stray_list {
-    const mw_stray *stray;
-    uint32_t first, count;
-} mw_stray_list;
+/* Edges of triangles of other parts, 4 * triangle + edge, in any order. */
+typedef struct mw_strays {
+    const uint32_t *half;
+    uint32_t count;
+} mw_strays;
 
 /* Room for the half-edges of a part. */
 typedef struct mw_link_room {
@@ -36,8 +31,7 @@ typedef struct mw_link_room {
 
 /* Link the triangles of a part, which have no links, and those that have strayed, along the edges whose lower vertex is in the part. What
  * is found is added to *links. The room is empty at first. Returns false when out of memory. */
-bool mw__link_part(mw_triangle *tri, mw_part part, const mw_stray_list *strays, uint32_t stray_lists,
-                   mw_link_room *room, mw_links *links);
+bool mw__link_part(mw_triangle *tri, mw_part part, mw_strays strays, mw_link_room *room, mw_links *links);
 void mw__link_room_release(mw_link_room *room);
 
 #endif

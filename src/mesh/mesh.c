@@ -24,9 +24,16 @@ mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_erro
     return MW_OK;
 }
 
-static void copy_points(mw_mesh *mesh, const mw_arrays *arrays)
+enum { WORTHWHILE = 1 << 14 }; /* vertices or triangles for a thread to be worth it */
+
+static void copy_points(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads)
 {
     size_t stride = arrays->point_stride ? arrays->point_stride : 2;
+    int team = mw__team(threads, mesh->point_count / WORTHWHILE + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+#endif
     for (size_t i = 0; i < arrays->point_count; i++)
         mesh->point[i] = (mw_point){arrays->points[i * stride], arrays->points[i * stride + 1]};
 }
@@ -72,23 +79,27 @@ static double orient(const mw_mesh *mesh, mw_triangle *t)
     return area;
 }
 
-/* All of them; count those that were clockwise, and those without area. */
-static void orient_all(mw_mesh *mesh, uint32_t threads)
+/* All of them, counter-clockwise; count those that were clockwise, and those without area. */
+static mw_status copy_triangles(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, mw_error *error)
 {
-    enum { WORTHWHILE = 1 << 14 };
-    uint32_t flat = 0, flipped = 0;
+    uint32_t flat = 0, flipped = 0, bad = MW_NONE;
     int team = mw__team(threads, mesh->tri_count / WORTHWHILE + 1);
     (void)team; /* unused without OpenMP */
 #ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(+ : flat, flipped)
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(+ : flat, flipped) reduction(min : bad)
 #endif
     for (uint32_t t = 0; t < mesh->tri_count; t++) {
+        if (mw__copy_triangle(arrays, 2, mesh->tolerant, t, &mesh->tri[t], NULL)) {
+            bad = t < bad ? t : bad;
+            continue;
+        }
         double area = orient(mesh, &mesh->tri[t]);
         flat += area == 0;
         flipped += area < 0;
     }
     mesh->flat_count = flat;
     mesh->flipped_count = flipped;
+    return bad == MW_NONE ? MW_OK : mw__copy_triangle(arrays, 2, mesh->tolerant, bad, &mesh->tri[bad], error);
 }
 
 mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to, mw_error *error)
@@ -107,15 +118,15 @@ static mw_status refuse_shared(const mw_mesh *mesh, uint32_t extra, mw_error *er
 }
 
 /* In the order of the arrays. */
-static mw_status copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_error *error)
+static mw_status copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, mw_links *links, mw_error *error)
 {
     mesh->point = mw__alloc_lines(mesh->point_count, sizeof *mesh->point);
     mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
     if (!mesh->point || !mesh->tri) return mw__fail_memory(error);
-    copy_points(mesh, arrays);
-    mw_status status = MW_OK;
-    for (uint32_t t = 0; t < mesh->tri_count && !status; t++)
-        status = mw__copy_triangle(arrays, 2, mesh->tolerant, t, &mesh->tri[t], error);
+    copy_points(mesh, arrays, threads);
+    mw_status status = copy_triangles(mesh, arrays, threads, error);
+    if (!status && !mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, threads, links))
+        status = mw__fail_memory(error);
     return status;
 }
 
@@ -123,12 +134,8 @@ static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, const mw_mesh_opti
 {
     bool lay_out = !mesh->tolerant && (options->layout == 1 || (options->layout == 0 && mw__is_scattered(arrays)));
     mw_links links = mw__no_links();
-    mw_status status =
-        lay_out ? mw__lay_out(mesh, arrays, options->threads, &links, error) : copy_arrays(mesh, arrays, error);
-    if (!status && !lay_out) {
-        orient_all(mesh, options->threads);
-        if (!mw__connect(mesh->tri, mesh->tri_count, mesh->point_count, &links)) status = mw__fail_memory(error);
-    }
+    mw_status status = lay_out ? mw__lay_out(mesh, arrays, options->threads, &links, error)
+                               : copy_arrays(mesh, arrays, options->threads, &links, error);
     if (status) return status;
     mesh->opposite = links.opposite;
     mesh->border_count = (uint32_t)(3 * (uint64_t)mesh->tri_count - links.linked);

@@ -144,8 +144,8 @@ static MW_INLINE mw_links mw__no_links(void)
 
 /* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). *links may be NULL.
  * An edge of more than two triangles links the first two. Links two triangles whatever their orientation, but none that
- * names a vertex twice; does not write to links of edges that have one triangle. Returns false when out of memory. */
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_links *links);
+ * names a vertex twice. They have no links before. threads: 0 = as OpenMP gives. Returns false when out of memory. */
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links);
 
 /* Of three vertices, the lowest and the one between. */
 static MW_INLINE uint32_t mw__lowest(uint32_t a, uint32_t b, uint32_t c)

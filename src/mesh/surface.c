@@ -28,7 +28,7 @@ static mw_status link_triangles(mw_surface *surface, const mw_arrays *arrays, mw
     mw_links links;
     for (uint32_t t = 0; t < surface->tri_count && surface->place; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = surface->place[surface->tri[t].v[k]];
-    if (!mw__connect(surface->tri, surface->tri_count, surface->point_count, &links)) return mw__fail_memory(error);
+    if (!mw__connect(surface->tri, surface->tri_count, surface->point_count, 1, &links)) return mw__fail_memory(error);
     for (uint32_t t = 0; t < surface->tri_count && surface->place; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = mw__index_at(arrays, 3 * (size_t)t + k % 3);
     if (links.extra == MW_NONE || surface->tolerant) return MW_OK;

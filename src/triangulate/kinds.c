@@ -91,7 +91,7 @@ static bool lay_out(mw_triangulation *t)
         }
         free(t->tri);
         t->tri = tri;
-        done = mw__connect(t->tri, t->tri_count, t->point_count, NULL);
+        done = mw__connect(t->tri, t->tri_count, t->point_count, 1, NULL);
     } else {
         free(tri);
     }

@@ -461,7 +461,7 @@ static bool shorten_again(weigher *w)
 {
     for (uint32_t t = 0; t < w->t->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) w->t->tri[t].link[k] = MW_NONE;
-    if (!mw__connect(w->t->tri, w->t->tri_count, w->t->point_count, NULL)) return false;
+    if (!mw__connect(w->t->tri, w->t->tri_count, w->t->point_count, 1, NULL)) return false;
     shorten(w);
     return true;
 }
