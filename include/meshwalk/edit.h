@@ -23,7 +23,7 @@ typedef struct mw_editor_options {
                      first, by flips; 2: no edge is flipped unless it is asked for                                       */
     int log; /* 1: keep the list of all edits (mw_editor_log)                                                       */
     size_t
-        undo; /* so many edits can be undone, 500 to 1000 bytes each; SIZE_MAX: all                                   */
+        undo; /* so many edits can be undone, 400 to 1000 bytes each; SIZE_MAX: all                                   */
     const uint32_t
         *constraints; /* two vertices each: edges of the mesh that are not to be flipped away; as mw_pieces.edge */
     size_t constraint_count;
@@ -126,7 +126,7 @@ MW_API mw_status mw_edit_insert_points(mw_editor *editor, const double *points, 
                                        uint32_t *vertices, mw_change *change, mw_error *error);
 
 /* Take back the last edit that is not: everything is as it was before it, numbers too. `change` tells what that changed.
- * MW_ERROR_INPUT: there is none, or none kept (options.undo). */
+ * MW_ERROR_INPUT: there is none, or none kept (options.undo). MW_ERROR_MEMORY: nothing has changed. */
 MW_API mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error);
 
 /* The edits since the editor was made or compacted, those that were undone left out: applied in this order to the same mesh
