@@ -39,8 +39,9 @@ static bool make(own *o, const engine_mesh *m, unsigned threads, mw_start_kind s
         .triangle_count = m->triangle_count,
     };
     mw_mesh_options options = {.threads = threads};
+    mw_locator_options prepare = {.threads = threads};
     return mw_mesh_create(&arrays, &options, &o->mesh, NULL) == MW_OK &&
-           mw_locator_create(o->mesh, NULL, &o->locator, NULL) == MW_OK &&
+           mw_locator_create(o->mesh, &prepare, &o->locator, NULL) == MW_OK &&
            (!mw_start_has_index(start) || mw_index_create(o->locator, start, NULL, &o->index, NULL) == MW_OK);
 }
 

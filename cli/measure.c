@@ -46,7 +46,7 @@ static int fail(const trial *t, const mw_error *error)
 static int make_locator(scene *s, mw_triangulation_kind kind, preparation how)
 {
     mw_error error;
-    mw_locator_options options = {.areas = how == AREAS, .fill = how == OPEN ? 2 : 1};
+    mw_locator_options options = {.areas = how == AREAS, .fill = how == OPEN ? 2 : 1, .threads = s->trial->threads};
     if (s->locator[kind][how]) return 0;
     double clock = tally_clock();
     if (mw_locator_create(s->mesh[kind], &options, &s->locator[kind][how], &error) != MW_OK)

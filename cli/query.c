@@ -116,7 +116,8 @@ static int make_locator(query *q, const char *path, bool border, bool area)
     mw_locator_options options = {.any = settings->any,
                                   .border = border || settings->tolerance > 0,
                                   .areas = settings->areas,
-                                  .fill = settings->fill};
+                                  .fill = settings->fill,
+                                  .threads = settings->stream.common.threads};
     if (settings->walk == MW_WALK_BORDER && settings->fill == FILL_AUTO) options.fill = FILL_NO;
     if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK) return fail_defect(q, path, area, &error);
     warn_if_void(q, path);

@@ -81,7 +81,9 @@ typedef struct mw_locator_options {
     int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
     int fill; /* pockets and holes of an embedding that is not convex: 1: filled with ghost triangles, so that every walk
                    can cross them; 2: left open, only MW_WALK_BORDER (and AUTO) walks there; 0: 1, unless `queries` is few */
-    uint32_t reserved[4];
+    uint32_t
+        threads; /* 0 = what OpenMP gives; the locator is the same for any number. Its grids are made by as many, too */
+    uint32_t reserved[3];
     uint64_t queries; /* with `fill` 0: about so many are to come; few do not pay for what filling takes. 0 = many */
 } mw_locator_options;
 

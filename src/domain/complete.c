@@ -119,5 +119,7 @@ mw_status mw__complete(const mw_survey *survey, bool fill, mw_tiling *tiling, mw
     for (uint32_t t = 0; t < mesh->tri_count; t++)
         if (!mw__is_flat(m.outline, t)) add_user(&m, t);
     if (fill) add_ghosts(&m, &survey->regions);
-    return mw__connect(tiling->tri, tiling->tri_count, tiling->point_count, 1, NULL) ? MW_OK : mw__fail_memory(error);
+    return mw__connect(tiling->tri, tiling->tri_count, tiling->point_count, tiling->threads, NULL)
+               ? MW_OK
+               : mw__fail_memory(error);
 }

@@ -1,26 +1,58 @@
 /* tiling.c - the tiling a mesh needs: its own arrays, or completed ones. */
 #include "domain/tiling.h"
 
+#include "base/threads.h"
 #include "domain/complete.h"
 
 #include <stdlib.h>
 
-/* owner[v]: the lowest-numbered triangle of the user's, with an area, that has vertex v. */
-static bool find_owners(mw_tiling *tiling)
+/* The lowest-numbered triangle of the user's, with an area, that has each vertex: of the tiles from `tile` on to before `end`. */
+static void find_lowest(const mw_tiling *tiling, uint32_t tile, uint32_t end, uint32_t *lowest)
 {
-    tiling->owner = mw__alloc(tiling->point_count, sizeof *tiling->owner);
-    if (!tiling->owner) return false;
-    for (uint32_t v = 0; v < tiling->point_count; v++) tiling->owner[v] = MW_NONE;
-    for (uint32_t t = 0; t < tiling->tri_count; t++) {
+    for (uint32_t v = 0; v < tiling->point_count; v++) lowest[v] = MW_NONE;
+    for (uint32_t t = tile; t < end; t++) {
         const mw_triangle *tri = &tiling->tri[t];
         if (tri->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tri))) continue;
         uint32_t user = tri->user & MW_USER_MASK;
         for (int k = 0; k < 3; k++) {
-            uint32_t *owner = &tiling->owner[tri->v[k]], known = *owner;
-            *owner = user < known ? user : known; /* written anyway: which is lower cannot be foretold */
+            uint32_t known = lowest[tri->v[k]];
+            lowest[tri->v[k]] = user < known ? user : known; /* written anyway: which is lower cannot be foretold */
         }
     }
-    return true;
+}
+
+/* Each thread finds the lowest of its share of the tiles; of these the lowest are the owners. */
+static bool find_owners(mw_tiling *tiling)
+{
+    enum { WORTHWHILE = 1 << 15, MOST_SHARES = 8 }; /* each has its own numbers for all vertices */
+    uint32_t n = tiling->point_count, tiles = tiling->tri_count;
+    int shares = mw__team(tiling->threads, tiles / WORTHWHILE + 1);
+    if (shares > MOST_SHARES) shares = MOST_SHARES;
+    tiling->owner = mw__alloc(n, sizeof *tiling->owner);
+    uint32_t *others = mw__alloc((size_t)(shares - 1) * n, sizeof *others);
+    bool done = tiling->owner && others;
+#ifdef _OPENMP
+#pragma omp parallel num_threads(shares) if (shares > 1 && done)
+#endif
+    if (done) {
+#ifdef _OPENMP
+#pragma omp for schedule(static)
+#endif
+        for (int i = 0; i < shares; i++)
+            find_lowest(tiling, (uint32_t)((uint64_t)tiles * (uint32_t)i / (uint32_t)shares),
+                        (uint32_t)((uint64_t)tiles * (uint32_t)(i + 1) / (uint32_t)shares),
+                        i == 0 ? tiling->owner : others + (size_t)(i - 1) * n);
+#ifdef _OPENMP
+#pragma omp for schedule(static)
+#endif
+        for (uint32_t v = 0; v < n; v++)
+            for (int i = 1; i < shares; i++) {
+                uint32_t other = others[(size_t)(i - 1) * n + v];
+                if (other < tiling->owner[v]) tiling->owner[v] = other;
+            }
+    }
+    free(others);
+    return done;
 }
 
 uint32_t mw__lowest_round(const mw_tiling *tiling, uint32_t first, uint32_t v)
@@ -94,12 +126,12 @@ static mw_status make_tiling(const mw_survey *survey, bool any, bool fill, mw_ti
     return MW_OK;
 }
 
-static mw_status create(const mw_mesh *mesh, bool any, bool fill, mw_tiling *tiling, mw_error *error)
+mw_status mw__tiling_create_with(const mw_mesh *mesh, mw_tiling_options options, mw_tiling *tiling, mw_error *error)
 {
-    *tiling = (mw_tiling){0};
+    *tiling = (mw_tiling){.threads = options.threads};
     mw_survey survey;
     mw_status status = mw__survey_create(&survey, mesh, error);
-    if (!status) status = make_tiling(&survey, any, fill, tiling, error);
+    if (!status) status = make_tiling(&survey, options.any, !options.open, tiling, error);
     mw__survey_release(&survey);
     if (!status && !find_owners(tiling)) status = mw__fail_memory(error);
     if (status) mw__tiling_release(tiling);
@@ -108,12 +140,7 @@ static mw_status create(const mw_mesh *mesh, bool any, bool fill, mw_tiling *til
 
 mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
 {
-    return create(mesh, any, true, tiling, error);
-}
-
-mw_status mw__tiling_create_open(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
-{
-    return create(mesh, any, false, tiling, error);
+    return mw__tiling_create_with(mesh, (mw_tiling_options){.any = any, .threads = 1}, tiling, error);
 }
 
 mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error)

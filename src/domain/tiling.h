@@ -39,6 +39,7 @@ typedef struct mw_tiling {
         *tile_of; /* of such a one, per number: its tile, or MW_GONE and the number of a triangle that took its place;
                               else NULL. Always owned */
     uint32_t name_count; /* of such a one: numbers up to here, of edits that were undone, lead to a tile too */
+    uint32_t threads;    /* that make what belongs to it; 0: as OpenMP gives                                   */
 } mw_tiling;
 
 #define MW_GONE (UINT32_C(1) << 31)
@@ -79,8 +80,14 @@ static MW_INLINE uint32_t mw__tile_name(const mw_tiling *tiling, uint32_t t)
  * MW_ERROR_INPUT, the error naming the first defect. A mesh without any triangle that has an area gives no tiles. Also
  * MW_ERROR_MEMORY, MW_ERROR_LIMIT. The mesh must outlive the tiling. */
 mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
-/* The same, left open; to be finished. Where the mesh fills its hull there is no difference. */
-mw_status mw__tiling_create_open(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error);
+
+/* The same by several threads (0: as OpenMP gives), or left open; that is to be finished. Where the mesh fills its hull there is no
+ * difference. */
+typedef struct mw_tiling_options {
+    bool any, open;
+    uint32_t threads;
+} mw_tiling_options;
+mw_status mw__tiling_create_with(const mw_mesh *mesh, mw_tiling_options options, mw_tiling *tiling, mw_error *error);
 /* Find the loops and pieces of an open tiling. MW_ERROR_MEMORY. */
 mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error);
 void mw__tiling_release(mw_tiling *tiling);

@@ -1,6 +1,7 @@
 /* locator.c - preparing a mesh for queries. */
 #include "locate/locator.h"
 
+#include "base/threads.h"
 #include "mesh/order.h"
 #include "start/start.h"
 
@@ -57,24 +58,37 @@ static bool wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
 
 static mw_status make_tiling(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
-    return wants_ghosts(locator->mesh, options)
-               ? mw__tiling_create(locator->mesh, options->any, &locator->tiling, error)
-               : mw__tiling_create_open(locator->mesh, options->any, &locator->tiling, error);
+    mw_tiling_options how = {
+        .any = options->any, .open = !wants_ghosts(locator->mesh, options), .threads = options->threads};
+    return mw__tiling_create_with(locator->mesh, how, &locator->tiling, error);
 }
 
 /* Of the vertices that a triangle with an area has. */
 static void find_extent(const mw_tiling *tiling, double low[2], double high[2])
 {
-    low[0] = low[1] = INFINITY;
-    high[0] = high[1] = -INFINITY;
+    enum { WORTHWHILE = 1 << 15 };
+    double left = INFINITY, bottom = INFINITY, right = -INFINITY, top = -INFINITY;
+    int team = mw__team(tiling->threads, tiling->point_count / WORTHWHILE + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(min                                \
+                                                                                    : left, bottom)                    \
+    reduction(max                                                                                                      \
+              : right, top)
+#endif
     for (uint32_t v = 0; v < tiling->point_count; v++) {
         if (!mw__is_used(tiling, v)) continue;
-        const double p[2] = {tiling->point[v].x, tiling->point[v].y};
-        for (int k = 0; k < 2; k++) {
-            if (p[k] < low[k]) low[k] = p[k];
-            if (p[k] > high[k]) high[k] = p[k];
-        }
+        mw_point p = tiling->point[v];
+        left = p.x < left ? p.x : left;
+        bottom = p.y < bottom ? p.y : bottom;
+        right = p.x > right ? p.x : right;
+        top = p.y > top ? p.y : top;
     }
+    /* of 0 and -0, which are equal, any may have been the last */
+    low[0] = left + 0.0;
+    low[1] = bottom + 0.0;
+    high[0] = right + 0.0;
+    high[1] = top + 0.0;
 }
 
 /* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie along one. Tiles that are edited do not

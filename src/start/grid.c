@@ -23,28 +23,67 @@
  * So one cell for two vertices: 2 bytes a vertex. */
 #include "start/grid.h"
 
+#include "base/threads.h"
 #include "start/start.h"
 #include "walk/walk.h"
 
 #include <stdlib.h>
 
 enum {
-    CROWDED = 48, /* tiles in a cell from which on the curve is better                                    */
-    CROWD = 128,  /* the same, so much so that it pays to have it, if one tile in SHARE is in such a cell */
-    SHARE = 4     /* or if but one cell in SHARE has a tile                                               */
+    WORTHWHILE = 1 << 15, /* tiles for a thread to be worth it          */
+    MOST_SHARES = 8,      /* of the tiles: each has its sites for all cells */
+    CROWDED = 48,         /* tiles in a cell from which on the curve is better                                    */
+    CROWD = 128,          /* the same, so much so that it pays to have it, if one tile in SHARE is in such a cell */
+    SHARE = 4             /* or if but one cell in SHARE has a tile                                               */
 };
 
-/* Of every few tiles, put the one nearest to the middle of a cell into it, and count them. */
-static void look(mw_grid *grid, mw_grid_plan *plan)
+/* Of every few tiles, put the one nearest to the middle of a cell into it, and count them: share i, with sites of its own. */
+static void look(const mw_grid *grid, const mw_grid_plan *plan, int i, int shares)
 {
-    for (uint64_t t = 0; t < plan->tiling->tri_count; t += plan->stride) {
+    uint32_t cells = mw__lattice_cells(&grid->lattice);
+    uint64_t looks = ((uint64_t)plan->tiling->tri_count + plan->stride - 1) / plan->stride;
+    uint64_t end = looks * (uint32_t)(i + 1) / (uint32_t)shares;
+    mw_grid_site *sites = plan->site + (size_t)i * cells;
+    for (uint32_t c = 0; c < cells; c++) sites[c] = (mw_grid_site){INFINITY, MW_NONE, 0};
+    for (uint64_t look = looks * (uint32_t)i / (uint32_t)shares; look < end; look++) {
         float off;
-        uint32_t cell = mw__lattice_cell_off(&grid->lattice, mw__tile_middle(plan->tiling, (uint32_t)t), &off);
-        mw_grid_site *site = &plan->site[cell];
+        uint32_t t = (uint32_t)(look * plan->stride);
+        mw_grid_site *site = &sites[mw__lattice_cell_off(&grid->lattice, mw__tile_middle(plan->tiling, t), &off)];
         site->count++;
         if (!(off < site->off)) continue;
-        grid->tile[cell] = (uint32_t)t;
+        site->tile = t;
         site->off = off;
+    }
+}
+
+/* Of a cell: what all shares have seen, in the order of the tiles. */
+static void join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, int shares)
+{
+    mw_grid_site *site = &plan->site[cell];
+    for (int i = 1; i < shares; i++) {
+        const mw_grid_site *other = site + (size_t)i * mw__lattice_cells(&grid->lattice);
+        site->count += other->count;
+        if (!(other->off < site->off)) continue;
+        site->tile = other->tile;
+        site->off = other->off;
+    }
+    grid->tile[cell] = site->tile;
+}
+
+static void look_together(mw_grid *grid, const mw_grid_plan *plan, int shares)
+{
+#ifdef _OPENMP
+#pragma omp parallel num_threads(shares) if (shares > 1)
+#endif
+    {
+#ifdef _OPENMP
+#pragma omp for schedule(static)
+#endif
+        for (int i = 0; i < shares; i++) look(grid, plan, i, shares);
+#ifdef _OPENMP
+#pragma omp for schedule(static)
+#endif
+        for (uint32_t c = 0; c < mw__lattice_cells(&grid->lattice); c++) join(grid, plan, c, shares);
     }
 }
 
@@ -76,17 +115,15 @@ bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], cons
     if (cells == 0) cells = mw__lattice_choose(plan->tiling);
     grid->lattice = mw__lattice_of(plan->tiling, low, high, cells);
     uint32_t count = mw__lattice_cells(&grid->lattice);
+    int shares = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
+    if (shares > MOST_SHARES) shares = MOST_SHARES;
     grid->tile = mw__alloc_lines(count, sizeof *grid->tile);
-    plan->site = mw__alloc_lines(count, sizeof *plan->site);
+    plan->site = mw__alloc_lines((size_t)shares * count, sizeof *plan->site);
     if (!grid->tile || !plan->site) {
         free(plan->site);
         return false;
     }
-    for (uint32_t c = 0; c < count; c++) {
-        grid->tile[c] = MW_NONE;
-        plan->site[c] = (mw_grid_site){INFINITY, 0};
-    }
-    look(grid, plan);
+    look_together(grid, plan, shares);
     judge(plan, count, cells);
     return true;
 }

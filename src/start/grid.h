@@ -16,6 +16,7 @@ bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2]
 /* What is known of a cell while its grid is built. */
 typedef struct mw_grid_site {
     float off; /* how far the middle of its tile is off its own, in widths of a cell, squared; infinite: it has none */
+    uint32_t tile;
     uint32_t
         count; /* tiles in it, of those that were looked at                                                          */
 } mw_grid_site;
