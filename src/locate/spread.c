@@ -124,11 +124,10 @@ static double shortest_edge(const mw_tiling *tiling, uint32_t t)
  * twice as long. */
 static const double GRID = 0.5, CURVE = 1.5;
 
-/* How the way from a query on is judged. */
+/* How the way from a query on is judged: the shortest edge of the guide's tile is a length, or two common edges if they are shorter, as
+ * tiles are large along a hull. */
 typedef struct measure {
-    double
-        length; /* the shortest edge of the guide's tile, or two common edges if they are shorter: along a hull tiles are large */
-    double worth; /* GRID or CURVE */
+    double length, worth; /* worth: GRID or CURVE */
 } measure;
 
 static measure take_measure(const mw_locator *locator, const double *at)
@@ -142,13 +141,21 @@ static measure take_measure(const mw_locator *locator, const double *at)
     return (measure){.length = edge < longest ? edge : longest, .worth = crowded ? CURVE : GRID};
 }
 
-/* What a stretch of `count` ways is worth beyond what they take; at most so much. */
-static double judge(const mw_locator *locator, const mw_queries *queries, size_t first, size_t count, double left)
+/* The way over a stretch; infinite, if it is more than `left` and the stretch may be worth, whatever the tiles are. */
+static double short_way(const mw_locator *locator, const double *at, size_t count, size_t stride, double left)
 {
-    const double *at = &queries->points[first * queries->stride];
-    double way = find_way(at, count, queries->stride), longest = sqrt(locator->cell2);
-    if (!(way <= (left + CURVE * (double)count) * longest)) return -INFINITY; /* whatever the tiles are */
-    measure from = take_measure(locator, at), to = take_measure(locator, at + count * queries->stride);
+    double way = find_way(at, count, stride);
+    return way <= (left + CURVE * (double)count) * sqrt(locator->cell2) ? way : INFINITY;
+}
+
+/* What a stretch of queries is worth beyond what its ways take. */
+static double judge(const mw_locator *locator, const double *at, size_t count, size_t stride, double left)
+{
+    enum { FEW = 8 }; /* are enough for nearly all that are not near */
+    if (isinf(short_way(locator, at, count < FEW ? count : FEW, stride, left))) return -INFINITY;
+    double way = short_way(locator, at, count, stride, left);
+    if (isinf(way)) return -INFINITY;
+    measure from = take_measure(locator, at), to = take_measure(locator, at + count * stride);
     return from.worth * (double)count - way / (from.length < to.length ? from.length : to.length);
 }
 
@@ -162,7 +169,7 @@ bool mw__come_densely(const mw_locator *locator, const mw_queries *queries)
     for (size_t lap = 0; lap < LAPS; lap++)
         for (size_t i = lap * STRETCH; i + 1 < queries->n; i += LAPS * STRETCH) {
             size_t count = queries->n - 1 - i < STRETCH ? queries->n - 1 - i : STRETCH;
-            left += judge(locator, queries, i, count, left);
+            left += judge(locator, &queries->points[i * queries->stride], count, queries->stride, left);
             if (!(left >= 0)) return false;
         }
     return true;
