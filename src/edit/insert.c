@@ -190,20 +190,19 @@ static mw_status fill(mw_fabric *f, const hole *h, uint32_t v, uint32_t beside, 
     uint32_t *tile_at = f->tiling->tile_at;
     const uint32_t *pool = f->pool + h->pool, *last = pool + h->steps - 1;
     const mw_rim_step *step = f->rim + h->first;
-    uint32_t before = *last;
-    for (const uint32_t *at = pool; at <= last; at++, step++) { /* as if they went all the way round */
-        uint32_t t = *at, after = at < last ? at[1] : *pool;
-        tri[t].v[0] = tri[t].v[3] = step->vertex;
-        tri[t].v[1] = step[1].vertex;
-        tri[t].v[2] = v;
-        tri[t].link[1] = mw__link(after, 2);
-        tri[t].link[2] = mw__link(before, 1);
-        tri[t].user &= ~MW_FLIPPED;
-        mw__attach(f, mw__link(t, 0), step->beyond);
-        mw__set_fixed(f, t, step->fixed);
-        tile_at[step->vertex] = before = t;
+    uint8_t *mark = f->mark;
+    uint32_t before = *last, from = step->vertex;
+    for (const uint32_t *at = pool; at <= last; at++) { /* as if they went all the way round */
+        const uint32_t t = *at, after = at < last ? at[1] : *pool, beyond = step->beyond, fixed = step->fixed;
+        const uint32_t to = (++step)->vertex;
+        tri[t] = (mw_triangle){
+            {from, to, v, from}, {beyond, mw__link(after, 2), mw__link(before, 1)}, tri[t].user & ~MW_FLIPPED};
+        if (beyond != MW_NONE) tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = mw__link(t, 0);
+        mark[t] = (uint8_t)((mark[t] & ~MW_FIXED_EDGES) | fixed);
+        tile_at[from] = before = t;
+        from = to;
     }
-    tile_at[step->vertex] = tile_at[v] = before;
+    tile_at[from] = tile_at[v] = before;
     *made = (fan){*pool, before};
     return MW_OK;
 }
