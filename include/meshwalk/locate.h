@@ -172,7 +172,8 @@ typedef struct mw_query_options {
     uint32_t threads;      /* batches: 0 = what OpenMP gives                                                      */
     double tolerance;      /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
     int count;             /* 1: fill the counters                                                                */
-    uint32_t lanes;        /* batches: walks in flight at a time; 0 = choose, at most MW_MAX_LANES                 */
+    uint32_t lanes;        /* batches: walks in flight at a time, at most MW_MAX_LANES; 0 = choose by the number of
+                            queries, the part of the mesh over which they lie, and the caches                      */
     const mw_index *index; /* for the starts that have one (mw_index_create), NULL else; must outlive the cursor */
     uint32_t reserved[4];
 } mw_query_options;
@@ -258,10 +259,11 @@ MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double 
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
  *   counters  NULL or filled with the sum over the batch (options->count)
- * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; where it has none, as where pockets and
- * holes are open, MW_START_SORTED for 64 queries and more. MW_START_LAST and _SORTED: each thread takes 16,384
- * queries at a time, in `lanes` runs; the first query of a run begins as with MW_START_SAMPLE, each other where the one
- * before it ended.
+ * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; plain queries of which most
+ * lie in the triangle of the one before, or beside it, begin where that one ended. Where the locator has no guide, as where
+ * pockets and holes are open, it means MW_START_SORTED for 64 queries and more, or MW_START_LAST if they come in about as good an
+ * order already. MW_START_LAST and _SORTED: each thread takes 16,384 queries at a time, in `lanes` runs; the first query of a run begins
+ * as with MW_START_SAMPLE, each other where the one before it ended.
  * MW_ERROR_ARGUMENT as mw_cursor_init; MW_ERROR_MEMORY (then locations is unspecified). */
 MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,
                                  const mw_query_options *options, mw_location *locations, mw_counters *counters,

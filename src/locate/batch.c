@@ -135,7 +135,7 @@ static bool begins_near(const batch *b)
 }
 
 /* Walks in flight hide the time that memory takes: the more, the farther off it is. Uniform queries, ns each in 8, 16 and 32 lanes: 43,
- * 45, 48 in 80 KB of tiles and points, 52, 51, 63 in 0.8 MB, 55, 48, 55 in 4 MB, 100, 77, 70 in 8 MB, 179, 109, 88 in 80 MB, where
+ * 47, 48 in 80 KB of tiles and points, 52, 51, 63 in 0.8 MB, 55, 48, 55 in 4 MB, 100, 77, 70 in 8 MB, 179, 109, 88 in 80 MB, where
  * the second-level cache has 0.5 MB. The ring of single walks gains nothing as long as all is in that. A chained query stays near the
  * one before it, in cache already; side by side several go faster even so. */
 static uint32_t choose_lanes(const batch *b, size_t n)
