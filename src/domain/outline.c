@@ -18,7 +18,8 @@ static bool is_outline(const mw_outline *o, uint32_t t, uint32_t k)
     uint32_t link = o->mesh->tri[t].link[k];
     if (link == MW_NONE) return true;
     uint32_t other = mw__link_triangle(link);
-    return mw__is_flat(o, other) || (t < other && mw__is_fold(o, mw__link(t, k)));
+    if (mw__is_flat(o, other)) return true;
+    return !o->mesh->opposite && t < other && mw__is_fold(o, mw__link(t, k));
 }
 
 static bool find_edges(mw_outline *o)

@@ -147,27 +147,52 @@ static bool is_outermost(const mw_lattice *lattice, uint32_t x, uint32_t y)
 /* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long, as far as the fuel goes. Where the walk
  * leaves the hull, and tiles are beside, one of these: the hull may cross the cell, and from a long tile along it walks into the
  * mesh are long. */
-static void fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t)
+static void fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t, uint32_t fuel)
 {
-    enum { FUEL = 256 };
     uint32_t cell = y * grid->lattice.columns + x, beside = cell;
     mw_point middle = mw__lattice_middle(&grid->lattice, cell);
-    mw_walk walk = mw__walk_begin(plan->tiling, middle, t, FUEL, 0, NULL);
+    mw_walk walk = mw__walk_begin(plan->tiling, middle, t, fuel, 0, NULL);
     bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_LEFT;
     if (left && !is_outermost(&grid->lattice, x, y)) beside = settled(grid, plan, x, y);
     grid->tile[cell] = beside != cell ? grid->tile[beside] : walk.t;
 }
 
-/* A tile of the cell to the left or below, rather of one that was a gap too, where tiles are large; or of any cell. */
-static uint32_t tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y)
+enum {
+    BAND = 32,    /* lines of cells whose gaps one thread fills   */
+    FUEL = 256,   /* for a walk from the cell beside              */
+    FAR = 1 << 12 /* for the first one of a band                 */
+};
+
+/* A tile of the cell to the left or below, rather of one that was a gap too, where tiles are large. Gaps below the band from line
+ * `first` on are not known, so that it does not matter which band is filled first. MW_NONE: there is no such cell. */
+static uint32_t tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t first)
 {
     uint32_t columns = grid->lattice.columns, cell = y * columns + x;
-    bool left = x > 1, below = y > 1;
+    bool left = x > 1, below = y > first || (y > 1 && !is_gap(plan, cell - columns));
     if (left && (is_gap(plan, cell - 1) || !below || !is_gap(plan, cell - columns))) return grid->tile[cell - 1];
-    if (below) return grid->tile[cell - columns];
-    for (uint32_t c = 0; c < mw__lattice_cells(&grid->lattice); c++)
-        if (!is_gap(plan, c)) return grid->tile[c];
-    return 0;
+    return below ? grid->tile[cell - columns] : MW_NONE;
+}
+
+/* A tile of the next cell that has one, or of the first. */
+static uint32_t tile_after(const mw_grid *grid, const mw_grid_plan *plan, uint32_t cell)
+{
+    uint32_t cells = mw__lattice_cells(&grid->lattice), c = cell;
+    while (c < cells && is_gap(plan, c)) c++;
+    for (c = c < cells ? c : 0; c < cell && is_gap(plan, c);) c++;
+    return is_gap(plan, c) ? 0 : grid->tile[c];
+}
+
+/* The cells within the outermost ones. */
+static void fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
+{
+    uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows;
+    for (uint32_t y = first; y < first + BAND && y + 1 < rows; y++)
+        for (uint32_t x = 1; x + 1 < columns; x++) {
+            if (!is_gap(plan, y * columns + x)) continue;
+            uint32_t t = tile_beside(grid, plan, x, y, first);
+            bool near = t != MW_NONE;
+            fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x), near ? FUEL : FAR);
+        }
 }
 
 static uint32_t inwards(uint32_t line, uint32_t lines)
@@ -180,15 +205,18 @@ static uint32_t inwards(uint32_t line, uint32_t lines)
  * cell there may be none of the next. */
 static void fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 {
-    uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows;
-    for (uint32_t y = 1; y + 1 < rows; y++)
-        for (uint32_t x = 1; x + 1 < columns; x++)
-            if (is_gap(plan, y * columns + x)) fill_gap(grid, plan, x, y, tile_beside(grid, plan, x, y));
+    uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows, bands = rows > 2 ? (rows - 3) / BAND + 1 : 0;
+    int team = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
+#endif
+    for (uint32_t b = 0; b < bands; b++) fill_band(grid, plan, 1 + b * BAND);
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < columns; x++) {
             if (!is_outermost(&grid->lattice, x, y) || !is_gap(plan, y * columns + x)) continue;
             uint32_t t = grid->tile[inwards(y, rows) * columns + inwards(x, columns)];
-            fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t);
+            fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
         }
 }
 
