@@ -155,41 +155,40 @@ static void pile_share(const work *w, int share)
             w->half[next[lower(&w->tri[t], e) >> w->shift]++] = mw__link(t, e);
 }
 
-static void link_part(const work *w, uint32_t p, bench *b)
+static void link_part(const work *w, bench *b, uint32_t p)
 {
     uint64_t base = (uint64_t)p << w->shift, size = UINT64_C(1) << w->shift;
     if (base + size > w->vertex_count) size = w->vertex_count - base;
+    mw_part part = {(uint32_t)base, (uint32_t)size, 0, 0};
     mw_strays all = {w->half + w->first[p], w->first[p + 1] - w->first[p]};
-    b->done =
-        b->done && mw__link_part(w->tri, (mw_part){(uint32_t)base, (uint32_t)size, 0, 0}, all, &b->room, &b->links);
+    b->done = b->done && mw__link_part(w->tri, part, all, &b->room, &b->links);
 }
 
-static void link_all(const work *w)
+static void link_alone(const work *w)
+{
+    count_share(w, 0);
+    add_up(w);
+    pile_share(w, 0);
+    for (uint32_t p = 0; p < w->parts; p++) link_part(w, &w->bench[0], p);
+}
+
+static void link_together(const work *w)
 {
 #ifdef _OPENMP
-#pragma omp parallel num_threads(w->team) if (w->team > 1)
-#endif
+#pragma omp parallel num_threads(w->team)
     {
-#ifdef _OPENMP
-        bench *b = &w->bench[omp_get_thread_num()];
 #pragma omp for schedule(static)
-#else
-        bench *b = w->bench;
-#endif
         for (int i = 0; i < w->team; i++) count_share(w, i);
-#ifdef _OPENMP
 #pragma omp single
-#endif
         add_up(w);
-#ifdef _OPENMP
 #pragma omp for schedule(static)
-#endif
         for (int i = 0; i < w->team; i++) pile_share(w, i);
-#ifdef _OPENMP
 #pragma omp for schedule(dynamic)
-#endif
-        for (uint32_t p = 0; p < w->parts; p++) link_part(w, p, b);
+        for (uint32_t p = 0; p < w->parts; p++) link_part(w, &w->bench[omp_get_thread_num()], p);
     }
+#else
+    (void)w;
+#endif
 }
 
 static bool open_work(work *w)
@@ -231,7 +230,8 @@ bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t t
     w.team = mw__team(threads, n / WORTHWHILE + 1);
     bool done = open_work(&w);
     mw_links found = mw__no_links();
-    if (done) link_all(&w);
+    if (done && w.team > 1) link_together(&w);
+    if (done && w.team == 1) link_alone(&w);
     for (int i = 0; i < w.team && done; i++) {
         done = w.bench[i].done;
         mw__links_add(tri, &w.bench[i].links, &found);
