@@ -833,7 +833,7 @@ static void test_memory(void **state)
     uint64_t random = 5;
     solid s = box(0, 0, 0, 1, 1), t = random_soup(20, 60, 1, &random);
     mw_arrays sound = solid_view(&s), damaged = solid_view(&t);
-    assert_int_equal(exhaust(describe_job, &sound), 17);
+    assert_int_equal(exhaust(describe_job, &sound), 12);
     assert_true(exhaust(check_job, &sound) > 6);
     assert_true(exhaust(check_job, &damaged) > 16);
     t.triangles[5] = 1000;

@@ -1,5 +1,6 @@
-/* connect.c - neighbours of triangles in O(n), whatever their order: half-edges are parted by ranges of their lower vertices; then
- * each range is linked, in cache (link.c), by any thread. Meshes that are laid out are linked on the way (parts.c). */
+/* connect.c - neighbours of triangles in O(n), whatever their order: half-edges are parted by their lower vertices, where the halves of an
+ * edge find each other by the upper one. Of large meshes by ranges of these; then each range is linked, in cache (link.c), by any
+ * thread. Meshes that are laid out are linked on the way (parts.c). */
 #include "mesh/connect.h"
 
 #include "base/threads.h"
@@ -10,6 +11,11 @@
 static MW_INLINE uint32_t lower(const mw_triangle *t, uint32_t e)
 {
     return t->v[e] < t->v[e + 1] ? t->v[e] : t->v[e + 1];
+}
+
+static MW_INLINE uint32_t upper(const mw_triangle *t, uint32_t e)
+{
+    return t->v[e] < t->v[e + 1] ? t->v[e + 1] : t->v[e];
 }
 
 /* --- matching --- */
@@ -95,7 +101,34 @@ bool mw__match(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_li
     return (count <= FEW && match_few(tri, half, count, links)) || match_many(tri, half, count, links);
 }
 
-/* --- all --- */
+/* --- a mesh that fits the cache --- */
+
+/* The half-edges of lower vertex i are half[first[i]] to before half[first[i + 1]]. */
+static void gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *first, mw_half_edge *half)
+{
+    uint32_t sum = 0;
+    for (uint32_t t = 0; t < n; t++)
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++) first[lower(&tri[t], e)]++;
+    for (uint32_t i = 0; i <= vertex_count; i++) first[i] = sum += first[i];
+    for (uint32_t t = 0; t < n; t++)
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++)
+            half[--first[lower(&tri[t], e)]] = (mw_half_edge){upper(&tri[t], e), mw__link(t, e)};
+}
+
+static bool connect_few(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_links *links)
+{
+    uint32_t *first = mw__calloc((size_t)vertex_count + 1, sizeof *first);
+    mw_half_edge *half = mw__alloc(3 * (size_t)n, sizeof *half);
+    bool done = first && half;
+    if (done) gather(tri, n, vertex_count, first, half);
+    for (uint32_t i = 0; i < vertex_count && done; i++)
+        done = mw__match(tri, half + first[i], first[i + 1] - first[i], links);
+    free(first);
+    free(half);
+    return done;
+}
+
+/* --- any mesh --- */
 
 enum {
     WORTHWHILE = 1 << 14, /* triangles for a thread to be worth it          */
@@ -164,30 +197,34 @@ static void link_part(const work *w, bench *b, uint32_t p)
     b->done = b->done && mw__link_part(w->tri, part, all, &b->room, &b->links);
 }
 
-static void link_alone(const work *w)
-{
-    count_share(w, 0);
-    add_up(w);
-    pile_share(w, 0);
-    for (uint32_t p = 0; p < w->parts; p++) link_part(w, &w->bench[0], p);
-}
-
-static void link_together(const work *w)
+/* What one thread does. */
+static void work_on(const work *w, bench *b)
 {
 #ifdef _OPENMP
-#pragma omp parallel num_threads(w->team)
-    {
 #pragma omp for schedule(static)
-        for (int i = 0; i < w->team; i++) count_share(w, i);
+#endif
+    for (int i = 0; i < w->team; i++) count_share(w, i);
+#ifdef _OPENMP
 #pragma omp single
-        add_up(w);
+#endif
+    add_up(w);
+#ifdef _OPENMP
 #pragma omp for schedule(static)
-        for (int i = 0; i < w->team; i++) pile_share(w, i);
+#endif
+    for (int i = 0; i < w->team; i++) pile_share(w, i);
+#ifdef _OPENMP
 #pragma omp for schedule(dynamic)
-        for (uint32_t p = 0; p < w->parts; p++) link_part(w, &w->bench[omp_get_thread_num()], p);
-    }
+#endif
+    for (uint32_t p = 0; p < w->parts; p++) link_part(w, b, p);
+}
+
+static void work_together(const work *w)
+{
+#ifdef _OPENMP
+#pragma omp parallel num_threads(w->team) if (w->team > 1)
+    work_on(w, &w->bench[omp_get_thread_num()]);
 #else
-    (void)w;
+    work_on(w, &w->bench[0]);
 #endif
 }
 
@@ -224,19 +261,25 @@ void mw__links_add(const mw_triangle *tri, const mw_links *more, mw_links *links
     if (more->extra != MW_NONE) mw__note_extra(tri, more->extra, &links->extra);
 }
 
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links)
+static bool connect_many(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links)
 {
     work w = {.tri = tri, .n = n, .vertex_count = vertex_count, .shift = PART_SHIFT};
     w.team = mw__team(threads, n / WORTHWHILE + 1);
     bool done = open_work(&w);
-    mw_links found = mw__no_links();
-    if (done && w.team > 1) link_together(&w);
-    if (done && w.team == 1) link_alone(&w);
+    if (done) work_together(&w);
     for (int i = 0; i < w.team && done; i++) {
         done = w.bench[i].done;
-        mw__links_add(tri, &w.bench[i].links, &found);
+        mw__links_add(tri, &w.bench[i].links, links);
     }
     close_work(&w);
+    return done;
+}
+
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links)
+{
+    mw_links found = mw__no_links();
+    bool few = n < WORTHWHILE && vertex_count < WORTHWHILE;
+    bool done = few ? connect_few(tri, n, vertex_count, &found) : connect_many(tri, n, vertex_count, threads, &found);
     if (links) *links = found;
     return done;
 }

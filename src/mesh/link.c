@@ -16,7 +16,6 @@ enum {
     BUNCH_SHIFT = 6, /* so many vertices, as a power of two, make a bunch; parts begin with one  */
     BUNCH = 1 << BUNCH_SHIFT,
     MOST = 1024, /* halves of a bunch, expected are 384; with more it is not simple */
-    FEW = 512,   /* of a part: a table would take longer to clear                   */
     SLOT_BITS = 13
 };
 
@@ -205,19 +204,17 @@ static bool match_each(mw_triangle *tri, const mw_arrow *arrow, const mw_bunch *
     if (!half) return false;
     part_bunch(tri, arrow + b->from, n, half, first);
     bool done = true;
-    for (uint32_t v = 0; v < BUNCH && done; v++) {
-        uint32_t count = first[v + 1] - first[v];
-        if (count > 1) done = mw__match(tri, half + first[v], count, links);
-    }
+    for (uint32_t v = 0; v < BUNCH && done; v++) done = mw__match(tri, half + first[v], first[v + 1] - first[v], links);
     free(half);
     return done;
 }
 
-/* The common case: false where it is not. Links that were made then are forgotten. */
-static bool match_simply(mw_triangle *tri, const mw_link_room *room, const mw_bunch *b, mw_links *links)
+static bool match_bunch(mw_triangle *tri, const mw_link_room *room, const mw_bunch *b, mw_links *links)
 {
-    return b->next[1] - b->from <= MOST && enter(room->arrow, room->slot, b) &&
-           find_mates(tri, room->arrow, room->slot, b, links);
+    mw_arrow *arrow = room->arrow;
+    bool simple =
+        b->next[1] - b->from <= MOST && enter(arrow, room->slot, b) && find_mates(tri, arrow, room->slot, b, links);
+    return simple || match_each(tri, arrow, b, links);
 }
 
 /* --- all --- */
@@ -236,8 +233,8 @@ static bool make_room(mw_link_room *room, size_t arrows, size_t bunches)
         room->bunch = mw__alloc_lines(room->bunches, sizeof *room->bunch);
         if (!room->bunch) room->bunches = 0;
     }
-    if (!room->slot && arrows > FEW) room->slot = mw__alloc_lines((size_t)1 << SLOT_BITS, sizeof *room->slot);
-    return room->arrow && room->bunch && (room->slot || arrows <= FEW);
+    if (!room->slot) room->slot = mw__alloc_lines((size_t)1 << SLOT_BITS, sizeof *room->slot);
+    return room->arrow && room->bunch && room->slot;
 }
 
 bool mw__link_part(mw_triangle *tri, mw_part part, mw_strays strays, mw_link_room *room, mw_links *links)
@@ -246,16 +243,13 @@ bool mw__link_part(mw_triangle *tri, mw_part part, mw_strays strays, mw_link_roo
     size_t arrows = 3 * (size_t)(part.end - part.first) + strays.count + 1;
     if (!make_room(room, arrows, bunches)) return false;
     memset(room->bunch, 0, bunches * sizeof *room->bunch);
-    if (arrows > FEW) memset(room->slot, 0, sizeof *room->slot << SLOT_BITS);
+    memset(room->slot, 0, sizeof *room->slot << SLOT_BITS);
     room->arrow[0] = (mw_arrow){0};
     count(tri, part, strays, room->bunch);
     add_up(part, bunches, room->bunch);
     fill(tri, part, strays, room->bunch, room->arrow);
     bool done = true;
-    for (uint32_t i = 0; i < bunches && done; i++) {
-        const mw_bunch *b = &room->bunch[i];
-        done = (arrows > FEW && match_simply(tri, room, b, links)) || match_each(tri, room->arrow, b, links);
-    }
+    for (uint32_t i = 0; i < bunches && done; i++) done = match_bunch(tri, room, &room->bunch[i], links);
     return done;
 }
 
