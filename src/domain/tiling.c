@@ -182,6 +182,35 @@ size_t mw__tiling_copy_bytes(const mw_tiling *tiling)
     return tiling->point_count * sizeof *tiling->point + tiling->tri_count * sizeof *tiling->tri;
 }
 
+void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], double low[2],
+                       double high[2])
+{
+    enum { WORTHWHILE = 1 << 15 };
+    double left = INFINITY, bottom = INFINITY, right = -INFINITY, top = -INFINITY;
+    int team = mw__team(tiling->threads, tiling->point_count / WORTHWHILE + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(min                                \
+                                                                                    : left, bottom)                    \
+    reduction(max                                                                                                      \
+              : right, top)
+#endif
+    for (uint32_t v = 0; v < tiling->point_count; v++) {
+        if (!mw__is_used(tiling, v)) continue;
+        double x = tiling->point[v].x - middle[0], y = tiling->point[v].y - middle[1];
+        double along = x * axis[0][0] + y * axis[0][1], across = x * axis[1][0] + y * axis[1][1];
+        left = along < left ? along : left;
+        bottom = across < bottom ? across : bottom;
+        right = along > right ? along : right;
+        top = across > top ? across : top;
+    }
+    /* of 0 and -0, which are equal, any may have been the last */
+    low[0] = left + 0.0;
+    low[1] = bottom + 0.0;
+    high[0] = right + 0.0;
+    high[1] = top + 0.0;
+}
+
 size_t mw__tiling_bytes(const mw_tiling *tiling)
 {
     size_t bytes = mw__tiling_copy_bytes(tiling);

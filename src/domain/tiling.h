@@ -91,6 +91,11 @@ mw_status mw__tiling_create_with(const mw_mesh *mesh, mw_tiling_options options,
 /* Find the loops and pieces of an open tiling. MW_ERROR_MEMORY. */
 mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error);
 void mw__tiling_release(mw_tiling *tiling);
+
+/* The extent along two axes, seen from `middle`, of the vertices that triangles with an area have: the same for any threads. */
+void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], double low[2],
+                       double high[2]);
+
 size_t mw__tiling_bytes(const mw_tiling *tiling);      /* what it owns           */
 size_t mw__tiling_copy_bytes(const mw_tiling *tiling); /* of it, tiles and points */
 

@@ -1,7 +1,6 @@
 /* locator.c - preparing a mesh for queries. */
 #include "locate/locator.h"
 
-#include "base/threads.h"
 #include "mesh/order.h"
 #include "start/start.h"
 
@@ -63,34 +62,6 @@ static mw_status make_tiling(mw_locator *locator, const mw_locator_options *opti
     return mw__tiling_create_with(locator->mesh, how, &locator->tiling, error);
 }
 
-/* Of the vertices that a triangle with an area has. */
-static void find_extent(const mw_tiling *tiling, double low[2], double high[2])
-{
-    enum { WORTHWHILE = 1 << 15 };
-    double left = INFINITY, bottom = INFINITY, right = -INFINITY, top = -INFINITY;
-    int team = mw__team(tiling->threads, tiling->point_count / WORTHWHILE + 1);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(min                                \
-                                                                                    : left, bottom)                    \
-    reduction(max                                                                                                      \
-              : right, top)
-#endif
-    for (uint32_t v = 0; v < tiling->point_count; v++) {
-        if (!mw__is_used(tiling, v)) continue;
-        mw_point p = tiling->point[v];
-        left = p.x < left ? p.x : left;
-        bottom = p.y < bottom ? p.y : bottom;
-        right = p.x > right ? p.x : right;
-        top = p.y > top ? p.y : top;
-    }
-    /* of 0 and -0, which are equal, any may have been the last */
-    low[0] = left + 0.0;
-    low[1] = bottom + 0.0;
-    high[0] = right + 0.0;
-    high[1] = top + 0.0;
-}
-
 /* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie along one. Tiles that are edited do not
  * keep to a curve; there crowded cells are grids themselves. False when out of memory. */
 static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, uint32_t cells)
@@ -137,8 +108,9 @@ bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 
 void mw__locator_survey(mw_locator *locator)
 {
+    static const double origin[2] = {0, 0}, axis[2][2] = {{1, 0}, {0, 1}};
     const mw_tiling *tiling = &locator->tiling;
-    find_extent(tiling, locator->low, locator->high);
+    mw__tiling_extent(tiling, origin, axis, locator->low, locator->high);
     choose_walks(locator);
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];

@@ -1,8 +1,6 @@
 /* lattice.c - cells over an extent, and the nearest one that is not empty for each that is. */
 #include "start/lattice.h"
 
-#include "base/threads.h"
-
 mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells)
 {
     /* halves, so that an extent of the whole range of doubles does not overflow */
@@ -72,36 +70,6 @@ static double find_shape(const mw_tiling *tiling, double direction[2])
     return least > 0 ? sqrt((sum / 2 + root) / least) : INFINITY;
 }
 
-/* Extent of the tiling's vertices along two axes, seen from `middle`. */
-static void find_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], double low[2],
-                        double high[2])
-{
-    enum { WORTHWHILE = 1 << 15 };
-    double left = INFINITY, bottom = INFINITY, right = -INFINITY, top = -INFINITY;
-    int team = mw__team(tiling->threads, tiling->point_count / WORTHWHILE + 1);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(min                                \
-                                                                                    : left, bottom)                    \
-    reduction(max                                                                                                      \
-              : right, top)
-#endif
-    for (uint32_t v = 0; v < tiling->point_count; v++) {
-        if (!mw__is_used(tiling, v)) continue;
-        double x = tiling->point[v].x - middle[0], y = tiling->point[v].y - middle[1];
-        double along = x * axis[0][0] + y * axis[0][1], across = x * axis[1][0] + y * axis[1][1];
-        left = along < left ? along : left;
-        bottom = across < bottom ? across : bottom;
-        right = along > right ? along : right;
-        top = across > top ? across : top;
-    }
-    /* of 0 and -0, which are equal, any may have been the last */
-    low[0] = left + 0.0;
-    low[1] = bottom + 0.0;
-    high[0] = right + 0.0;
-    high[1] = top + 0.0;
-}
-
 static mw_lattice shape(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
 {
     static const double common = 4, most = 0x1p20; /* tiles that are less long than the first are common */
@@ -110,7 +78,7 @@ static mw_lattice shape(const mw_tiling *tiling, const double low[2], const doub
     if (!(aspect > common)) return lattice;
     const double axis[2][2] = {{-d[1] * aspect, d[0] * aspect}, {d[0], d[1]}};
     double least[2], greatest[2];
-    find_extent(tiling, lattice.middle, axis, least, greatest);
+    mw__tiling_extent(tiling, lattice.middle, axis, least, greatest);
     for (int k = 0; k < 2; k++)
         if (!(greatest[k] - least[k] > 0 && greatest[k] - least[k] < INFINITY)) return lattice;
     mw_lattice slanted = mw__lattice(least, greatest, cells);
