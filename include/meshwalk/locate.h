@@ -259,8 +259,8 @@ MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double 
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
  *   counters  NULL or filled with the sum over the batch (options->count)
- * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; plain queries of which most
- * lie in the triangle of the one before, or beside it, begin where that one ended. Where the locator has no guide, as where
+ * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; plain queries that come, on
+ * the average, less than a sixth of an edge apart begin where the one before ended. Where the locator has no guide, as where
  * pockets and holes are open, it means MW_START_SORTED for 64 queries and more, or MW_START_LAST if they come in about as good an
  * order already. MW_START_LAST and _SORTED: each thread takes 16,384 queries at a time, in `lanes` runs; the first query of a run begins
  * as with MW_START_SAMPLE, each other where the one before it ended.
