@@ -25,7 +25,7 @@ void mw__editor_look(mw_editor *editor)
 
 mw_status mw__fix_edges(mw_fabric *f, const uint32_t *ends, size_t count, mw_error *error)
 {
-    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
+    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, MW_RECORD_ALL)) return mw__fail_memory(error);
     mw_status status = MW_OK;
     for (size_t i = 0; i < count && !status; i++) {
         uint32_t a = mw__vertex_there(f, ends[2 * i]), b = mw__vertex_there(f, ends[2 * i + 1]), pieces;
@@ -59,7 +59,7 @@ static mw_status choose_delaunay(mw_fabric *f, int wanted, mw_error *error)
 {
     f->delaunay = wanted != 2 && is_delaunay(f);
     if (wanted != 1 || f->delaunay) return MW_OK;
-    mw_status status = mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, true) ? mw__fabric_mend(f, error)
+    mw_status status = mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, MW_RECORD_ALL) ? mw__fabric_mend(f, error)
                                                                                    : mw__fail_memory(error);
     if (status) return status;
     mw__fabric_commit(f);
@@ -150,10 +150,11 @@ void mw_editor_destroy(mw_editor *editor)
 
 /* --- values at new vertices ------------------------------------------------------------------------------------------- */
 
-static bool field_room(mw_editor *editor)
+bool mw__field_room(mw_editor *editor, size_t more)
 {
-    if (editor->fabric.vertex_count < editor->field_room) return true;
-    size_t room = editor->field_room + editor->field_room / 4 + 16;
+    const size_t needed = editor->fabric.vertex_count + more;
+    if (editor->view.field_count == 0 || needed <= editor->field_room) return true;
+    size_t room = needed + needed / 4 + 16;
     for (size_t i = 0; i < editor->view.field_count; i++) {
         double *values = mw__realloc(editor->view.field[i].values, room, sizeof *values);
         if (!values) return false;
@@ -234,7 +235,7 @@ mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, mw_change *c
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     if (!isnan(edit->value) && edit->field >= editor->view.field_count && fields)
         return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
-    if (fields && !field_room(editor)) return mw__fail_memory(error);
+    if (!mw__field_room(editor, 1)) return mw__fail_memory(error);
     uint32_t t = fields ? set_values(editor, edit, &borrows) : first_tile(editor, f->last, q);
     mw_status status = mw__fabric_insert(f, q, t, &vertex, error);
     if (status) return status;
@@ -345,8 +346,9 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
     if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
     const mw_edit copy = *edit; /* it may stand in the log, which grows */
     mw_change own = {.vertex = MW_NONE};
-    bool recorded = change || editor->undo > 0 || edit->kind != MW_EDIT_INSERT || mw__upkeep_asks(&editor->upkeep);
-    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy, recorded)) return mw__fail_memory(error);
+    bool asked = edit->kind != MW_EDIT_INSERT || mw__editor_asks(editor, change);
+    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy, asked ? MW_RECORD_ALL : MW_RECORD_LATE))
+        return mw__fail_memory(error);
     mw_status status = mw__editor_conclude(editor, carry_out(editor, &copy, &own, error), &own, change, error);
     if (status) return status;
     if (editor->keeps_log) editor->log[editor->log_count++] = copy;

@@ -27,6 +27,12 @@ struct mw_editor {
 /* The arrays of the fabric may have moved: have the view look at them. */
 void mw__editor_look(mw_editor *editor);
 
+/* Will somebody ask what an insertion changed? `change`: as the caller has it. */
+static MW_INLINE bool mw__editor_asks(const mw_editor *editor, const mw_change *change)
+{
+    return change || editor->undo > 0 || mw__upkeep_asks(&editor->upkeep);
+}
+
 /* One insertion within the step under way. Errors as mw_edit_apply; then the step is to be rolled back. */
 mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error);
 
@@ -37,6 +43,9 @@ mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_chan
 
 /* Room for so many more entries of the log, if there is one. */
 bool mw__log_room(mw_editor *editor, size_t more);
+
+/* Room for the values of so many more vertices in each field. */
+bool mw__field_room(mw_editor *editor, size_t more);
 
 /* Fix the edges that join pairs of vertices. MW_ERROR_INPUT: there is no such edge, or no such vertex. */
 mw_status mw__fix_edges(mw_fabric *fabric, const uint32_t *ends, size_t count, mw_error *error);

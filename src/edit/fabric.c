@@ -1,7 +1,7 @@
 /* fabric.c - making a fabric from a tiling, and the room it needs. */
 #include "edit/fabric.h"
 
-#include "edit/rim.h"
+#include "edit/hole.h"
 #include "edit/stitch.h"
 
 #include <inttypes.h>
@@ -16,9 +16,9 @@ static size_t enlarged(size_t room)
     return 2 * room + 16;
 }
 
-static uint32_t enlarged_up_to(uint32_t room, uint32_t most)
+static uint32_t enlarged_to(size_t room, size_t least, uint32_t most)
 {
-    size_t more = enlarged(room);
+    size_t more = enlarged(room) > least ? enlarged(room) : least;
     return more < most ? (uint32_t)more : most;
 }
 
@@ -32,10 +32,11 @@ static void *enlarge_lines(void *old, bool borrowed, size_t count, size_t room, 
     return more;
 }
 
-static bool more_tiles(mw_fabric *f)
+/* Room for twice as many, and for `least`, here and below. */
+static bool more_tiles(mw_fabric *f, size_t least)
 {
     mw_tiling *tiling = f->tiling;
-    uint32_t room = enlarged_up_to(tiling->tri_count, MW_MAX_TRIANGLES);
+    uint32_t room = enlarged_to(tiling->tri_count, least, MW_MAX_TRIANGLES);
     uint8_t *mark = mw__realloc(f->mark, room, sizeof *mark);
     if (!mark) return false;
     f->mark = mark;
@@ -47,9 +48,9 @@ static bool more_tiles(mw_fabric *f)
     return true;
 }
 
-static bool more_numbers(mw_fabric *f)
+static bool more_numbers(mw_fabric *f, size_t least)
 {
-    uint32_t room = enlarged_up_to(f->number_room, MW_USER_MASK);
+    uint32_t room = enlarged_to(f->number_room, least, MW_USER_MASK);
     uint32_t *tile_of = mw__realloc(f->tiling->tile_of, room, sizeof *tile_of);
     if (!tile_of) return false;
     f->tiling->tile_of = tile_of;
@@ -57,10 +58,10 @@ static bool more_numbers(mw_fabric *f)
     return true;
 }
 
-static bool more_points(mw_fabric *f)
+static bool more_points(mw_fabric *f, size_t least)
 {
     mw_tiling *tiling = f->tiling;
-    size_t room = enlarged(tiling->point_count);
+    uint32_t room = enlarged_to(tiling->point_count, least, MW_NONE);
     uint32_t *number = mw__realloc(f->vertex_number, room, sizeof *number);
     if (!number) return false;
     f->vertex_number = number;
@@ -70,7 +71,7 @@ static bool more_points(mw_fabric *f)
     mw_point *point = enlarge_lines(tiling->point, tiling->borrowed, tiling->point_count, room, sizeof *point);
     if (!point) return false;
     tiling->point = point;
-    f->point_room = (uint32_t)room;
+    f->point_room = room;
     return true;
 }
 
@@ -80,8 +81,8 @@ static bool own_arrays(mw_fabric *f)
     mw_tiling *tiling = f->tiling;
     mw_triangle *tri = tiling->tri;
     bool borrowed = tiling->borrowed;
-    if (!more_tiles(f)) return false;
-    if (!more_points(f)) {
+    if (!more_tiles(f, 0)) return false;
+    if (!more_points(f, 0)) {
         if (borrowed) { /* neither is the tiling's */
             free(tiling->tri);
             tiling->tri = tri;
@@ -121,7 +122,7 @@ static bool make_numbers(mw_fabric *f, const mw_mesh *mesh)
     f->number_room = mesh->tri_count;
     f->vertex_room = tiling->point_count;
     f->vertex_place = mw__alloc(f->vertex_room, sizeof *f->vertex_place);
-    if (!f->vertex_place || !more_numbers(f)) return false;
+    if (!f->vertex_place || !more_numbers(f, 0)) return false;
     tiling->number_count = mesh->tri_count;
     f->vertex_count = tiling->point_count;
     for (uint32_t t = 0; t < tiling->tri_count; t++)
@@ -174,10 +175,7 @@ void mw__fabric_release(mw_fabric *f)
     free(f->before);
     free(f->step);
     free(f->stack);
-    free(f->rim);
-    free(f->pool);
-    free(f->ahead);
-    free(f->sight);
+    mw__rim_release(f);
     *f = (mw_fabric){0};
 }
 
@@ -207,6 +205,7 @@ void mw__fabric_trim(mw_fabric *f)
 {
     free(f->before);
     free(f->stack);
+    mw__rim_release(f);
     f->before = NULL;
     f->stack = NULL;
     f->before_room = f->stack_room = 0;
@@ -231,11 +230,8 @@ static __attribute__((noinline)) bool room_for_tiles(mw_fabric *f, uint32_t n, b
     mw_tiling *tiling = f->tiling;
     if (tiling->tri_count > MW_MAX_TRIANGLES - n) return false;
     if (users && tiling->number_count > MW_USER_MASK - n) return false;
-    while (users && tiling->number_count + n > f->number_room)
-        if (!more_numbers(f)) return false;
-    while (tiling->tri_count + n > f->tile_room)
-        if (!more_tiles(f)) return false;
-    return true;
+    if (users && tiling->number_count + n > f->number_room && !more_numbers(f, tiling->number_count + n)) return false;
+    return tiling->tri_count + n <= f->tile_room || more_tiles(f, tiling->tri_count + n);
 }
 
 bool mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles)
@@ -303,17 +299,39 @@ bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
     return true;
 }
 
+static bool more_vertices(mw_fabric *f, size_t least)
+{
+    uint32_t room = enlarged_to(f->vertex_room, least, MW_NONE);
+    uint32_t *place = mw__realloc(f->vertex_place, room, sizeof *place);
+    if (!place) return false;
+    f->vertex_place = place;
+    f->vertex_room = room;
+    return true;
+}
+
+/* Room for n more numbers and places. */
+static __attribute__((noinline)) bool room_for_vertices(mw_fabric *f, size_t n)
+{
+    size_t points = f->tiling->point_count + n - (f->free_count < n ? f->free_count : n);
+    size_t vertices = f->vertex_count + n;
+    if (points > f->point_room && !more_points(f, points)) return false;
+    return vertices <= f->vertex_room || more_vertices(f, vertices);
+}
+
+bool mw__fabric_reserve(mw_fabric *f, size_t n)
+{
+    mw_tiling *tiling = f->tiling;
+    const size_t tiles = 2 * (tiling->point_count + n); /* there are fewer in any triangulation of so many points */
+    if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
+    return room_for_tiles(f, (uint32_t)(tiles - tiling->tri_count), true) && room_for_vertices(f, n) &&
+           mw__hole_room(f, tiles);
+}
+
 bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex)
 {
     mw_tiling *tiling = f->tiling;
-    if (f->free_count == 0 && tiling->point_count == f->point_room && !more_points(f)) return false;
-    if (f->vertex_count == f->vertex_room) {
-        size_t room = enlarged(f->vertex_room);
-        uint32_t *place = mw__realloc(f->vertex_place, room, sizeof *place);
-        if (!place) return false;
-        f->vertex_place = place;
-        f->vertex_room = (uint32_t)(room < MW_NONE ? room : MW_NONE);
-    }
+    bool room = f->free_count > 0 || tiling->point_count < f->point_room;
+    if (MW_UNLIKELY(!room || f->vertex_count == f->vertex_room) && !room_for_vertices(f, 1)) return false;
     uint32_t v = f->free_count > 0 ? f->free_place[--f->free_count] : tiling->point_count++;
     tiling->point[v] = q;
     tiling->tile_at[v] = MW_NONE;

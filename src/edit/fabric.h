@@ -42,7 +42,7 @@ typedef struct mw_step {
 
 /* A step of the boundary of tiles that are to be replaced, which lie to its left: see rim.h. */
 typedef struct mw_rim_step mw_rim_step;
-typedef struct mw_step_ahead mw_step_ahead; /* insert.c */
+typedef struct mw_step_ahead mw_step_ahead;
 typedef struct mw_sight mw_sight;
 
 typedef struct mw_fabric {
@@ -57,7 +57,8 @@ typedef struct mw_fabric {
     bool delaunay;     /* edges that are not fixed are Delaunay, and are to stay so          */
     mw_before *before; /* the journal of this edit and of those that can be undone       */
     size_t before_count, before_room;
-    uint32_t journaled; /* of this edit: tiles from here on need no record, as they are new, or as nobody will ask */
+    uint32_t journaled;  /* of this edit: tiles from here on need no record, as they are new, or as nobody will ask */
+    uint32_t recordable; /* what `journaled` becomes when something may fail after tiles have changed */
     mw_step *step;      /* the edits in it; the last one is under way between begin and commit */
     size_t step_count, step_room;
     uint32_t *stack; /* half-edges that may have to be flipped, and other scratch        */
@@ -66,7 +67,7 @@ typedef struct mw_fabric {
     uint32_t *pool;       /* scratch: tiles that are to be replaced */
     mw_step_ahead *ahead; /* scratch: steps that are yet to be looked at */
     mw_sight *sight;      /* scratch: vertices that were looked at */
-    size_t rim_room;      /* of the four */
+    size_t rim_room;      /* of the four, see mw__rim_room */
     uint32_t last;        /* a tile where the last edit was */
     uint32_t flips;       /* of this edit                   */
 } mw_fabric;
@@ -111,8 +112,20 @@ size_t mw__fabric_bytes(const mw_fabric *f); /* but for the tiling's own (mw__ti
 
 /* --- an edit as a whole (journal.c) ----------------------------------------------------------------------------------- */
 
-/* False when out of memory. `recorded`: somebody will ask what the edit changed, or have it taken back. */
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded);
+/* What is put into the journal of an edit. */
+typedef enum mw_record {
+    MW_RECORD_ALL,  /* somebody will ask what the edit changed, or have it taken back                        */
+    MW_RECORD_LATE, /* an insertion: only where it may fail after it has changed tiles                       */
+    MW_RECORD_NONE  /* insertions that cannot fail, as there is room for them (mw__fabric_reserve)           */
+} mw_record;
+
+/* False when out of memory. */
+bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, mw_record record);
+
+/* Room for so many insertions, wherever they are and whatever they meet. False where there is not as much memory, or as many numbers, or where they
+ * may be refused for another reason: in a mesh that does not fill its hull. */
+bool mw__fabric_reserve(mw_fabric *f, size_t insertions);
+
 /* After the operations. Between this and mw__fabric_forget the journal of the last step can be read. */
 void mw__fabric_commit(mw_fabric *f);
 void mw__fabric_rollback(mw_fabric *f);

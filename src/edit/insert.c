@@ -1,9 +1,8 @@
 /* insert.c - a vertex is put into the tile or on the edge where it lies, or beside the hull.
  *
- * All tiles whose circles it lies in go, and what they leave is a star round it [Bowyer 1981; Watson 1981]: the tiles that flips one after
- * another would lead to [Lawson 1977], each made once. Fixed edges are not crossed, so in a constrained mesh the hole is what the vertex
- * sees; where the mesh is not kept Delaunay it is the tile or two that hold the vertex. All new tiles have the vertex as corner 2. */
-#include "edit/rim.h"
+ * The tiles that have to go are dug out (hole.h), and what they leave is filled with a star round the vertex: the tiles that flips one after
+ * another would lead to [Lawson 1977], each made once. All of them have the vertex as corner 2. */
+#include "edit/hole.h"
 
 #include "walk/walk.h"
 
@@ -17,11 +16,6 @@ typedef struct place {
     bool inside, on_boundary; /* the tile's own */
 } place;
 
-static void see_corners(mw_fabric *f, uint32_t t, mw_point q)
-{
-    for (int k = 0; k < 3; k++) f->sight[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
-}
-
 /* Where the mesh is not Delaunay the remembering walk may go in a circle: after so many tiles the celestial walk takes over, from there. */
 enum { MANY = 1 << 16 };
 static __attribute__((noinline)) place find_surely(mw_fabric *f, mw_point q, uint32_t t)
@@ -29,7 +23,7 @@ static __attribute__((noinline)) place find_surely(mw_fabric *f, mw_point q, uin
     mw_walk walk = mw__walk_begin(f->tiling, q, t, 0, 0, NULL);
     bool inside = mw__walk_surely(&walk, false) == MW_FOUND;
     place at = {.tile = walk.t, .inside = inside};
-    see_corners(f, at.tile, q);
+    mw__see_corners(f, at.tile, q);
     for (int k = 0; k < 3; k++) {
         const mw_sight *a = &f->sight[k], *b = &f->sight[mw__next((uint32_t)k)];
         at.on_boundary |= mw__sights_side(f, a, b, q) == 0;
@@ -43,7 +37,7 @@ static place find(mw_fabric *f, mw_point q, uint32_t t)
 {
     const mw_triangle *tri = f->tiling->tri;
     uint32_t fuel = MANY, e = 0, exit = MW_NONE;
-    see_corners(f, t, q);
+    mw__see_corners(f, t, q);
     mw_sight a = f->sight[0], b = f->sight[1], c = f->sight[2];
     double ab = mw__sights_side(f, &a, &b, q), bc = mw__sights_side(f, &b, &c, q), ca = mw__sights_side(f, &c, &a, q);
     if (ab < 0) {
@@ -81,93 +75,13 @@ static mw_status refuse_outside(mw_point q, mw_error *error)
     return mw__fail(error, MW_ERROR_INPUT, "the point %.17g, %.17g lies outside of the mesh", q.x, q.y);
 }
 
-/* --- the hole --------------------------------------------------------------------------------------------------------- */
-
-/* Part of the boundary of a hole round q, from step `first` on, counter-clockwise; its tiles are those of f->pool from `pool` on. */
-typedef struct hole {
-    mw_point q;
-    size_t first, pool; /* in f->rim, in f->pool                          */
-    size_t steps, tiles, ahead;
-    uint32_t sights;
-    size_t most; /* tiles that there is room for, with the steps they bring */
-} hole;
-
-/* Is q, from which the others are seen, in the circle of a, b, c? */
-static MW_INLINE bool in_circle(const mw_fabric *f, const mw_sight *a, const mw_sight *b, const mw_sight *c, mw_point q)
-{
-    double bound, det = mw__sights_rounded(a, b, c, &bound);
-    if (MW_LIKELY(fabs(det) > bound)) return det > 0;
-    const mw_point *p = f->tiling->point;
-    return mw__incircle_exact(p[a->vertex], p[b->vertex], p[c->vertex], q) > 0;
-}
-
-/* Room for more tiles, and the steps and sights they bring: each brings one more. */
-static bool deepen(mw_fabric *f, hole *h)
-{
-    size_t used = h->first + h->pool + h->steps + h->ahead + h->sights + 4;
-    if (!mw__rim_room(f, used + 2 * h->tiles + 8)) return false;
-    h->most = f->rim_room - used;
-    return true;
-}
-
-/* Take a tile into the hole. */
-static MW_INLINE bool take(mw_fabric *f, hole *h, uint32_t t)
-{
-    if (MW_UNLIKELY(h->tiles >= h->most) && !deepen(f, h)) return false;
-    f->pool[h->pool + h->tiles++] = t;
-    return mw__journal(f, t);
-}
-
-/* A step to the vertex at f->sight[end]. */
-static MW_INLINE void look_ahead(mw_fabric *f, hole *h, uint32_t end, uint32_t beyond, bool fixed)
-{
-    f->ahead[h->ahead++] = (mw_step_ahead){end, beyond, fixed};
-}
-
-/* Go along the steps ahead, the last one first, which begins at f->sight[begin]: where the tile beyond has q in its circle, its two other edges
- * are steps instead. No tile is met twice, for a vertex all of whose tiles were in the hole would lie where q does. */
-static bool dig(mw_fabric *f, hole *h, uint32_t begin)
-{
-    const mw_triangle *tri = f->tiling->tri;
-    const bool delaunay = f->delaunay;
-    const size_t taken = h->tiles;
-    mw_sight a = f->sight[begin];
-    mw_step_ahead step = f->ahead[--h->ahead];
-    for (;;) {
-        if (step.beyond != MW_NONE && !step.fixed && delaunay) {
-            uint32_t t = mw__link_triangle(step.beyond), e = mw__link_edge(step.beyond);
-            uint32_t next = mw__next(e), prev = mw__prev(e);
-            const mw_triangle *tile = &tri[t];
-            mw_sight d = mw__sight_of(f, tile->v[prev], h->q);
-            if (in_circle(f, &f->sight[step.end], &a, &d, h->q)) {
-                uint32_t fixed = f->mark[t];
-                if (!take(f, h, t)) return false;
-                look_ahead(f, h, step.end, tile->link[prev], fixed >> prev & 1);
-                f->sight[h->sights] = d;
-                step = (mw_step_ahead){h->sights++, tile->link[next], fixed >> next & 1};
-                continue;
-            }
-        }
-        mw_rim_step *rim = &f->rim[h->first + h->steps++];
-        rim->vertex = a.vertex;
-        rim->beyond = step.beyond;
-        rim->fixed = step.fixed;
-        a = f->sight[step.end];
-        if (h->ahead == 0) break;
-        step = f->ahead[--h->ahead];
-    }
-    f->rim[h->first + h->steps].vertex = a.vertex;
-    f->flips += (uint32_t)(h->tiles - taken);
-    return true;
-}
+/* --- the star --------------------------------------------------------------------------------------------------------- */
 
 /* From here on something may fail after tiles have changed. */
 static void record(mw_fabric *f)
 {
-    f->journaled = f->step[f->step_count - 1].tiles;
+    f->journaled = f->recordable;
 }
-
-/* --- the star --------------------------------------------------------------------------------------------------------- */
 
 /* Tiles round v, counter-clockwise. */
 typedef struct fan {
@@ -182,7 +96,7 @@ static mw_status tile_failure(const mw_fabric *f, size_t n, mw_error *error)
 }
 
 /* Fill the hole with tiles round v: its own, and others beside tile `beside`. */
-static mw_status fill(mw_fabric *f, const hole *h, uint32_t v, uint32_t beside, fan *made, mw_error *error)
+static mw_status fill(mw_fabric *f, const mw_hole *h, uint32_t v, uint32_t beside, fan *made, mw_error *error)
 {
     size_t more = h->steps - h->tiles;
     if (!mw__add_tiles(f, beside, (uint32_t)more, f->pool + h->pool + h->tiles)) return tile_failure(f, more, error);
@@ -218,12 +132,9 @@ static void open_fan(mw_fabric *f, const fan *made)
 static mw_status put_in_tile(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
 {
     if (!mw__is_users(f, t)) return refuse_outside(q, error);
-    hole h = {.q = q, .sights = 3};
+    mw_hole h = {.q = q};
     fan made;
-    if (!take(f, &h, t)) return mw__fail_memory(error);
-    const mw_triangle *tile = &f->tiling->tri[t];
-    for (uint32_t k = 3; k-- > 0;) look_ahead(f, &h, mw__next(k), tile->link[k], f->mark[t] >> k & 1);
-    if (!dig(f, &h, 0)) return mw__fail_memory(error);
+    if (!mw__dig_tile(f, &h, t)) return mw__fail_memory(error);
     return fill(f, &h, v, t, &made, error);
 }
 
@@ -240,18 +151,11 @@ static uint32_t lower_side(const mw_fabric *f, uint32_t half)
 }
 
 /* Fill the hole on the side of an edge where `half` is, and after it that of h->first and h->pool. */
-static mw_status put_beside(mw_fabric *f, uint32_t half, hole *h, uint32_t v, fan *made, mw_error *error)
+static mw_status put_beside(mw_fabric *f, uint32_t half, mw_hole *h, uint32_t v, fan *made, mw_error *error)
 {
-    uint32_t t = mw__link_triangle(half), k = mw__link_edge(half);
     bool fixed = mw__is_fixed(f, half);
-    if (!take(f, h, t)) return mw__fail_memory(error);
-    const mw_triangle *tile = &f->tiling->tri[t];
-    uint32_t next = mw__next(k), prev = mw__prev(k), marks = f->mark[t];
-    see_corners(f, t, h->q);
-    look_ahead(f, h, k, tile->link[prev], marks >> prev & 1);
-    look_ahead(f, h, prev, tile->link[next], marks >> next & 1);
-    if (!dig(f, h, next)) return mw__fail_memory(error);
-    mw_status status = fill(f, h, v, t, made, error);
+    if (!mw__dig_side(f, h, half)) return mw__fail_memory(error);
+    mw_status status = fill(f, h, v, mw__link_triangle(half), made, error);
     if (status) return status;
     open_fan(f, made);
     if (!fixed) return MW_OK;
@@ -269,7 +173,7 @@ static mw_status put_on_edge(mw_fabric *f, uint32_t half, mw_point q, uint32_t v
     if (!users && !border) return refuse_outside(q, error);
     record(f);
     if (mw__is_fixed(f, half) && !border) f->fixed_count++;
-    hole one = {.q = q, .sights = 3}, two = one;
+    mw_hole one = {.q = q}, two = one;
     fan left, right;
     mw_status status = put_beside(f, half, &one, v, &left, error);
     if (status || other == MW_NONE) return status;
@@ -284,47 +188,13 @@ static mw_status put_on_edge(mw_fabric *f, uint32_t half, mw_point q, uint32_t v
 
 /* --- beyond the hull -------------------------------------------------------------------------------------------------- */
 
-static bool sees(const mw_fabric *f, mw_point q, uint32_t half)
-{
-    const mw_point *p = f->tiling->point;
-    const uint32_t *v = f->tiling->tri[mw__link_triangle(half)].v;
-    return mw__orient2d(p[v[mw__link_edge(half)]], p[v[mw__link_edge(half) + 1]], q) < 0;
-}
-
-static uint32_t hull_after(const mw_fabric *f, uint32_t half)
-{
-    uint32_t at = mw__half_next(half);
-    while (mw__beyond(f, at) != MW_NONE) at = mw__half_next(mw__beyond(f, at));
-    return at;
-}
-
-static uint32_t hull_before(const mw_fabric *f, uint32_t half)
-{
-    uint32_t at = mw__half_prev(half);
-    while (mw__beyond(f, at) != MW_NONE) at = mw__half_prev(mw__beyond(f, at));
-    return at;
-}
-
-/* The hull edges that q sees are steps of a hole without tiles. */
 static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
 {
     if (!f->convex) return refuse_outside(q, error);
     record(f);
-    uint32_t half = mw__link(t, 0);
-    while (mw__beyond(f, half) != MW_NONE || !sees(f, q, half)) half = mw__half_next(half);
-    for (uint32_t before = hull_before(f, half); sees(f, q, before); before = hull_before(f, half)) half = before;
-    hole h = {.q = q};
+    mw_hole h = {.q = q};
     fan made;
-    do {
-        uint32_t at = mw__link_triangle(half), k = mw__link_edge(half);
-        if (!mw__journal(f, at) || !mw__rim_room(f, h.ahead + 4)) return mw__fail_memory(error);
-        look_ahead(f, &h, h.sights, half, mw__is_fixed(f, half));
-        f->sight[h.sights++] = mw__sight_of(f, f->tiling->tri[at].v[k], q);
-        f->sight[h.sights] =
-            mw__sight_of(f, f->tiling->tri[at].v[k + 1], q); /* where the next one ends, if there is one */
-        half = hull_after(f, half);
-    } while (sees(f, q, half));
-    if (!dig(f, &h, h.sights++)) return mw__fail_memory(error);
+    if (!mw__dig_outside(f, &h, t)) return mw__fail_memory(error);
     mw_status status = fill(f, &h, v, t, &made, error);
     if (!status) open_fan(f, &made);
     return status;

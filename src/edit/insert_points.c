@@ -1,6 +1,6 @@
 /* insert_points.c - many points at once: one step, whose journal has each tile once. */
 #include "edit/editor.h"
-#include "edit/stitch.h"
+#include "edit/rim.h"
 
 #include "mesh/curve.h"
 
@@ -16,10 +16,10 @@ static bool come_along(const mw_point *p, size_t n)
     double low[2] = {p[0].x, p[0].y}, high[2] = {p[0].x, p[0].y}, way = 0;
     for (size_t i = 1; i < n; i++) {
         way += fabs(p[i].x - p[i - 1].x) + fabs(p[i].y - p[i - 1].y);
-        low[0] = fmin(low[0], p[i].x);
-        low[1] = fmin(low[1], p[i].y);
-        high[0] = fmax(high[0], p[i].x);
-        high[1] = fmax(high[1], p[i].y);
+        if (p[i].x < low[0]) low[0] = p[i].x;
+        if (p[i].y < low[1]) low[1] = p[i].y;
+        if (p[i].x > high[0]) high[0] = p[i].x;
+        if (p[i].y > high[1]) high[1] = p[i].y;
     }
     return way <= LONGER * sqrt((double)n) * (high[0] - low[0] + high[1] - low[1]);
 }
@@ -68,20 +68,36 @@ static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertice
     return MW_OK;
 }
 
-enum { TILES_PER_POINT = 4 }; /* that are changed; room that is not used takes addresses only */
+static bool are_finite(const batch *b)
+{
+    for (size_t i = 0; i < b->n; i++)
+        if (!isfinite(b->point[i].x) || !isfinite(b->point[i].y)) return false;
+    return true;
+}
+
+/* Begin the step. Where nobody asks, and there is room for all that may be met, nothing can fail, and nothing has to be recorded. Room that is not
+ * used takes addresses only, but time: more than a few records would. */
+static bool begin(mw_editor *editor, const batch *b, const mw_change *change)
+{
+    enum { FEW = 100, TILES_PER_POINT = 4 }; /* that are changed */
+    mw_fabric *f = &editor->fabric;
+    const mw_edit first = insertion(b, 0);
+    bool sure = b->n >= FEW && !mw__editor_asks(editor, change) && are_finite(b) && mw__field_room(editor, b->n) &&
+                mw__fabric_reserve(f, b->n);
+    if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(f, TILES_PER_POINT * b->n))) return false;
+    return mw__fabric_begin(f, &first, sure ? MW_RECORD_NONE : MW_RECORD_ALL);
+}
 
 static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *change, mw_error *error)
 {
     mw_fabric *f = &editor->fabric;
     mw_change own = {.vertex = MW_NONE};
-    const mw_edit first = insertion(b, 0);
     const uint64_t refreshes = editor->upkeep.refreshes;
-    if (!mw__log_room(editor, b->n) || !mw__journal_room(f, TILES_PER_POINT * b->n) ||
-        !mw__fabric_begin(f, &first, true))
-        return mw__fail_memory(error);
+    if (!begin(editor, b, change)) return mw__fail_memory(error);
     f->step[f->step_count - 1].edits = b->n;
     mw_status status = insert_all(editor, b, vertices, &own, error);
     status = mw__editor_conclude(editor, status, &own, change, error);
+    mw__rim_release(f); /* no edit will need as much */
     if (status && editor->upkeep.refreshes > refreshes) mw__upkeep_rolled_back(&editor->upkeep);
     for (size_t i = 0; i < b->n && !status && editor->keeps_log; i++)
         editor->log[editor->log_count++] = insertion(b, i);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded)
+bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, mw_record record)
 {
     if (MW_UNLIKELY(!f->before) && !mw__journal_room(f, 1)) return false;
     if (f->step_count == f->step_room) {
@@ -27,7 +27,8 @@ bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded)
                                          .fixed_count = f->fixed_count,
                                          .vertex = MW_NONE,
                                          .delaunay = f->delaunay};
-    f->journaled = recorded ? tiling->tri_count : 0;
+    f->journaled = record == MW_RECORD_ALL ? tiling->tri_count : 0;
+    f->recordable = record == MW_RECORD_NONE ? 0 : tiling->tri_count;
     f->flips = 0;
     f->stack_count = 0;
     return true;

@@ -17,16 +17,29 @@ bool mw__rim_room(mw_fabric *f, size_t steps)
     mw_step_ahead *ahead = mw__realloc(f->ahead, room, sizeof *ahead);
     if (!ahead) return false;
     f->ahead = ahead;
-    mw_sight *sight = mw__realloc(f->sight, room, sizeof *sight);
+    mw_sight *sight = mw__realloc(f->sight, 2 * room, sizeof *sight);
     if (!sight) return false;
     f->sight = sight;
     f->rim_room = room;
     return true;
 }
 
+void mw__rim_release(mw_fabric *f)
+{
+    free(f->rim);
+    free(f->pool);
+    free(f->ahead);
+    free(f->sight);
+    f->rim = NULL;
+    f->pool = NULL;
+    f->ahead = NULL;
+    f->sight = NULL;
+    f->rim_room = 0;
+}
+
 size_t mw__rim_bytes(const mw_fabric *f)
 {
-    return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead + sizeof *f->sight);
+    return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead + 2 * sizeof *f->sight);
 }
 
 /* --- the star of a vertex --------------------------------------------------------------------------------------------- */

@@ -38,17 +38,19 @@ static MW_INLINE double mw__sights_side(const mw_fabric *f, const mw_sight *a, c
 /* mw__incircle_rounded of a, b and c, seen from q, and q, with a bound by the lifts alone: triangulate/delaunay_grow.c tells why
  * 11 u (ab + bc + ca) is one, and of three numbers that is at most a third of their sum squared. Where that square does not overflow nothing
  * else does; and what underflow may cost, 2^-1071 times the lifts, the rest of 4 u covers where the lifts are not small. */
+#define MW_SIGHTS_ERROR (4.0 * 0x1p-53)
 static MW_INLINE double mw__sights_rounded(const mw_sight *a, const mw_sight *b, const mw_sight *c, double *bound)
 {
     double lifts = a->lift + b->lift + c->lift;
-    *bound = lifts * lifts * (4.0 * 0x1p-53) + MW_UNDERFLOW_ERROR;
+    *bound = lifts * lifts * MW_SIGHTS_ERROR + MW_UNDERFLOW_ERROR;
     return a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
            c->lift * (a->x * b->y - a->y * b->x);
 }
 
-/* A step of the boundary of a hole that grows, yet to be looked at: the sight where it ends, and as above. */
+/* A step of the boundary of a hole that is dug (hole.h), not yet come to: the sight where it ends, as above, and, where the tile beyond goes,
+ * the sight of the vertex of that across from the step; else MW_NONE. */
 struct mw_step_ahead {
-    uint32_t end, beyond;
+    uint32_t end, beyond, apex;
     bool fixed;
 };
 
@@ -92,8 +94,9 @@ typedef struct mw_star {
 } mw_star;
 bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star);
 
-/* Room for so many steps in f->rim and f->ahead, sights, and tiles in f->pool. */
+/* Room for so many steps in f->rim and f->ahead, tiles in f->pool, and twice as many sights. */
 bool mw__rim_room(mw_fabric *f, size_t steps);
+void mw__rim_release(mw_fabric *f);
 size_t mw__rim_bytes(const mw_fabric *f);
 
 /* The edge that begins at v, as a half-edge of the lowest of its triangles or, where v is on the hull (*open), of the first, from which all

@@ -1,0 +1,253 @@
+/* hole.c - digging: along the boundary, counter-clockwise, where the tile beyond a step goes, its two other edges are steps instead.
+ *
+ * No tile is met twice, for a vertex all of whose tiles were in the hole would lie where q does. As tiles bring steps by twos, circles are
+ * tested by twos, in the two halves of vectors. */
+#include "edit/hole.h"
+
+/* --- room -------------------------------------------------------------------------------------------------------------- */
+
+/* Where the lists end. */
+typedef struct ends {
+    mw_rim_step *rim;
+    mw_step_ahead *ahead;
+    mw_sight *sight; /* the first of f->sight */
+    uint32_t sights;
+    uint32_t *pool, *full; /* no more tiles than up to there, as each brings a step, a step ahead and two sights */
+} ends;
+
+/* `steps` are ahead at first. */
+static size_t room_besides(const mw_hole *h, size_t steps)
+{
+    enum { SPARE = 8 };
+    return h->first + h->pool + steps + SPARE;
+}
+
+/* The second hole is written behind the first: twice, as each takes no tile of the other's. */
+bool mw__hole_room(mw_fabric *f, size_t tiles)
+{
+    const mw_hole first = {.first = tiles + 3, .pool = tiles};
+    return mw__rim_room(f, room_besides(&first, 3));
+}
+
+static ends begin(const mw_fabric *f, const mw_hole *h, size_t steps, uint32_t sights)
+{
+    uint32_t *pool = f->pool + h->pool;
+    return (ends){f->rim + h->first, f->ahead + steps,
+                  f->sight,          sights,
+                  pool + h->tiles,   pool + (f->rim_room - room_besides(h, steps))};
+}
+
+/* Room for twice as many tiles. */
+static __attribute__((noinline)) bool widen(mw_fabric *f, const mw_hole *h, size_t steps, ends *at)
+{
+    const size_t rim = (size_t)(at->rim - f->rim), ahead = (size_t)(at->ahead - f->ahead);
+    const size_t pool = (size_t)(at->pool - f->pool);
+    if (!mw__rim_room(f, 2 * f->rim_room)) return false;
+    *at = (ends){f->rim + rim, f->ahead + ahead, f->sight,
+                 at->sights,   f->pool + pool,   f->pool + h->pool + (f->rim_room - room_besides(h, steps))};
+    return true;
+}
+
+/* --- circles ------------------------------------------------------------------------------------------------------------ */
+
+/* Two numbers, one of each of two steps. */
+typedef double pair __attribute__((vector_size(16)));
+
+/* Is the tile beyond a step to stay? `plain`: no edge is fixed, and the mesh is kept Delaunay. */
+static MW_INLINE bool is_closed(const mw_fabric *f, const mw_step_ahead *step, bool plain)
+{
+    return step->beyond == MW_NONE || (!plain && (step->fixed || !f->delaunay));
+}
+
+/* The vertex of the tile beyond a step across from it; of any tile if that is closed. */
+static MW_INLINE uint32_t apex_beyond(const mw_fabric *f, const mw_step_ahead *step, bool closed)
+{
+    uint32_t half = MW_UNLIKELY(closed) ? 0 : step->beyond;
+    return f->tiling->tri[mw__link_triangle(half)].v[mw__prev(mw__link_edge(half))];
+}
+
+static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32_t a, uint32_t b, uint32_t c,
+                                                      mw_point q)
+{
+    const mw_point *p = f->tiling->point;
+    const mw_sight *sight = f->sight;
+    return mw__incircle_exact(p[sight[a].vertex], p[sight[b].vertex], p[sight[c].vertex], q) > 0;
+}
+
+/* Does the tile beyond a step from f->sight[from] on go? Its apex is made f->sight[apex]. */
+static MW_INLINE void judge(const mw_fabric *f, mw_point q, uint32_t from, uint32_t apex, mw_step_ahead *step,
+                            bool plain)
+{
+    const bool closed = is_closed(f, step, plain);
+    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end];
+    mw_sight *c = &f->sight[apex];
+    double bound, det;
+    *c = mw__sight_of(f, apex_beyond(f, step, closed), q);
+    det = mw__sights_rounded(b, a, c, &bound);
+    bool goes = det > 0;
+    if (MW_UNLIKELY(!(fabs(det) > bound)) && !closed) goes = in_circle_exact(f, step->end, from, apex, q);
+    step->apex = goes && !closed ? apex : MW_NONE;
+}
+
+/* The same for two steps one after the other, and two apices. */
+static MW_INLINE void judge_two(const mw_fabric *f, mw_point q, uint32_t from, uint32_t apex, mw_step_ahead *one,
+                                mw_step_ahead *two, bool plain)
+{
+    static const pair error = {MW_SIGHTS_ERROR, MW_SIGHTS_ERROR}, least = {MW_UNDERFLOW_ERROR, MW_UNDERFLOW_ERROR};
+    const bool closed1 = is_closed(f, one, plain), closed2 = is_closed(f, two, plain);
+    const uint32_t v1 = apex_beyond(f, one, closed1), v2 = apex_beyond(f, two, closed2);
+    const mw_point *p1 = &f->tiling->point[v1], *p2 = &f->tiling->point[v2];
+    const mw_sight *a = &f->sight[from], *b = &f->sight[one->end], *c = &f->sight[two->end];
+    const pair here = {q.x, q.y}, to1 = (pair){p1->x, p1->y} - here, to2 = (pair){p2->x, p2->y} - here;
+    const pair x = {to1[0], to2[0]}, y = {to1[1], to2[1]}, lift = x * x + y * y;
+    const pair from_x = {a->x, b->x}, from_y = {a->y, b->y}, from_lift = {a->lift, b->lift};
+    const pair end_x = {b->x, c->x}, end_y = {b->y, c->y}, end_lift = {b->lift, c->lift};
+    const pair lifts = from_lift + end_lift + lift, bound = lifts * lifts * error + least;
+    const pair det = end_lift * (from_x * y - from_y * x) + from_lift * (x * end_y - y * end_x) +
+                     lift * (end_x * from_y - end_y * from_x);
+    f->sight[apex] = (mw_sight){to1[0], to1[1], lift[0], v1};
+    f->sight[apex + 1] = (mw_sight){to2[0], to2[1], lift[1], v2};
+    bool goes1 = det[0] > 0, goes2 = det[1] > 0;
+    if (MW_UNLIKELY(!(fabs(det[0]) > bound[0])) && !closed1) goes1 = in_circle_exact(f, one->end, from, apex, q);
+    if (MW_UNLIKELY(!(fabs(det[1]) > bound[1])) && !closed2)
+        goes2 = in_circle_exact(f, two->end, one->end, apex + 1, q);
+    one->apex = goes1 ? apex : MW_NONE;
+    two->apex = goes2 ? apex + 1 : MW_NONE;
+    if (MW_UNLIKELY(closed1)) one->apex = MW_NONE;
+    if (MW_UNLIKELY(closed2)) two->apex = MW_NONE;
+}
+
+/* --- along the boundary ------------------------------------------------------------------------------------------------- */
+
+/* The two steps in place of one across which a tile went, or across which q lies: edges `next` and `prev` of that tile. */
+static MW_INLINE void part(const mw_fabric *f, uint32_t half, uint32_t apex, uint32_t end, mw_step_ahead *one,
+                           mw_step_ahead *two, bool plain)
+{
+    uint32_t t = mw__link_triangle(half), e = mw__link_edge(half), next = mw__next(e), prev = mw__prev(e);
+    uint32_t fixed = plain ? 0 : f->mark[t];
+    const uint32_t *link = f->tiling->tri[t].link;
+    *two = (mw_step_ahead){.end = end, .beyond = link[prev], .fixed = fixed >> prev & 1};
+    *one = (mw_step_ahead){.end = apex, .beyond = link[next], .fixed = fixed >> next & 1};
+}
+
+/* From f->sight[from] on: `step`, and after it those of f->ahead, `steps` of them, the last one first. */
+static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead step, size_t steps, uint32_t sights,
+                          bool plain)
+{
+    const size_t dug = h->tiles;
+    const mw_point q = h->q;
+    ends at = begin(f, h, steps, sights);
+    for (;;) {
+        while (step.apex != MW_NONE) {
+            const uint32_t t = mw__link_triangle(step.beyond);
+            mw_step_ahead one, two;
+            if (MW_UNLIKELY(at.pool >= at.full) && !widen(f, h, steps, &at)) return false;
+            if (!mw__journal(f, t)) return false;
+            *at.pool++ = t;
+            part(f, step.beyond, step.apex, step.end, &one, &two, plain);
+            judge_two(f, q, from, at.sights, &one, &two, plain);
+            at.sights += 2;
+            *at.ahead++ = two;
+            step = one;
+        }
+        at.rim->vertex = at.sight[from].vertex;
+        at.rim->beyond = step.beyond;
+        at.rim->fixed = !plain && step.fixed;
+        at.rim++;
+        from = step.end;
+        if (at.ahead == f->ahead) break;
+        step = *--at.ahead;
+    }
+    at.rim->vertex = at.sight[from].vertex;
+    h->steps = (size_t)(at.rim - f->rim) - h->first;
+    h->tiles = (size_t)(at.pool - f->pool) - h->pool;
+    f->flips += (uint32_t)(h->tiles - dug);
+    return true;
+}
+
+/* --- from where --------------------------------------------------------------------------------------------------------- */
+
+void mw__see_corners(mw_fabric *f, uint32_t t, mw_point q)
+{
+    for (int k = 0; k < 3; k++) f->sight[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
+}
+
+/* Tile t goes: room for what it and its neighbours bring. */
+static MW_INLINE bool begin_with(mw_fabric *f, mw_hole *h, uint32_t t)
+{
+    enum { FEW = 56 };
+    if (!mw__rim_room(f, room_besides(h, 3) + FEW) || !mw__journal(f, t)) return false;
+    f->pool[h->pool] = t;
+    h->tiles = 1;
+    return true;
+}
+
+static MW_INLINE bool dig_tile(mw_fabric *f, mw_hole *h, uint32_t t, bool plain)
+{
+    const uint32_t *link = f->tiling->tri[t].link, fixed = plain ? 0 : f->mark[t];
+    mw_step_ahead step[3] = {{.end = 1, .beyond = link[0], .fixed = fixed & 1},
+                             {.end = 2, .beyond = link[1], .fixed = fixed >> 1 & 1},
+                             {.end = 0, .beyond = link[2], .fixed = fixed >> 2 & 1}};
+    judge_two(f, h->q, 0, 3, &step[0], &step[1], plain);
+    judge(f, h->q, 2, 5, &step[2], plain);
+    f->ahead[0] = step[2];
+    f->ahead[1] = step[1];
+    return dig(f, h, 0, step[0], 2, 6, plain);
+}
+
+bool mw__dig_tile(mw_fabric *f, mw_hole *h, uint32_t t)
+{
+    if (!begin_with(f, h, t)) return false;
+    bool plain = f->fixed_count == 0 && f->convex && f->delaunay;
+    return MW_LIKELY(plain) ? dig_tile(f, h, t, true) : dig_tile(f, h, t, false);
+}
+
+bool mw__dig_side(mw_fabric *f, mw_hole *h, uint32_t half)
+{
+    const uint32_t t = mw__link_triangle(half), k = mw__link_edge(half), next = mw__next(k);
+    mw_step_ahead one, two;
+    if (!begin_with(f, h, t)) return false;
+    mw__see_corners(f, t, h->q);
+    part(f, half, mw__prev(k), k, &one, &two, false);
+    judge_two(f, h->q, next, 3, &one, &two, false);
+    f->ahead[0] = two;
+    return dig(f, h, next, one, 1, 5, false);
+}
+
+static bool sees(const mw_fabric *f, mw_point q, uint32_t half)
+{
+    const mw_point *p = f->tiling->point;
+    const uint32_t *v = f->tiling->tri[mw__link_triangle(half)].v;
+    return mw__orient2d(p[v[mw__link_edge(half)]], p[v[mw__link_edge(half) + 1]], q) < 0;
+}
+
+static uint32_t hull_after(const mw_fabric *f, uint32_t half)
+{
+    uint32_t at = mw__half_next(half);
+    while (mw__beyond(f, at) != MW_NONE) at = mw__half_next(mw__beyond(f, at));
+    return at;
+}
+
+static uint32_t hull_before(const mw_fabric *f, uint32_t half)
+{
+    uint32_t at = mw__half_prev(half);
+    while (mw__beyond(f, at) != MW_NONE) at = mw__half_prev(mw__beyond(f, at));
+    return at;
+}
+
+bool mw__dig_outside(mw_fabric *f, mw_hole *h, uint32_t t)
+{
+    const mw_point q = h->q;
+    uint32_t steps = 0, half = mw__link(t, 0), after;
+    while (mw__beyond(f, half) != MW_NONE || !sees(f, q, half)) half = mw__half_next(half);
+    while (sees(f, q, hull_before(f, half))) half = hull_before(f, half);
+    for (after = half; sees(f, q, after); after = hull_after(f, after)) {
+        if (!mw__journal(f, mw__link_triangle(after)) || !mw__rim_room(f, room_besides(h, steps + 1))) return false;
+        f->sight[steps] = mw__sight_of(f, mw__corner(f, after), q);
+        f->ahead[steps] = (mw_step_ahead){.end = steps, .beyond = after, .fixed = mw__is_fixed(f, after)};
+        steps++;
+    }
+    f->sight[steps] = mw__sight_of(f, mw__corner(f, after), q);
+    for (uint32_t i = 0; i < steps; i++) judge(f, q, i + 1, steps + 1 + i, &f->ahead[i], false);
+    return dig(f, h, steps, f->ahead[steps - 1], steps - 1, 2 * steps + 1, false);
+}
