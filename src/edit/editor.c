@@ -25,7 +25,7 @@ void mw__editor_look(mw_editor *editor)
 
 mw_status mw__fix_edges(mw_fabric *f, const uint32_t *ends, size_t count, mw_error *error)
 {
-    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, MW_RECORD_ALL)) return mw__fail_memory(error);
+    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
     mw_status status = MW_OK;
     for (size_t i = 0; i < count && !status; i++) {
         uint32_t a = mw__vertex_there(f, ends[2 * i]), b = mw__vertex_there(f, ends[2 * i + 1]), pieces;
@@ -59,7 +59,7 @@ static mw_status choose_delaunay(mw_fabric *f, int wanted, mw_error *error)
 {
     f->delaunay = wanted != 2 && is_delaunay(f);
     if (wanted != 1 || f->delaunay) return MW_OK;
-    mw_status status = mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, MW_RECORD_ALL) ? mw__fabric_mend(f, error)
+    mw_status status = mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, true) ? mw__fabric_mend(f, error)
                                                                                    : mw__fail_memory(error);
     if (status) return status;
     mw__fabric_commit(f);
@@ -216,10 +216,11 @@ static mw_status refuse_vertex(const mw_fabric *f, uint32_t number, mw_error *er
     return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
 }
 
-/* A tile to begin at to look for q: `near` if it is, else what the guide says. */
+/* A tile to begin at to look for q: `near` if it is, else what the guide says, if there is one. */
 static uint32_t first_tile(mw_editor *editor, uint32_t near, mw_point q)
 {
     mw_cursor *cursor = &editor->cursor;
+    if (MW_LIKELY(editor->locator.guide.start != MW_START_AUTO)) return mw__guided(&editor->locator, near, q);
     cursor->last = near;
     cursor->epoch = editor->locator.epoch;
     return mw__first_tile(&editor->locator, cursor, near, q, &cursor->random, NULL);
@@ -324,14 +325,19 @@ mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_chan
     mw_fabric *f = &editor->fabric;
     if (!status && change && !report_room(editor)) status = mw__fail_memory(error);
     if (status) {
-        mw__fabric_rollback(f);
+        if (f->under_way) mw__fabric_rollback(f);
         mw__editor_look(editor);
         return status;
+    }
+    mw__editor_look(editor);
+    if (!f->under_way) {
+        editor->edits++;
+        mw__upkeep_insertion(&editor->upkeep, own->vertex_made ? f->vertex_place[own->vertex] : MW_NONE);
+        return MW_OK;
     }
     mw__fabric_commit(f);
     if (editor->undoable < editor->undo) editor->undoable++;
     editor->edits += f->step[f->step_count - 1].edits;
-    mw__editor_look(editor);
     mw__upkeep_edit(&editor->upkeep, false);
     if (change) {
         *change = *own;
@@ -347,7 +353,7 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
     const mw_edit copy = *edit; /* it may stand in the log, which grows */
     mw_change own = {.vertex = MW_NONE};
     bool asked = edit->kind != MW_EDIT_INSERT || mw__editor_asks(editor, change);
-    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy, asked ? MW_RECORD_ALL : MW_RECORD_LATE))
+    if (!mw__log_room(editor, 1) || (asked && !mw__fabric_begin(&editor->fabric, &copy, true)))
         return mw__fail_memory(error);
     mw_status status = mw__editor_conclude(editor, carry_out(editor, &copy, &own, error), &own, change, error);
     if (status) return status;

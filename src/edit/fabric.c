@@ -224,32 +224,32 @@ bool mw__journal_room(mw_fabric *f, size_t more)
 
 /* --- tiles and vertices come and go ----------------------------------------------------------------------------------- */
 
-/* Room for n more numbers and tiles. */
-static __attribute__((noinline)) bool room_for_tiles(mw_fabric *f, uint32_t n, bool users)
+/* Room for n more tiles, and numbers of the user's. */
+static __attribute__((noinline)) bool more_room(mw_fabric *f, size_t n, bool users)
 {
-    mw_tiling *tiling = f->tiling;
-    if (tiling->tri_count > MW_MAX_TRIANGLES - n) return false;
-    if (users && tiling->number_count > MW_USER_MASK - n) return false;
-    if (users && tiling->number_count + n > f->number_room && !more_numbers(f, tiling->number_count + n)) return false;
-    return tiling->tri_count + n <= f->tile_room || more_tiles(f, tiling->tri_count + n);
+    const mw_tiling *tiling = f->tiling;
+    if (n > MW_MAX_TRIANGLES - tiling->tri_count || (users && n > MW_USER_MASK - tiling->number_count)) return false;
+    const size_t tiles = tiling->tri_count + n, numbers = tiling->number_count + n;
+    if (users && numbers > f->number_room && !more_numbers(f, numbers)) return false;
+    return tiles <= f->tile_room || more_tiles(f, tiles);
 }
 
-bool mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles)
+bool mw__tile_room(mw_fabric *f, uint32_t beside, size_t n)
+{
+    const mw_tiling *tiling = f->tiling;
+    bool room = tiling->tri_count + n <= f->tile_room && tiling->number_count + n <= f->number_room;
+    return MW_LIKELY(room) || more_room(f, n, mw__is_users(f, beside));
+}
+
+void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles)
 {
     mw_tiling *tiling = f->tiling;
-    uint32_t like = tiling->tri[beside].user, first = tiling->tri_count, number = tiling->number_count;
-    bool users = !(like & MW_GHOST), room = first + n <= f->tile_room && number + n <= f->number_room;
-    if (MW_UNLIKELY(!room) && !room_for_tiles(f, n, users)) return false;
-    mw_triangle *tri = tiling->tri;
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t t = tiles[i] = first + i;
-        f->mark[t] &= MW_JOURNALED; /* one of the journal may have gone before */
-        tri[t].user = users ? number + i : like;
-        if (users) tiling->tile_of[number + i] = t;
+        uint32_t t = tiles[i] = tiling->tri_count++;
+        f->mark[t] &= MW_JOURNALED; /* see mw__add_tiles */
+        tiling->tri[t].user = like;
     }
-    tiling->tri_count += n;
-    *(users ? &tiling->number_count : &tiling->ghost_count) += n;
-    return true;
+    tiling->ghost_count += n;
 }
 
 void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir)
@@ -323,8 +323,7 @@ bool mw__fabric_reserve(mw_fabric *f, size_t n)
     mw_tiling *tiling = f->tiling;
     const size_t tiles = 2 * (tiling->point_count + n); /* there are fewer in any triangulation of so many points */
     if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
-    return room_for_tiles(f, (uint32_t)(tiles - tiling->tri_count), true) && room_for_vertices(f, n) &&
-           mw__hole_room(f, tiles);
+    return more_room(f, tiles - tiling->tri_count, true) && room_for_vertices(f, n) && mw__hole_room(f, tiles);
 }
 
 bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex)

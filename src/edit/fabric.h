@@ -7,7 +7,7 @@
  * An edit is bracketed: mw__fabric_begin, operations, mw__fabric_commit or mw__fabric_rollback. Before a tile that was there gets other corners,
  * or goes, its record is put into the journal, once an edit. Links of tiles round about are not: they follow from those of the tiles put back.
  * The journal of an edit, with the places at the end of the array that it has taken, tells what it changed; exchanged with the tiles as they
- * are, it takes it back. An insertion about which nobody will ask, and which cannot fail once it has begun to change tiles, needs none. */
+ * are, it takes it back. An insertion about which nobody will ask, and which cannot fail once it has begun to change tiles, needs no bracket. */
 #ifndef MW_SRC_FABRIC_H
 #define MW_SRC_FABRIC_H
 
@@ -57,10 +57,10 @@ typedef struct mw_fabric {
     bool delaunay;     /* edges that are not fixed are Delaunay, and are to stay so          */
     mw_before *before; /* the journal of this edit and of those that can be undone       */
     size_t before_count, before_room;
-    uint32_t journaled;  /* of this edit: tiles from here on need no record, as they are new, or as nobody will ask */
-    uint32_t recordable; /* what `journaled` becomes when something may fail after tiles have changed */
+    uint32_t journaled; /* of this edit: tiles from here on need no record, as they are new, or as nobody will ask */
     mw_step *step;      /* the edits in it; the last one is under way between begin and commit */
     size_t step_count, step_room;
+    bool under_way;  /* is one? */
     uint32_t *stack; /* half-edges that may have to be flipped, and other scratch        */
     size_t stack_count, stack_room;
     mw_rim_step *rim;     /* scratch */
@@ -112,15 +112,8 @@ size_t mw__fabric_bytes(const mw_fabric *f); /* but for the tiling's own (mw__ti
 
 /* --- an edit as a whole (journal.c) ----------------------------------------------------------------------------------- */
 
-/* What is put into the journal of an edit. */
-typedef enum mw_record {
-    MW_RECORD_ALL,  /* somebody will ask what the edit changed, or have it taken back                        */
-    MW_RECORD_LATE, /* an insertion: only where it may fail after it has changed tiles                       */
-    MW_RECORD_NONE  /* insertions that cannot fail, as there is room for them (mw__fabric_reserve)           */
-} mw_record;
-
-/* False when out of memory. */
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, mw_record record);
+/* False when out of memory. `recorded`: in the journal, unless nobody will ask and nothing can fail (mw__fabric_reserve). */
+bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded);
 
 /* Room for so many insertions, wherever they are and whatever they meet. False where there is not as much memory, or as many numbers, or where they
  * may be refused for another reason: in a mesh that does not fill its hull. */
@@ -163,7 +156,8 @@ void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t ve
 /* --- operations: MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY, then roll back ------------------------------------ */
 
 /* Vertices are places; *vertex MW_NONE: a new one, else one that is in no tile. *vertex is set to the vertex at q, which may be another
- * one. `t`: where to begin to look for q (insert.c). */
+ * one. `t`: where to begin to look for q (insert.c). There may be no edit under way, if nobody will ask: one begins where this may fail after
+ * it has changed something. */
 mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
 mw_status mw__fabric_remove(mw_fabric *f, uint32_t vertex, mw_error *error);
 /* `t`: where to begin to look for q if the vertex cannot stay in its star; MW_NONE: there. */

@@ -37,15 +37,14 @@ static ends begin(const mw_fabric *f, const mw_hole *h, size_t steps, uint32_t s
                   pool + h->tiles,   pool + (f->rim_room - room_besides(h, steps))};
 }
 
-/* Room for twice as many tiles. */
-static __attribute__((noinline)) bool widen(mw_fabric *f, const mw_hole *h, size_t steps, ends *at)
+/* Room for twice as many tiles; the pool is still full when out of memory. */
+static __attribute__((noinline)) ends widen(mw_fabric *f, const mw_hole *h, size_t steps, ends at)
 {
-    const size_t rim = (size_t)(at->rim - f->rim), ahead = (size_t)(at->ahead - f->ahead);
-    const size_t pool = (size_t)(at->pool - f->pool);
-    if (!mw__rim_room(f, 2 * f->rim_room)) return false;
-    *at = (ends){f->rim + rim, f->ahead + ahead, f->sight,
-                 at->sights,   f->pool + pool,   f->pool + h->pool + (f->rim_room - room_besides(h, steps))};
-    return true;
+    const size_t rim = (size_t)(at.rim - f->rim), ahead = (size_t)(at.ahead - f->ahead);
+    const size_t pool = (size_t)(at.pool - f->pool);
+    if (!mw__rim_room(f, 2 * f->rim_room)) return at;
+    return (ends){f->rim + rim, f->ahead + ahead, f->sight,
+                  at.sights,    f->pool + pool,   f->pool + h->pool + (f->rim_room - room_besides(h, steps))};
 }
 
 /* --- circles ------------------------------------------------------------------------------------------------------------ */
@@ -59,11 +58,10 @@ static MW_INLINE bool is_closed(const mw_fabric *f, const mw_step_ahead *step, b
     return step->beyond == MW_NONE || (!plain && (step->fixed || !f->delaunay));
 }
 
-/* The vertex of the tile beyond a step across from it; of any tile if that is closed. */
-static MW_INLINE uint32_t apex_beyond(const mw_fabric *f, const mw_step_ahead *step, bool closed)
+/* The vertex of the tile beyond a step across from it. */
+static MW_INLINE uint32_t apex_beyond(const mw_fabric *f, const mw_step_ahead *step)
 {
-    uint32_t half = MW_UNLIKELY(closed) ? 0 : step->beyond;
-    return f->tiling->tri[mw__link_triangle(half)].v[mw__prev(mw__link_edge(half))];
+    return f->tiling->tri[mw__link_triangle(step->beyond)].v[mw__prev(mw__link_edge(step->beyond))];
 }
 
 static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32_t a, uint32_t b, uint32_t c,
@@ -78,15 +76,14 @@ static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32
 static MW_INLINE void judge(const mw_fabric *f, mw_point q, uint32_t from, uint32_t apex, mw_step_ahead *step,
                             bool plain)
 {
-    const bool closed = is_closed(f, step, plain);
-    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end];
-    mw_sight *c = &f->sight[apex];
-    double bound, det;
-    *c = mw__sight_of(f, apex_beyond(f, step, closed), q);
-    det = mw__sights_rounded(b, a, c, &bound);
+    step->apex = MW_NONE;
+    if (is_closed(f, step, plain)) return;
+    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end], c = mw__sight_of(f, apex_beyond(f, step), q);
+    double bound, det = mw__sights_rounded(b, a, &c, &bound);
+    f->sight[apex] = c;
     bool goes = det > 0;
-    if (MW_UNLIKELY(!(fabs(det) > bound)) && !closed) goes = in_circle_exact(f, step->end, from, apex, q);
-    step->apex = goes && !closed ? apex : MW_NONE;
+    if (MW_UNLIKELY(!(fabs(det) > bound))) goes = in_circle_exact(f, step->end, from, apex, q);
+    if (goes) step->apex = apex;
 }
 
 /* The same for two steps one after the other, and two apices. */
@@ -94,8 +91,12 @@ static MW_INLINE void judge_two(const mw_fabric *f, mw_point q, uint32_t from, u
                                 mw_step_ahead *two, bool plain)
 {
     static const pair error = {MW_SIGHTS_ERROR, MW_SIGHTS_ERROR}, least = {MW_UNDERFLOW_ERROR, MW_UNDERFLOW_ERROR};
-    const bool closed1 = is_closed(f, one, plain), closed2 = is_closed(f, two, plain);
-    const uint32_t v1 = apex_beyond(f, one, closed1), v2 = apex_beyond(f, two, closed2);
+    if (MW_UNLIKELY(is_closed(f, one, plain) || is_closed(f, two, plain))) {
+        judge(f, q, from, apex, one, plain);
+        judge(f, q, one->end, apex + 1, two, plain);
+        return;
+    }
+    const uint32_t v1 = apex_beyond(f, one), v2 = apex_beyond(f, two);
     const mw_point *p1 = &f->tiling->point[v1], *p2 = &f->tiling->point[v2];
     const mw_sight *a = &f->sight[from], *b = &f->sight[one->end], *c = &f->sight[two->end];
     const pair here = {q.x, q.y}, to1 = (pair){p1->x, p1->y} - here, to2 = (pair){p2->x, p2->y} - here;
@@ -108,13 +109,10 @@ static MW_INLINE void judge_two(const mw_fabric *f, mw_point q, uint32_t from, u
     f->sight[apex] = (mw_sight){to1[0], to1[1], lift[0], v1};
     f->sight[apex + 1] = (mw_sight){to2[0], to2[1], lift[1], v2};
     bool goes1 = det[0] > 0, goes2 = det[1] > 0;
-    if (MW_UNLIKELY(!(fabs(det[0]) > bound[0])) && !closed1) goes1 = in_circle_exact(f, one->end, from, apex, q);
-    if (MW_UNLIKELY(!(fabs(det[1]) > bound[1])) && !closed2)
-        goes2 = in_circle_exact(f, two->end, one->end, apex + 1, q);
+    if (MW_UNLIKELY(!(fabs(det[0]) > bound[0]))) goes1 = in_circle_exact(f, one->end, from, apex, q);
+    if (MW_UNLIKELY(!(fabs(det[1]) > bound[1]))) goes2 = in_circle_exact(f, two->end, one->end, apex + 1, q);
     one->apex = goes1 ? apex : MW_NONE;
     two->apex = goes2 ? apex + 1 : MW_NONE;
-    if (MW_UNLIKELY(closed1)) one->apex = MW_NONE;
-    if (MW_UNLIKELY(closed2)) two->apex = MW_NONE;
 }
 
 /* --- along the boundary ------------------------------------------------------------------------------------------------- */
@@ -141,7 +139,8 @@ static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead
         while (step.apex != MW_NONE) {
             const uint32_t t = mw__link_triangle(step.beyond);
             mw_step_ahead one, two;
-            if (MW_UNLIKELY(at.pool >= at.full) && !widen(f, h, steps, &at)) return false;
+            if (MW_UNLIKELY(at.pool >= at.full)) at = widen(f, h, steps, at);
+            if (MW_UNLIKELY(at.pool >= at.full)) return false;
             if (!mw__journal(f, t)) return false;
             *at.pool++ = t;
             part(f, step.beyond, step.apex, step.end, &one, &two, plain);
@@ -166,11 +165,6 @@ static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead
 }
 
 /* --- from where --------------------------------------------------------------------------------------------------------- */
-
-void mw__see_corners(mw_fabric *f, uint32_t t, mw_point q)
-{
-    for (int k = 0; k < 3; k++) f->sight[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
-}
 
 /* Tile t goes: room for what it and its neighbours bring. */
 static MW_INLINE bool begin_with(mw_fabric *f, mw_hole *h, uint32_t t)

@@ -37,8 +37,8 @@ static place find(mw_fabric *f, mw_point q, uint32_t t)
 {
     const mw_triangle *tri = f->tiling->tri;
     uint32_t fuel = MANY, e = 0, exit = MW_NONE;
-    mw__see_corners(f, t, q);
-    mw_sight a = f->sight[0], b = f->sight[1], c = f->sight[2];
+    mw_sight a = mw__sight_of(f, tri[t].v[0], q), b = mw__sight_of(f, tri[t].v[1], q),
+             c = mw__sight_of(f, tri[t].v[2], q);
     double ab = mw__sights_side(f, &a, &b, q), bc = mw__sights_side(f, &b, &c, q), ca = mw__sights_side(f, &c, &a, q);
     if (ab < 0) {
         exit = 0, c = a, a = b, b = c;
@@ -78,9 +78,19 @@ static mw_status refuse_outside(mw_point q, mw_error *error)
 /* --- the star --------------------------------------------------------------------------------------------------------- */
 
 /* From here on something may fail after tiles have changed. */
-static void record(mw_fabric *f)
+static bool begin(mw_fabric *f, mw_point q)
 {
-    f->journaled = f->recordable;
+    return f->under_way || mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_INSERT, .x = q.x, .y = q.y}, true);
+}
+
+/* A vertex at q, if there is none for it. */
+static mw_status make_vertex(mw_fabric *f, mw_point q, uint32_t *vertex, mw_error *error)
+{
+    if (*vertex != MW_NONE) return MW_OK;
+    if (f->vertex_count >= MW_GONE - 1) return mw__fail(error, MW_ERROR_LIMIT, "no more numbers for vertices");
+    if (!mw__add_vertex(f, q, vertex)) return mw__fail_memory(error);
+    if (f->under_way) f->step[f->step_count - 1].vertex = *vertex;
+    return MW_OK;
 }
 
 /* Tiles round v, counter-clockwise. */
@@ -95,29 +105,35 @@ static mw_status tile_failure(const mw_fabric *f, size_t n, mw_error *error)
     return mw__fail_memory(error);
 }
 
-/* Fill the hole with tiles round v: its own, and others beside tile `beside`. */
-static mw_status fill(mw_fabric *f, const mw_hole *h, uint32_t v, uint32_t beside, fan *made, mw_error *error)
+/* Fill the hole with tiles round the vertex: its own, and others beside tile `beside`. Where this fails it has changed nothing. */
+static mw_status fill(mw_fabric *f, const mw_hole *h, uint32_t *vertex, uint32_t beside, fan *made, mw_error *error)
 {
-    size_t more = h->steps - h->tiles;
-    if (!mw__add_tiles(f, beside, (uint32_t)more, f->pool + h->pool + h->tiles)) return tile_failure(f, more, error);
+    const size_t more = h->steps - h->tiles;
+    if (!mw__tile_room(f, beside, more)) return tile_failure(f, more, error);
+    mw_status status = make_vertex(f, h->q, vertex, error);
+    if (status) return status;
+    const uint32_t v = *vertex;
+    uint32_t *pool = f->pool + h->pool;
+    mw__add_tiles(f, beside, (uint32_t)more, pool + h->tiles);
     mw_triangle *tri = f->tiling->tri;
     uint32_t *tile_at = f->tiling->tile_at;
-    const uint32_t *pool = f->pool + h->pool, *last = pool + h->steps - 1;
-    const mw_rim_step *step = f->rim + h->first;
+    const mw_rim_step *step = f->rim + h->first, *last = step + h->steps - 1;
     uint8_t *mark = f->mark;
-    uint32_t before = *last, from = step->vertex;
-    for (const uint32_t *at = pool; at <= last; at++) { /* as if they went all the way round */
-        const uint32_t t = *at, after = at < last ? at[1] : *pool, beyond = step->beyond, fixed = step->fixed;
-        const uint32_t to = (++step)->vertex;
+    uint32_t first = pool[0], t = first, before = pool[h->steps - 1], from = step->vertex;
+    for (;; step++) { /* as if they went all the way round */
+        const uint32_t after = step < last ? *++pool : first, beyond = step->beyond, to = step[1].vertex;
         tri[t] = (mw_triangle){
             {from, to, v, from}, {beyond, mw__link(after, 2), mw__link(before, 1)}, tri[t].user & ~MW_FLIPPED};
         if (beyond != MW_NONE) tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = mw__link(t, 0);
-        mark[t] = (uint8_t)((mark[t] & ~MW_FIXED_EDGES) | fixed);
-        tile_at[from] = before = t;
+        mark[t] = (uint8_t)((mark[t] & ~MW_FIXED_EDGES) | step->fixed);
+        tile_at[from] = t;
+        if (step == last) break;
+        before = t;
+        t = after;
         from = to;
     }
-    tile_at[from] = tile_at[v] = before;
-    *made = (fan){*pool, before};
+    tile_at[last[1].vertex] = tile_at[v] = t;
+    *made = (fan){first, t};
     return MW_OK;
 }
 
@@ -129,7 +145,7 @@ static void open_fan(mw_fabric *f, const fan *made)
 }
 
 /* Tile t, whose corners are the first three sights. */
-static mw_status put_in_tile(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
+static mw_status put_in_tile(mw_fabric *f, uint32_t t, mw_point q, uint32_t *v, mw_error *error)
 {
     if (!mw__is_users(f, t)) return refuse_outside(q, error);
     mw_hole h = {.q = q};
@@ -151,7 +167,7 @@ static uint32_t lower_side(const mw_fabric *f, uint32_t half)
 }
 
 /* Fill the hole on the side of an edge where `half` is, and after it that of h->first and h->pool. */
-static mw_status put_beside(mw_fabric *f, uint32_t half, mw_hole *h, uint32_t v, fan *made, mw_error *error)
+static mw_status put_beside(mw_fabric *f, uint32_t half, mw_hole *h, uint32_t *v, fan *made, mw_error *error)
 {
     bool fixed = mw__is_fixed(f, half);
     if (!mw__dig_side(f, h, half)) return mw__fail_memory(error);
@@ -164,14 +180,14 @@ static mw_status put_beside(mw_fabric *f, uint32_t half, mw_hole *h, uint32_t v,
     return MW_OK;
 }
 
-static mw_status put_on_edge(mw_fabric *f, uint32_t half, mw_point q, uint32_t v, mw_error *error)
+static mw_status put_on_edge(mw_fabric *f, uint32_t half, mw_point q, uint32_t *v, mw_error *error)
 {
     half = lower_side(f, half);
     uint32_t other = mw__beyond(f, half), t = mw__link_triangle(half);
     bool users = mw__is_users(f, t),
          border = other == MW_NONE ? !f->convex && users : users != mw__is_users(f, mw__link_triangle(other));
     if (!users && !border) return refuse_outside(q, error);
-    record(f);
+    if (!begin(f, q)) return mw__fail_memory(error);
     if (mw__is_fixed(f, half) && !border) f->fixed_count++;
     mw_hole one = {.q = q}, two = one;
     fan left, right;
@@ -188,10 +204,10 @@ static mw_status put_on_edge(mw_fabric *f, uint32_t half, mw_point q, uint32_t v
 
 /* --- beyond the hull -------------------------------------------------------------------------------------------------- */
 
-static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t v, mw_error *error)
+static mw_status put_outside(mw_fabric *f, uint32_t t, mw_point q, uint32_t *v, mw_error *error)
 {
     if (!f->convex) return refuse_outside(q, error);
-    record(f);
+    if (!begin(f, q)) return mw__fail_memory(error);
     mw_hole h = {.q = q};
     fan made;
     if (!mw__dig_outside(f, &h, t)) return mw__fail_memory(error);
@@ -228,12 +244,7 @@ mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vert
         *vertex = f->sight[corner_there(f)].vertex;
         return MW_OK;
     }
-    if (*vertex == MW_NONE) {
-        if (f->vertex_count >= MW_GONE - 1) return mw__fail(error, MW_ERROR_LIMIT, "no more numbers for vertices");
-        if (!mw__add_vertex(f, q, vertex)) return mw__fail_memory(error);
-        f->step[f->step_count - 1].vertex = *vertex;
-    }
-    if (MW_UNLIKELY(!at.inside)) return put_outside(f, at.tile, q, *vertex, error);
-    if (MW_UNLIKELY(at.on_boundary)) return put_on_edge(f, edge_there(f, at.tile, q), q, *vertex, error);
-    return put_in_tile(f, at.tile, q, *vertex, error);
+    if (MW_UNLIKELY(!at.inside)) return put_outside(f, at.tile, q, vertex, error);
+    if (MW_UNLIKELY(at.on_boundary)) return put_on_edge(f, edge_there(f, at.tile, q), q, vertex, error);
+    return put_in_tile(f, at.tile, q, vertex, error);
 }

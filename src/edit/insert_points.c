@@ -85,7 +85,7 @@ static bool begin(mw_editor *editor, const batch *b, const mw_change *change)
     bool sure = b->n >= FEW && !mw__editor_asks(editor, change) && are_finite(b) && mw__field_room(editor, b->n) &&
                 mw__fabric_reserve(f, b->n);
     if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(f, TILES_PER_POINT * b->n))) return false;
-    return mw__fabric_begin(f, &first, sure ? MW_RECORD_NONE : MW_RECORD_ALL);
+    return mw__fabric_begin(f, &first, !sure);
 }
 
 static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *change, mw_error *error)

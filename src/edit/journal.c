@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, mw_record record)
+bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded)
 {
     if (MW_UNLIKELY(!f->before) && !mw__journal_room(f, 1)) return false;
     if (f->step_count == f->step_room) {
@@ -27,11 +27,17 @@ bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, mw_record record)
                                          .fixed_count = f->fixed_count,
                                          .vertex = MW_NONE,
                                          .delaunay = f->delaunay};
-    f->journaled = record == MW_RECORD_ALL ? tiling->tri_count : 0;
-    f->recordable = record == MW_RECORD_NONE ? 0 : tiling->tri_count;
+    f->journaled = recorded ? tiling->tri_count : 0;
+    f->under_way = true;
     f->flips = 0;
     f->stack_count = 0;
     return true;
+}
+
+static void end(mw_fabric *f)
+{
+    f->journaled = 0;
+    f->under_way = false;
 }
 
 static void clear_marks(mw_fabric *f, const mw_before *first, size_t count)
@@ -46,6 +52,7 @@ void mw__fabric_commit(mw_fabric *f)
     mw_step *step = &f->step[f->step_count - 1];
     step->made = f->vertex_count - step->vertices;
     clear_marks(f, first, count);
+    end(f);
 }
 
 /* --- taking back ------------------------------------------------------------------------------------------------------ */
@@ -105,6 +112,7 @@ void mw__fabric_rollback(mw_fabric *f)
     exchange_tiles(f, step);
     restore_vertices(f, step);
     clear_marks(f, f->before + step->journal, f->before_count - step->journal);
+    end(f);
     mw__fabric_drop(f);
 }
 

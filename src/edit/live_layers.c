@@ -153,7 +153,7 @@ static bool edit(mw_live_layers *live, uint32_t i, following what, uint32_t *v, 
 {
     static const mw_edit_kind kind[] = {MW_EDIT_INSERT, MW_EDIT_REMOVE, MW_EDIT_MOVE};
     mw_fabric *f = &live->fabric[i];
-    if (!mw__fabric_begin(f, &(mw_edit){.kind = kind[what], .x = p.x, .y = p.y}, MW_RECORD_ALL)) return false;
+    if (!mw__fabric_begin(f, &(mw_edit){.kind = kind[what], .x = p.x, .y = p.y}, true)) return false;
     mw_status status = what == INSERT   ? mw__fabric_insert(f, p, tile, v, NULL)
                        : what == REMOVE ? mw__fabric_remove(f, *v, NULL)
                                         : mw__fabric_move(f, *v, p, MW_NONE, NULL);

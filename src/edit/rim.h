@@ -27,11 +27,12 @@ static MW_INLINE mw_sight mw__sight_of(const mw_fabric *f, uint32_t vertex, mw_p
     return (mw_sight){x, y, x * x + y * y, vertex};
 }
 
-/* mw__orient2d of a and b, seen from q, and q. */
+/* mw__orient2d of a and b, seen from q, and q. The bound is that of mw__orient2d_bound, (3 u + 16 u^2) times |ax by| + |ay bx|, but by the lifts
+ * alone: the sum is at most the product of both lengths, and that half the sum of the lifts, which are off by less than 3 u of themselves. */
 static MW_INLINE double mw__sights_side(const mw_fabric *f, const mw_sight *a, const mw_sight *b, mw_point q)
 {
-    double left = a->x * b->y, right = a->y * b->x, det = left - right;
-    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right))) return det;
+    double det = a->x * b->y - a->y * b->x;
+    if (MW_LIKELY(fabs(det) > (a->lift + b->lift) * (2.0 * 0x1p-53) + MW_UNDERFLOW_ERROR)) return det;
     return mw__orient2d_exact(f->tiling->point[a->vertex], f->tiling->point[b->vertex], q);
 }
 

@@ -21,9 +21,30 @@ static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
     return true;
 }
 
-/* n tiles at the end of the array with numbers of their own, or that of the ghost `beside`; corners, links and fixed edges are to be set.
- * False when out of memory or numbers; then nothing has changed. */
-bool mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles);
+/* Room for n tiles more, and for their numbers if they are the user's, as tile `beside` is. False when out of memory or numbers. */
+bool mw__tile_room(mw_fabric *f, uint32_t beside, size_t n);
+
+/* n ghosts at the end of the array, for which there is room, all with the same number; as below. */
+void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles);
+
+/* n tiles there, with numbers of their own, or that of the ghost `beside`; corners, links and fixed edges are to be set. */
+static MW_INLINE void mw__add_tiles(mw_fabric *f, uint32_t beside, uint32_t n, uint32_t *tiles)
+{
+    mw_tiling *tiling = f->tiling;
+    if (MW_UNLIKELY(!mw__is_users(f, beside))) {
+        mw__add_ghosts(f, tiling->tri[beside].user, n, tiles);
+        return;
+    }
+    uint32_t t = tiling->tri_count, number = tiling->number_count;
+    for (const uint32_t *end = tiles + n; tiles < end; t++, number++) {
+        *tiles++ = t;
+        f->mark[t] &= MW_JOURNALED; /* one of the journal may have gone before */
+        tiling->tri[t].user = number;
+        tiling->tile_of[number] = t;
+    }
+    tiling->tri_count = t;
+    tiling->number_count = number;
+}
 
 /* Free the number of a tile of the user's, which leads to another one from here on. */
 void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir);
@@ -31,7 +52,7 @@ void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir);
 /* Take tiles out of the array; each has been journaled, and none is anyone's neighbour. Sorts the list. */
 bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count);
 
-/* A vertex with a number of its own; the place of one that no tile has any more is free. */
+/* A vertex with a number of its own; the place of one that no tile has any more is free. False when out of memory; then nothing has changed. */
 bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex);
 bool mw__free_vertex(mw_fabric *f, uint32_t vertex);
 

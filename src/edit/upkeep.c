@@ -144,7 +144,7 @@ static void put_in_indices(mw_upkeep *u, const mw_entry *e)
 
 bool mw__upkeep_asks(const mw_upkeep *u)
 {
-    return is_built(u, MW_START_GRID) || is_built(u, MW_START_TWO_LEVEL_GRID);
+    return u->kept_count > 1; /* there is more than the guide */
 }
 
 static void note_tile(mw_upkeep *u, uint32_t t)
@@ -158,7 +158,7 @@ static void note_tile(mw_upkeep *u, uint32_t t)
 static void note_tiles(mw_upkeep *u, const mw_step *step, const mw_before *first, size_t count)
 {
     const mw_tiling *tiling = u->fabric->tiling;
-    if (!mw__upkeep_asks(u)) return;
+    if (!is_built(u, MW_START_GRID) && !is_built(u, MW_START_TWO_LEVEL_GRID)) return;
     for (size_t i = 0; i < count; i++)
         if (first[i].place < tiling->tri_count) note_tile(u, first[i].place);
     for (uint32_t t = step->tiles; t < tiling->tri_count; t++) note_tile(u, t);
@@ -259,24 +259,42 @@ static void follow_vertices(mw_upkeep *u, const mw_step *step)
     if (!even) refresh(u, MW_START_LAYERS);
 }
 
+/* Something changed: cursors look anew, and there may be new names. */
+static void begin(mw_upkeep *u)
+{
+    mw_tiling *tiling = u->fabric->tiling;
+    u->locator->epoch++;
+    if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
+}
+
+static void end(mw_upkeep *u, uint64_t edits)
+{
+    for (uint32_t i = 0; i < u->kept_count; i++) {
+        mw_since *since = &u->since[u->kept[i]];
+        since->edits += edits;
+        if (MW_UNLIKELY(is_due(since, live_vertices(u->fabric)))) refresh(u, u->kept[i]);
+    }
+}
+
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
 {
     const mw_fabric *f = u->fabric;
-    mw_tiling *tiling = f->tiling;
     const mw_step *step = &f->step[f->step_count - 1];
     const mw_before *first;
     size_t count = mw__fabric_journal(f, &first);
     if (step->edit.kind == MW_EDIT_VALUE) return;
-    u->locator->epoch++;
-    if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
+    begin(u);
     if (undone) redirect_names(u, step, first, count);
     note_tiles(u, step, first, count);
     follow_vertices(u, step);
-    for (uint32_t i = 0; i < u->kept_count; i++) {
-        mw_since *since = &u->since[u->kept[i]];
-        since->edits += step->edits;
-        if (MW_UNLIKELY(is_due(since, live_vertices(f)))) refresh(u, u->kept[i]);
-    }
+    end(u, step->edits);
+}
+
+void mw__upkeep_insertion(mw_upkeep *u, uint32_t v)
+{
+    begin(u);
+    if (v != MW_NONE) note_place(u, u->fabric->tiling->point[v]);
+    end(u, 1);
 }
 
 void mw__upkeep_grow(mw_upkeep *u)

@@ -49,12 +49,15 @@ size_t mw__upkeep_bytes(const mw_upkeep *upkeep); /* of indices and guide */
  * has changed. */
 mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_index_options *options, mw_error *error);
 
-/* Has an edit to be recorded for mw__upkeep_edit? */
+/* Has an insertion to be recorded for mw__upkeep_edit? */
 bool mw__upkeep_asks(const mw_upkeep *upkeep);
 
 /* After an edit was committed, or (undone) reverted, and before its step is forgotten or dropped: its journal tells what changed. Raises the
  * locator's epoch, by which cursors know that their tile has another place. */
 void mw__upkeep_edit(mw_upkeep *upkeep, bool undone);
+
+/* The same after an insertion that was no step, as nobody asked: of vertex v, or MW_NONE where there was one. */
+void mw__upkeep_insertion(mw_upkeep *upkeep, uint32_t v);
 
 /* In the middle of an edit that puts in many vertices: the guide is built anew if there are twice as many. */
 void mw__upkeep_grow(mw_upkeep *upkeep);

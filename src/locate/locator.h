@@ -5,6 +5,7 @@
 #include "domain/tiling.h"
 #include "locate/border.h"
 #include "locate/index.h"
+#include "start/start.h"
 #include "walk/walk.h"
 
 #include <meshwalk/locate.h>
@@ -56,6 +57,25 @@ static MW_INLINE void mw__note_last(const mw_locator *locator, mw_cursor *cursor
 }
 
 typedef uint64_t mw_words __attribute__((vector_size(16)));
+
+/* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads nearer. A long edge would not
+ * tell, as many small tiles may lie beside it; nor does a tile as large as a cell, such as there are along the hull. */
+static MW_INLINE bool mw__is_close(const mw_locator *locator, uint32_t t, mw_point q)
+{
+    enum { LENGTHS = 3 };
+    const mw_tiling *tiling = &locator->tiling;
+    const uint32_t *v = tiling->tri[t].v;
+    mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
+    double ab = mw__distance2(a, b), bc = mw__distance2(b, c), ca = mw__distance2(c, a);
+    double least = ab < bc ? ab : bc, shortest = least < ca ? least : ca, far = mw__distance2(a, q);
+    return far <= LENGTHS * LENGTHS * shortest && far <= locator->cell2;
+}
+
+/* Where to begin where there is a guide: at tile `last`, if q is close to it. */
+static MW_INLINE uint32_t mw__guided(const mw_locator *locator, uint32_t last, mw_point q)
+{
+    return mw__is_close(locator, last, q) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
+}
 
 /* A location, written as it is commonly copied, by 16 bytes: who reads more bytes at a time than were written has to wait
  * until they have left for the cache. */

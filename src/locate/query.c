@@ -144,19 +144,6 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
 
 /* --- the departure ----------------------------------------------------------------------------------------------- */
 
-/* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads nearer. A long edge would not
- * tell, as many small tiles may lie beside it; nor does a tile as large as a cell, such as there are along the hull. */
-static MW_INLINE bool is_close(const mw_locator *locator, uint32_t t, mw_point q)
-{
-    enum { LENGTHS = 3 };
-    const mw_tiling *tiling = &locator->tiling;
-    const uint32_t *v = tiling->tri[t].v;
-    mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
-    double ab = mw__distance2(a, b), bc = mw__distance2(b, c), ca = mw__distance2(c, a);
-    double least = ab < bc ? ab : bc, shortest = least < ca ? least : ca, far = mw__distance2(a, q);
-    return far <= LENGTHS * LENGTHS * shortest && far <= locator->cell2;
-}
-
 /* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
 static uint32_t near_or_sample(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
                                uint64_t *random)
@@ -177,8 +164,7 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_CENTRE: return mw__tile_named(tiling, locator->centre);
     case MW_START_AUTO:
         if (locator->guide.start == MW_START_AUTO) return near_or_sample(locator, cursor, last, q, random);
-        if (!is_close(locator, last, q)) return mw__index_tile(tiling, &locator->guide, q);
-        break;
+        return mw__guided(locator, last, q);
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
     case MW_START_LAYERS:
@@ -330,7 +316,7 @@ static MW_INLINE uint32_t begin_plain(const mw_locator *locator, mw_cursor *curs
     uint32_t last = cursor->last;
     if (!cursor->index && cursor->start == MW_START_LAST) return last;
     if (!cursor->index && cursor->start == MW_START_AUTO && locator->guide.start != MW_START_AUTO)
-        return is_close(locator, last, q) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
+        return mw__guided(locator, last, q);
     return mw__first_tile(locator, cursor, last, q, &cursor->random, NULL);
 }
 
