@@ -226,24 +226,42 @@ static uint32_t first_tile(mw_editor *editor, uint32_t near, mw_point q)
     return mw__first_tile(&editor->locator, cursor, near, q, &cursor->random, NULL);
 }
 
-mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+static __attribute__((noinline)) mw_status insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t *vertex,
+                                                              mw_error *error)
 {
     mw_fabric *f = &editor->fabric;
-    mw_point q = {edit->x, edit->y};
-    uint32_t vertex = MW_NONE, before = f->vertex_count;
-    bool fields = editor->view.field_count > 0;
-    bool borrows = false;
-    if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
-    if (!isnan(edit->value) && edit->field >= editor->view.field_count && fields)
+    const uint32_t before = f->vertex_count;
+    bool borrows;
+    uint32_t place = MW_NONE;
+    if (!isnan(edit->value) && edit->field >= editor->view.field_count)
         return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     if (!mw__field_room(editor, 1)) return mw__fail_memory(error);
-    uint32_t t = fields ? set_values(editor, edit, &borrows) : first_tile(editor, f->last, q);
-    mw_status status = mw__fabric_insert(f, q, t, &vertex, error);
+    uint32_t t = set_values(editor, edit, &borrows);
+    mw_status status = mw__fabric_insert(f, (mw_point){edit->x, edit->y}, t, &place, error);
     if (status) return status;
-    change->vertex = f->vertex_number[vertex];
-    change->vertex_made = f->vertex_count > before;
-    if (borrows && change->vertex_made) borrow_values(editor, edit, vertex);
+    if (borrows && f->vertex_count > before) borrow_values(editor, edit, place);
+    *vertex = f->vertex_number[place];
     return MW_OK;
+}
+
+mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t *vertex, mw_error *error)
+{
+    mw_fabric *f = &editor->fabric;
+    const mw_point q = {edit->x, edit->y};
+    if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
+    if (editor->view.field_count > 0) return insert_with_values(editor, edit, vertex, error);
+    uint32_t place = MW_NONE;
+    mw_status status = mw__fabric_insert(f, q, first_tile(editor, f->last, q), &place, error);
+    if (!status) *vertex = f->vertex_number[place];
+    return status;
+}
+
+static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+{
+    const uint32_t before = editor->fabric.vertex_count;
+    mw_status status = mw__editor_insert(editor, edit, &change->vertex, error);
+    change->vertex_made = editor->fabric.vertex_count > before;
+    return status;
 }
 
 static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
@@ -284,7 +302,7 @@ static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *
 static mw_status carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     switch (edit->kind) {
-    case MW_EDIT_INSERT: return mw__editor_insert(editor, edit, change, error);
+    case MW_EDIT_INSERT: return insert(editor, edit, change, error);
     case MW_EDIT_REMOVE:
     case MW_EDIT_MOVE: return change_vertex(editor, edit, change, error);
     case MW_EDIT_FLIP:

@@ -309,13 +309,18 @@ static bool more_vertices(mw_fabric *f, size_t least)
     return true;
 }
 
-/* Room for n more numbers and places. */
 static __attribute__((noinline)) bool room_for_vertices(mw_fabric *f, size_t n)
 {
-    size_t points = f->tiling->point_count + n - (f->free_count < n ? f->free_count : n);
-    size_t vertices = f->vertex_count + n;
-    if (points > f->point_room && !more_points(f, points)) return false;
-    return vertices <= f->vertex_room || more_vertices(f, vertices);
+    const size_t places = f->tiling->point_count + n, numbers = f->vertex_count + n;
+    if (numbers >= MW_GONE || places >= MW_NONE) return false;
+    if (places > f->point_room + f->free_count && !more_points(f, places - f->free_count)) return false;
+    return numbers <= f->vertex_room || more_vertices(f, numbers);
+}
+
+bool mw__vertex_room(mw_fabric *f, size_t n)
+{
+    bool places = f->tiling->point_count + n <= f->point_room;
+    return MW_LIKELY(places && f->vertex_count + n <= f->vertex_room) || room_for_vertices(f, n);
 }
 
 bool mw__fabric_reserve(mw_fabric *f, size_t n)
@@ -323,21 +328,7 @@ bool mw__fabric_reserve(mw_fabric *f, size_t n)
     mw_tiling *tiling = f->tiling;
     const size_t tiles = 2 * (tiling->point_count + n); /* there are fewer in any triangulation of so many points */
     if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
-    return more_room(f, tiles - tiling->tri_count, true) && room_for_vertices(f, n) && mw__hole_room(f, tiles);
-}
-
-bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex)
-{
-    mw_tiling *tiling = f->tiling;
-    bool room = f->free_count > 0 || tiling->point_count < f->point_room;
-    if (MW_UNLIKELY(!room || f->vertex_count == f->vertex_room) && !room_for_vertices(f, 1)) return false;
-    uint32_t v = f->free_count > 0 ? f->free_place[--f->free_count] : tiling->point_count++;
-    tiling->point[v] = q;
-    tiling->tile_at[v] = MW_NONE;
-    f->vertex_number[v] = f->vertex_count;
-    f->vertex_place[f->vertex_count++] = v;
-    *vertex = v;
-    return true;
+    return more_room(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__hole_room(f, tiles);
 }
 
 bool mw__free_vertex(mw_fabric *f, uint32_t v)

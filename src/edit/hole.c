@@ -76,14 +76,16 @@ static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32
 static MW_INLINE void judge(const mw_fabric *f, mw_point q, uint32_t from, uint32_t apex, mw_step_ahead *step,
                             bool plain)
 {
-    step->apex = MW_NONE;
-    if (is_closed(f, step, plain)) return;
+    if (MW_UNLIKELY(is_closed(f, step, plain))) {
+        step->apex = MW_NONE;
+        return;
+    }
     const mw_sight *a = &f->sight[from], *b = &f->sight[step->end], c = mw__sight_of(f, apex_beyond(f, step), q);
     double bound, det = mw__sights_rounded(b, a, &c, &bound);
     f->sight[apex] = c;
     bool goes = det > 0;
     if (MW_UNLIKELY(!(fabs(det) > bound))) goes = in_circle_exact(f, step->end, from, apex, q);
-    if (goes) step->apex = apex;
+    step->apex = goes ? apex : MW_NONE;
 }
 
 /* The same for two steps one after the other, and two apices. */

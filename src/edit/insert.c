@@ -87,8 +87,10 @@ static bool begin(mw_fabric *f, mw_point q)
 static mw_status make_vertex(mw_fabric *f, mw_point q, uint32_t *vertex, mw_error *error)
 {
     if (*vertex != MW_NONE) return MW_OK;
-    if (f->vertex_count >= MW_GONE - 1) return mw__fail(error, MW_ERROR_LIMIT, "no more numbers for vertices");
-    if (!mw__add_vertex(f, q, vertex)) return mw__fail_memory(error);
+    if (!mw__vertex_room(f, 1))
+        return f->vertex_count >= MW_GONE - 1 ? mw__fail(error, MW_ERROR_LIMIT, "no more numbers for vertices")
+                                              : mw__fail_memory(error);
+    *vertex = mw__add_vertex(f, q);
     if (f->under_way) f->step[f->step_count - 1].vertex = *vertex;
     return MW_OK;
 }
@@ -115,25 +117,21 @@ static mw_status fill(mw_fabric *f, const mw_hole *h, uint32_t *vertex, uint32_t
     const uint32_t v = *vertex;
     uint32_t *pool = f->pool + h->pool;
     mw__add_tiles(f, beside, (uint32_t)more, pool + h->tiles);
+    pool[h->steps] = pool[0];                            /* as if they went all the way round */
+    const bool plain = f->fixed_count == 0 && f->convex; /* no edge is fixed, here or elsewhere */
     mw_triangle *tri = f->tiling->tri;
-    uint32_t *tile_at = f->tiling->tile_at;
-    const mw_rim_step *step = f->rim + h->first, *last = step + h->steps - 1;
-    uint8_t *mark = f->mark;
-    uint32_t first = pool[0], t = first, before = pool[h->steps - 1], from = step->vertex;
-    for (;; step++) { /* as if they went all the way round */
-        const uint32_t after = step < last ? *++pool : first, beyond = step->beyond, to = step[1].vertex;
+    uint32_t *tile_at = f->tiling->tile_at, before = pool[h->steps - 1];
+    const mw_rim_step *step = f->rim + h->first;
+    for (const uint32_t *at = pool, *end = pool + h->steps; at < end; at++, step++) {
+        const uint32_t t = at[0], after = at[1], from = step[0].vertex, to = step[1].vertex, beyond = step->beyond;
         tri[t] = (mw_triangle){
             {from, to, v, from}, {beyond, mw__link(after, 2), mw__link(before, 1)}, tri[t].user & ~MW_FLIPPED};
         if (beyond != MW_NONE) tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = mw__link(t, 0);
-        mark[t] = (uint8_t)((mark[t] & ~MW_FIXED_EDGES) | step->fixed);
-        tile_at[from] = t;
-        if (step == last) break;
-        before = t;
-        t = after;
-        from = to;
+        if (!plain) mw__set_fixed(f, t, step->fixed);
+        tile_at[from] = before = t;
     }
-    tile_at[last[1].vertex] = tile_at[v] = t;
-    *made = (fan){first, t};
+    tile_at[step->vertex] = tile_at[v] = before;
+    *made = (fan){pool[0], before};
     return MW_OK;
 }
 

@@ -46,25 +46,28 @@ static size_t item(const batch *b, size_t i)
     return b->order ? b->order[i] : i;
 }
 
-static mw_edit insertion(const batch *b, size_t i)
+static mw_edit insertion(mw_point p)
 {
-    mw_point p = b->point[item(b, i)];
     return (mw_edit){.kind = MW_EDIT_INSERT, .x = p.x, .y = p.y, .value = NAN};
 }
 
 static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *own, mw_error *error)
 {
+    const mw_fabric *f = &editor->fabric;
+    const uint32_t before = f->vertex_count;
     mw_error why;
     for (size_t i = 0; i < b->n; i++) {
-        const mw_edit edit = insertion(b, i);
-        mw_change one = {.vertex = MW_NONE};
-        mw_status status = mw__editor_insert(editor, &edit, &one, &why);
+        const size_t at = item(b, i);
+        const mw_edit edit = insertion(b->point[at]);
+        uint32_t vertex;
+        mw_status status = mw__editor_insert(editor, &edit, &vertex, &why);
         if (status == MW_ERROR_MEMORY) return mw__fail_memory(error);
-        if (status) return mw__fail(error, status, "point %zu: %s", item(b, i), why.message);
-        if (one.vertex_made && own->vertex_made++ == 0) own->vertex = one.vertex;
-        if (vertices) vertices[item(b, i)] = one.vertex;
+        if (status) return mw__fail(error, status, "point %zu: %s", at, why.message);
+        if (vertices) vertices[at] = vertex;
         mw__upkeep_grow(&editor->upkeep);
     }
+    own->vertex_made = (int)(f->vertex_count - before);
+    if (own->vertex_made > 0) own->vertex = before;
     return MW_OK;
 }
 
@@ -81,7 +84,7 @@ static bool begin(mw_editor *editor, const batch *b, const mw_change *change)
 {
     enum { FEW = 100, TILES_PER_POINT = 4 }; /* that are changed */
     mw_fabric *f = &editor->fabric;
-    const mw_edit first = insertion(b, 0);
+    const mw_edit first = insertion(b->point[item(b, 0)]);
     bool sure = b->n >= FEW && !mw__editor_asks(editor, change) && are_finite(b) && mw__field_room(editor, b->n) &&
                 mw__fabric_reserve(f, b->n);
     if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(f, TILES_PER_POINT * b->n))) return false;
@@ -100,7 +103,7 @@ static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_c
     mw__rim_release(f); /* no edit will need as much */
     if (status && editor->upkeep.refreshes > refreshes) mw__upkeep_rolled_back(&editor->upkeep);
     for (size_t i = 0; i < b->n && !status && editor->keeps_log; i++)
-        editor->log[editor->log_count++] = insertion(b, i);
+        editor->log[editor->log_count++] = insertion(b->point[item(b, i)]);
     return status;
 }
 

@@ -52,8 +52,21 @@ void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir);
 /* Take tiles out of the array; each has been journaled, and none is anyone's neighbour. Sorts the list. */
 bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count);
 
-/* A vertex with a number of its own; the place of one that no tile has any more is free. False when out of memory; then nothing has changed. */
-bool mw__add_vertex(mw_fabric *f, mw_point q, uint32_t *vertex);
+/* Room for n vertices more, and their numbers. False when out of memory or numbers. */
+bool mw__vertex_room(mw_fabric *f, size_t n);
+
+/* A vertex at q, for which there is room, with a number of its own. The place of one that no tile has any more is free. */
+static MW_INLINE uint32_t mw__add_vertex(mw_fabric *f, mw_point q)
+{
+    mw_tiling *tiling = f->tiling;
+    uint32_t v = f->free_count > 0 ? f->free_place[--f->free_count] : tiling->point_count++;
+    tiling->point[v] = q;
+    tiling->tile_at[v] = MW_NONE;
+    f->vertex_number[v] = f->vertex_count;
+    f->vertex_place[f->vertex_count++] = v;
+    return v;
+}
+
 bool mw__free_vertex(mw_fabric *f, uint32_t vertex);
 
 /* Room for so many numbers in the scratch stack (beyond its count). */

@@ -170,18 +170,33 @@ static bool covers(const mw_index *index, mw_point p)
     return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_covers(&index->two_level_grid, p);
 }
 
-/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
-static void note_place(mw_upkeep *u, mw_point p)
+static bool is_there(const mw_fabric *f, uint32_t v)
 {
+    return v < f->tiling->point_count && f->tiling->tile_at[v] != MW_NONE;
+}
+
+static void count_outsiders(mw_upkeep *u, mw_start_kind start, const uint32_t *vertices, uint32_t n)
+{
+    const mw_fabric *f = u->fabric;
+    const mw_index *index = start == MW_START_AUTO ? &u->locator->guide : &u->index[start];
+    for (uint32_t i = 0; i < n; i++)
+        u->since[start].outsiders += is_there(f, vertices[i]) && !covers(index, f->tiling->point[vertices[i]]);
+}
+
+/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
+static void note_places(mw_upkeep *u, const uint32_t *vertices, uint32_t n)
+{
+    const mw_fabric *f = u->fabric;
     double *low = u->locator->low, *high = u->locator->high;
-    for (uint32_t i = 0; i < u->kept_count; i++) {
-        mw_start_kind start = u->kept[i];
-        u->since[start].outsiders += !covers(start == MW_START_AUTO ? &u->locator->guide : &u->index[start], p);
+    for (uint32_t i = 0; i < u->kept_count; i++) count_outsiders(u, u->kept[i], vertices, n);
+    for (uint32_t i = 0; i < n; i++) {
+        if (!is_there(f, vertices[i])) continue;
+        mw_point p = f->tiling->point[vertices[i]];
+        if (p.x < low[0]) low[0] = p.x;
+        if (p.y < low[1]) low[1] = p.y;
+        if (p.x > high[0]) high[0] = p.x;
+        if (p.y > high[1]) high[1] = p.y;
     }
-    if (p.x < low[0]) low[0] = p.x;
-    if (p.y < low[1]) low[1] = p.y;
-    if (p.x > high[0]) high[0] = p.x;
-    if (p.y > high[1]) high[1] = p.y;
 }
 
 /* A tile that there is now, beside one that there was before an edit was undone. */
@@ -217,11 +232,6 @@ static void redirect_names(mw_upkeep *u, const mw_step *step, const mw_before *f
 
 /* --- layers ------------------------------------------------------------------------------------------------------------ */
 
-static bool is_there(const mw_fabric *f, uint32_t v)
-{
-    return v < f->tiling->point_count && f->tiling->tile_at[v] != MW_NONE;
-}
-
 /* What an edit did to a vertex: the layers follow it. */
 static bool follow(mw_upkeep *u, const mw_step *step, uint32_t v)
 {
@@ -238,24 +248,16 @@ static bool follow(mw_upkeep *u, const mw_step *step, uint32_t v)
 
 /* --- after an edit ----------------------------------------------------------------------------------------------------- */
 
-/* One of the vertices that an edit made, or the one that it moved or took out. An insertion where there was one did nothing. */
-static uint32_t followed(const mw_upkeep *u, const mw_step *step, uint32_t i)
-{
-    return step->edit.kind == MW_EDIT_INSERT ? u->fabric->vertex_place[step->vertices + i] : step->vertex;
-}
-
+/* The vertices that an edit made, or the one that it moved or took out: an insertion where there was one did nothing. */
 static void follow_vertices(mw_upkeep *u, const mw_step *step)
 {
-    const mw_fabric *f = u->fabric;
-    uint32_t n = step->edit.kind == MW_EDIT_INSERT ? step->made : step->vertex != MW_NONE;
-    for (uint32_t i = 0; i < n; i++) {
-        uint32_t v = followed(u, step, i);
-        if (is_there(f, v)) note_place(u, f->tiling->point[v]);
-    }
+    bool made = step->edit.kind == MW_EDIT_INSERT;
+    const uint32_t *vertices = made ? u->fabric->vertex_place + step->vertices : &step->vertex;
+    const uint32_t n = made ? step->made : step->vertex != MW_NONE;
+    note_places(u, vertices, n);
     if (!u->live.layers) return;
     bool even = true; /* what is built anew knows all vertices already */
-    for (uint32_t i = 0; i < n && even; i++)
-        even = follow(u, step, followed(u, step, i)) && mw__live_layers_even(&u->live);
+    for (uint32_t i = 0; i < n && even; i++) even = follow(u, step, vertices[i]) && mw__live_layers_even(&u->live);
     if (!even) refresh(u, MW_START_LAYERS);
 }
 
@@ -293,7 +295,7 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
 void mw__upkeep_insertion(mw_upkeep *u, uint32_t v)
 {
     begin(u);
-    if (v != MW_NONE) note_place(u, u->fabric->tiling->point[v]);
+    if (v != MW_NONE) note_places(u, &v, 1);
     end(u, 1);
 }
 
