@@ -332,8 +332,8 @@ static void ask_some(const session *s, const twin *t, readers *r, uint64_t *rand
     }
 }
 
-/* Vertices come and go between the points. */
-static void mix(const session *s, twin *t, uint64_t *random)
+/* Vertices come and go between the points, also in the editor that keeps nothing, if there is one. */
+static void mix(const session *s, twin *t, mw_editor *plain, uint64_t *random)
 {
     for (int i = 0; i < 12; i++) {
         mw_edit e = {.kind = i % 3 ? MW_EDIT_REMOVE : MW_EDIT_MOVE, .value = NAN};
@@ -343,12 +343,26 @@ static void mix(const session *s, twin *t, uint64_t *random)
         e.x = q[0];
         e.y = q[1];
         case_edit = e;
-        twin_apply(t, &e, false);
+        mw_status status = twin_apply(t, &e, false);
+        if (plain) REQUIRE(mw_edit_apply(plain, &e, NULL, NULL) == status);
     }
 }
 
+/* An editor that keeps nothing of its edits, and of which nobody asks what they changed, comes to the same. `t`: after the points. */
+static void insert_plainly(mw_editor *plain, const twin *t, const points *p, const uint32_t *vertices)
+{
+    uint32_t *own = room(p->n, sizeof *own);
+    mw_error error = {0};
+    expect_ok(mw_edit_insert_points(plain, p->at, p->n, p->stride, own, NULL, &error), "plainly", &error);
+    for (size_t i = 0; i < p->n; i++) REQUIRE(own[i] == vertices[i]);
+    twin held = *t;
+    held.editor = plain;
+    check_same(&held);
+    free(own);
+}
+
 /* Insert, take back, insert again: the same numbers. The twin then is as it was, or with the points. */
-static void try_points(const session *s, twin *t, readers *r, const points *p, uint64_t *random)
+static void try_points(const session *s, twin *t, mw_editor *plain, readers *r, const points *p, uint64_t *random)
 {
     twin then = twin_copy(t);
     uint32_t *vertices = room(p->n + 1, sizeof *vertices), *again = room(p->n + 1, sizeof *again);
@@ -369,6 +383,7 @@ static void try_points(const session *s, twin *t, readers *r, const points *p, u
     }
     ask_some(s, t, r, random);
     if (p->n < 50) check_places(t, r);
+    insert_plainly(plain, t, p, vertices);
     twin_close(&then);
     free(vertices);
     free(again);
@@ -389,11 +404,18 @@ static void run_session(const session *s, uint64_t seed)
     case_seed = seed;
     twin_open(&t, mesh, &options);
     readers_open(&r, &t, true, random);
+    mw_editor *plain;
+    options.undo = 0;
+    options.log = 0;
+    mw_error error = {0};
+    expect_ok(mw_editor_create(t.first, &options, &plain, &error), "plain editor", &error);
+    options.undo = SIZE_MAX;
+    options.log = 1;
     for (case_step = 0; case_step < sizeof sizes / sizeof *sizes; case_step++) {
         points p = make_points(s, &t, sizes[case_step], mw__random_below(&random, 2), &random);
-        try_points(s, &t, &r, &p, &random);
+        try_points(s, &t, plain, &r, &p, &random);
         free(p.at);
-        mix(s, &t, &random);
+        mix(s, &t, plain, &random);
         check_replay(&t, &options);
     }
     check_all(&t);
@@ -401,6 +423,7 @@ static void run_session(const session *s, uint64_t seed)
     mw_editor_describe(t.editor, &info);
     print_message("%-40s seed %llu: %u vertices, %zu constraints, %llu refreshes\n", s->name, (unsigned long long)seed,
                   t.vertices, t.fixed_count, (unsigned long long)info.refreshes);
+    mw_editor_destroy(plain);
     twin_close(&t);
     free(edges);
 }
@@ -434,7 +457,7 @@ static void refuse(const session *s, twin *t, readers *r, double x, double y, si
     REQUIRE(log_length(t) == logged && edits_of(t) == edits);
     check_all(t);
     ask_some(s, t, r, random);
-    mix(s, t, random);
+    mix(s, t, NULL, random);
     free(vertices);
     free(p.at);
 }
@@ -604,11 +627,60 @@ static void test_memory(void **state)
     }
 }
 
+/* Where nobody asks all room is made before anything changes, or, where there is not as much, what is changed is recorded: that an allocation
+ * failed need not show, but nothing is done by half. */
+static void test_memory_plain(void **state)
+{
+    (void)state;
+    enum { MANY = 150 };
+    long failures = 0, all_the_same = 0;
+    for (int i = 0; i < SESSIONS; i++) {
+        const session *s = &sessions[i];
+        uint64_t random = mw__random_seed(first_seed(), (uint32_t)i);
+        mw_editor_options options = {.undo = 1, .log = 1, .delaunay = s->delaunay};
+        const mw_editor_options nothing = {.delaunay = s->delaunay};
+        if (s->constraints) continue;
+        twin t;
+        case_name = s->name;
+        case_seed = first_seed();
+        twin_open(&t, first_mesh(s, &random), &options);
+        points p = make_points(s, &t, MANY, i % 2, &random);
+        twin before = twin_copy(&t);
+        uint32_t *vertices = room(MANY + 1, sizeof *vertices), *own = room(MANY, sizeof *own);
+        insert_all(&t, &p, vertices);
+        bool failed = true;
+        for (long k = 0; failed; k++) {
+            mw_editor *plain;
+            mw_error error = {0};
+            expect_ok(mw_editor_create(t.first, &nothing, &plain, &error), s->name, &error);
+            allocations_left = k;
+            mw_status status = mw_edit_insert_points(plain, p.at, p.n, p.stride, own, NULL, &error);
+            failed = allocations_left < 0;
+            allocations_left = -1;
+            REQUIRE(status == MW_OK || (failed && status == MW_ERROR_MEMORY));
+            twin held = status ? before : t;
+            held.editor = plain;
+            check_same(&held);
+            if (!status) REQUIRE(memcmp(own, vertices, MANY * sizeof *own) == 0);
+            failures += status != MW_OK;
+            all_the_same += !status && failed;
+            mw_editor_destroy(plain);
+        }
+        free(vertices);
+        free(own);
+        free(p.at);
+        twin_close(&before);
+        twin_close(&t);
+    }
+    print_message("%ld allocations failed, %ld without showing\n", failures, all_the_same);
+    assert_true(failures > 20 && all_the_same > 50);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_arguments), cmocka_unit_test(test_bytes),  cmocka_unit_test(test_sessions),
-        cmocka_unit_test(test_refused),   cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_refused),   cmocka_unit_test(test_memory), cmocka_unit_test(test_memory_plain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,7 @@ typedef struct mw_editor_options {
     const uint32_t
         *constraints; /* two vertices each: edges of the mesh that are not to be flipped away; as mw_pieces.edge */
     size_t constraint_count;
-    uint32_t threads; /* of mw_editor_mesh and mw_editor_compact; 0 = what OpenMP gives */
+    uint32_t threads; /* of mw_editor_mesh, mw_editor_compact, and of the order of many points; 0 = what OpenMP gives */
     uint32_t reserved[7];
 } mw_editor_options;
 

@@ -15,18 +15,22 @@ typedef struct ends {
     uint32_t *pool, *full; /* no more tiles than up to there, as each brings a step, a step ahead and two sights */
 } ends;
 
+enum {
+    SPARE = 8, /* what a hole without tiles needs                  */
+    FEW = 56   /* tiles for which there is room in any case        */
+};
+
 /* `steps` are ahead at first. */
 static size_t room_besides(const mw_hole *h, size_t steps)
 {
-    enum { SPARE = 8 };
     return h->first + h->pool + steps + SPARE;
 }
 
-/* The second hole is written behind the first: twice, as each takes no tile of the other's. */
+/* The second hole is written behind the first, and takes none of its tiles. */
 bool mw__hole_room(mw_fabric *f, size_t tiles)
 {
     const mw_hole first = {.first = tiles + 3, .pool = tiles};
-    return mw__rim_room(f, room_besides(&first, 3));
+    return mw__rim_room(f, room_besides(&first, 3) + FEW);
 }
 
 static ends begin(const mw_fabric *f, const mw_hole *h, size_t steps, uint32_t sights)
@@ -171,7 +175,6 @@ static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead
 /* Tile t goes: room for what it and its neighbours bring. */
 static MW_INLINE bool begin_with(mw_fabric *f, mw_hole *h, uint32_t t)
 {
-    enum { FEW = 56 };
     if (!mw__rim_room(f, room_besides(h, 3) + FEW) || !mw__journal(f, t)) return false;
     f->pool[h->pool] = t;
     h->tiles = 1;
