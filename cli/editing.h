@@ -34,7 +34,7 @@ typedef struct script {
     script_step *steps;
     size_t count, inserted, located; /* of all steps; of those of these kinds */
     int hinted;                      /* each step is near the one before: to be located from there */
-    int at_once;                     /* all are insertions, in any order                           */
+    int at_once;                     /* all are insertions, known before the first                 */
 } script;
 
 #define EDITING_FAILED (-1.0) /* in the place of seconds */

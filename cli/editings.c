@@ -20,15 +20,11 @@ const contender editors[EDITORS] = {
 const char *editings_task(editing_task task)
 {
     static const char *const names[EDITING_TASKS] = {
-        [EDITING_INSERT] = "insert",
-        [EDITING_INSERT_SORTED] = "insert-sorted",
-        [EDITING_INSERT_MANY] = "insert-many",
-        [EDITING_REMOVE] = "remove",
-        [EDITING_MOVE_NEAR] = "move-near",
-        [EDITING_MOVE_FAR] = "move-far",
-        [EDITING_MIXED] = "mixed",
-        [EDITING_REBUILD] = "rebuild",
-        [EDITING_SESSION] = "session",
+        [EDITING_INSERT] = "insert",           [EDITING_INSERT_SORTED] = "insert-sorted",
+        [EDITING_INSERT_MANY] = "insert-many", [EDITING_INSERT_MANY_SORTED] = "insert-many-sorted",
+        [EDITING_REMOVE] = "remove",           [EDITING_MOVE_NEAR] = "move-near",
+        [EDITING_MOVE_FAR] = "move-far",       [EDITING_MIXED] = "mixed",
+        [EDITING_REBUILD] = "rebuild",         [EDITING_SESSION] = "session",
     };
     return names[task];
 }

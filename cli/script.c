@@ -158,9 +158,9 @@ static int make(maker *m, editing_task task, size_t steps)
     if (!s->points || !s->steps || !m->alive) return fail_memory();
     memcpy(s->points, m->data.points, 2 * s->point_count * sizeof *s->points);
     for (; m->alive_count < s->point_count; m->alive_count++) m->alive[m->alive_count] = (uint32_t)m->alive_count;
-    int end = task == EDITING_INSERT_SORTED ? sort_fresh(m, steps) : task == EDITING_MOVE_NEAR ? find_reach(m) : 0;
-    s->hinted = task == EDITING_INSERT_SORTED;
-    s->at_once = task == EDITING_INSERT_MANY;
+    s->hinted = task == EDITING_INSERT_SORTED || task == EDITING_INSERT_MANY_SORTED;
+    s->at_once = task == EDITING_INSERT_MANY || task == EDITING_INSERT_MANY_SORTED;
+    int end = s->hinted ? sort_fresh(m, steps) : task == EDITING_MOVE_NEAR ? find_reach(m) : 0;
     if (end == 0) write_steps(m, task, steps);
     return end;
 }

@@ -10,17 +10,18 @@
 
 /* What is measured; the first ones are scripts. */
 typedef enum editing_task {
-    EDITING_INSERT,        /* points in random order        */
-    EDITING_INSERT_SORTED, /* points along a Hilbert curve */
-    EDITING_INSERT_MANY,   /* points in random order, given at once */
-    EDITING_REMOVE,        /* random vertices        */
-    EDITING_MOVE_NEAR,     /* random vertices, each a tenth of the mean length of its
+    EDITING_INSERT,             /* points in random order        */
+    EDITING_INSERT_SORTED,      /* points along a Hilbert curve */
+    EDITING_INSERT_MANY,        /* points in random order, given at once */
+    EDITING_INSERT_MANY_SORTED, /* points along a Hilbert curve, given at once */
+    EDITING_REMOVE,             /* random vertices        */
+    EDITING_MOVE_NEAR,          /* random vertices, each a tenth of the mean length of its
                         edges               */
-    EDITING_MOVE_FAR,      /* random vertices, each to the place of another point  */
-    EDITING_MIXED,         /* in turn: a point inserted, a vertex removed, a place
+    EDITING_MOVE_FAR,           /* random vertices, each to the place of another point  */
+    EDITING_MIXED,              /* in turn: a point inserted, a vertex removed, a place
                         located, all at random */
-    EDITING_REBUILD,       /* trees built anew after some edits   */
-    EDITING_SESSION,       /* location during a long session   */
+    EDITING_REBUILD,            /* trees built anew after some edits   */
+    EDITING_SESSION,            /* location during a long session   */
     EDITING_TASKS
 } editing_task;
 

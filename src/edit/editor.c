@@ -244,14 +244,14 @@ static __attribute__((noinline)) mw_status insert_with_values(mw_editor *editor,
     return MW_OK;
 }
 
-mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t *vertex, mw_error *error)
+mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error)
 {
     mw_fabric *f = &editor->fabric;
     const mw_point q = {edit->x, edit->y};
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     if (editor->view.field_count > 0) return insert_with_values(editor, edit, vertex, error);
     uint32_t place = MW_NONE;
-    mw_status status = mw__fabric_insert(f, q, first_tile(editor, f->last, q), &place, error);
+    mw_status status = mw__fabric_insert(f, q, t == MW_NONE ? first_tile(editor, f->last, q) : t, &place, error);
     if (!status) *vertex = f->vertex_number[place];
     return status;
 }
@@ -259,7 +259,7 @@ mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t *ve
 static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     const uint32_t before = editor->fabric.vertex_count;
-    mw_status status = mw__editor_insert(editor, edit, &change->vertex, error);
+    mw_status status = mw__editor_insert(editor, edit, MW_NONE, &change->vertex, error);
     change->vertex_made = editor->fabric.vertex_count > before;
     return status;
 }

@@ -33,9 +33,9 @@ static MW_INLINE bool mw__editor_asks(const mw_editor *editor, const mw_change *
     return change || editor->undo > 0 || mw__upkeep_asks(&editor->upkeep);
 }
 
-/* One insertion, within the step under way if there is one; *vertex is set to the number of the vertex there. Errors as mw_edit_apply; then the step
- * is to be rolled back. */
-mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t *vertex, mw_error *error);
+/* One insertion, within the step under way if there is one; *vertex is set to the number of the vertex there. `t`: a tile to begin at, MW_NONE: which
+ * is to be chosen. Errors as mw_edit_apply; then the step is to be rolled back. */
+mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error);
 
 /* After the operations of the step under way, or an insertion that was none, which had this outcome: all or nothing. `change` may be NULL, or is filled: with `own`, and the
  * triangles. */

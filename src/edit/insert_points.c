@@ -1,10 +1,22 @@
-/* insert_points.c - many points at once: one step, whose journal has each tile once. */
+/* insert_points.c - many points at once: one step, whose journal has each tile once, or which needs none. */
 #include "edit/editor.h"
 #include "edit/rim.h"
 
 #include "mesh/curve.h"
 
 #include <stdlib.h>
+
+/* Points, and the order in which they go in: NULL is that in which they are given. */
+typedef struct batch {
+    const mw_point *point;
+    size_t n;
+    uint32_t *order;
+} batch;
+
+static size_t item(const batch *b, size_t i)
+{
+    return b->order ? b->order[i] : i;
+}
 
 /* --- in which order ----------------------------------------------------------------------------------------------------- */
 
@@ -33,18 +45,82 @@ static bool choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t
     return *order && mw__curve_order(p, (uint32_t)n, threads, *order);
 }
 
-/* --- one step ----------------------------------------------------------------------------------------------------------- */
+/* --- looking ahead ------------------------------------------------------------------------------------------------------- */
 
-typedef struct batch {
-    const mw_point *point;
-    size_t n;
-    uint32_t *order;
-} batch;
+/* While a point goes in, memory is asked for what the next ones will meet: first the tile that the guide names, then its corners and neighbours, then
+ * what lies beyond those. Points that go in do not move tiles, so a name stays good. */
+enum {
+    AHEAD = 16,  /* points of which a place in memory is asked for  */
+    NAMED = 12,  /* those whose first tile is                       */
+    CORNERS = 8, /* its corners and neighbours                      */
+    BEYOND = 4   /* and theirs                                      */
+};
 
-static size_t item(const batch *b, size_t i)
+typedef struct outlook {
+    const batch *points;
+    const mw_locator *locator;
+    bool used;
+    uint32_t first[AHEAD]; /* where to begin for point i: first[i % AHEAD] */
+} outlook;
+
+static void fetch_tile(const mw_tiling *tiling, uint32_t link)
 {
-    return b->order ? b->order[i] : i;
+    if (link != MW_NONE) __builtin_prefetch(&tiling->tri[mw__link_triangle(link)]);
 }
+
+static void name_first(outlook *o, size_t i)
+{
+    const mw_tiling *tiling = &o->locator->tiling;
+    uint32_t t = o->first[i % AHEAD] = mw__index_tile(tiling, &o->locator->guide, o->points->point[item(o->points, i)]);
+    __builtin_prefetch(&tiling->tri[t]);
+}
+
+static void fetch_corners(const outlook *o, size_t i)
+{
+    const mw_tiling *tiling = &o->locator->tiling;
+    const mw_triangle *tile = &tiling->tri[o->first[i % AHEAD]];
+    for (int k = 0; k < 3; k++) {
+        __builtin_prefetch(&tiling->point[tile->v[k]]);
+        fetch_tile(tiling, tile->link[k]);
+    }
+}
+
+static void fetch_beyond(const outlook *o, size_t i)
+{
+    const mw_tiling *tiling = &o->locator->tiling;
+    const mw_triangle *tile = &tiling->tri[o->first[i % AHEAD]];
+    for (int k = 0; k < 3; k++) {
+        if (tile->link[k] == MW_NONE) continue;
+        const mw_triangle *other = &tiling->tri[mw__link_triangle(tile->link[k])];
+        uint32_t e = mw__link_edge(tile->link[k]);
+        __builtin_prefetch(&tiling->point[other->v[mw__prev(e)]]);
+        fetch_tile(tiling, other->link[mw__next(e)]);
+        fetch_tile(tiling, other->link[mw__prev(e)]);
+    }
+}
+
+/* Where there is no guide, or points are so many that each lies in a tile of the one before, or beside it, there is nothing to look for. */
+static void begin_outlook(outlook *o, const mw_editor *editor, const batch *b)
+{
+    const mw_locator *locator = &editor->locator;
+    bool used = locator->guide.start != MW_START_AUTO && b->n < editor->fabric.vertex_count;
+    *o = (outlook){.points = b, .locator = locator, .used = used};
+    for (size_t i = 0; used && i < NAMED && i < b->n; i++) name_first(o, i);
+}
+
+/* Before point i goes in: a tile to begin at; MW_NONE: any. */
+static MW_INLINE uint32_t look_ahead(outlook *o, size_t i)
+{
+    const size_t n = o->points->n;
+    if (!o->used) return MW_NONE;
+    if (i + AHEAD < n) __builtin_prefetch(&o->points->point[item(o->points, i + AHEAD)]);
+    if (i + NAMED < n) name_first(o, i + NAMED);
+    if (i + CORNERS < n) fetch_corners(o, i + CORNERS);
+    if (i + BEYOND < n) fetch_beyond(o, i + BEYOND);
+    return o->first[i % AHEAD];
+}
+
+/* --- one step ----------------------------------------------------------------------------------------------------------- */
 
 static mw_edit insertion(mw_point p)
 {
@@ -56,11 +132,13 @@ static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertice
     const mw_fabric *f = &editor->fabric;
     const uint32_t before = f->vertex_count;
     mw_error why;
+    outlook o;
+    begin_outlook(&o, editor, b);
     for (size_t i = 0; i < b->n; i++) {
         const size_t at = item(b, i);
         const mw_edit edit = insertion(b->point[at]);
         uint32_t vertex;
-        mw_status status = mw__editor_insert(editor, &edit, &vertex, &why);
+        mw_status status = mw__editor_insert(editor, &edit, look_ahead(&o, i), &vertex, &why);
         if (status == MW_ERROR_MEMORY) return mw__fail_memory(error);
         if (status) return mw__fail(error, status, "point %zu: %s", at, why.message);
         if (vertices) vertices[at] = vertex;

@@ -5,7 +5,7 @@
 . "$(dirname "$0")/driver.sh"
 header=$'task\tdataset\tvertices\tedits\tengine\tns\ttriangles\tbytes\twrong\tratio'
 small=(--rounds 2 --format tsv)
-scripts=insert,insert-sorted,insert-many,remove,move-near,move-far,mixed
+scripts=insert,insert-sorted,insert-many,insert-many-sorted,remove,move-near,move-far,mixed
 own=meshwalk,meshwalk-layers,meshwalk-grid
 
 # The machine, the names of the columns, and so many rows of ten cells.
@@ -21,13 +21,13 @@ sound() { # sound ROWS
 }
 column() { tail -n +3 "$logs/out" | cut -f "$1" | sort -u | tr '\n' ' '; }
 
-run bench edit uniform --sizes 300 --tasks $scripts --engines $own "${small[@]}"; exits 0; says_nothing; sound 21
-holds "the tasks" test "$(column 1)" == 'insert insert-many insert-sorted mixed move-far move-near remove '
+run bench edit uniform --sizes 300 --tasks $scripts --engines $own "${small[@]}"; exits 0; says_nothing; sound 24
+holds "the tasks" test "$(column 1)" == 'insert insert-many insert-many-sorted insert-sorted mixed move-far move-near remove '
 holds "half as many edits as vertices" test "$(column 2,3,4)" == $'uniform\t300\t150 '
 run bench edit clusters,gaussian,arcs,rectangle --sizes 100,1000 --queries 40 --tasks $scripts --engines $own "${small[@]}"
-exits 0; says_nothing; sound 168
+exits 0; says_nothing; sound 192
 holds "as many edits as were asked for" test "$(column 4)" == '40 '
-run bench edit uniform --sizes 10 --tasks $scripts --engines $own "${small[@]}"; exits 0; sound 21
+run bench edit uniform --sizes 10 --tasks $scripts --engines $own "${small[@]}"; exits 0; sound 24
 # Peers that are there take part, those that are not are told.
 run bench edit uniform --sizes 2000 --tasks $scripts "${small[@]}" -q; exits 0; says_nothing
 sound $(($(wc -l <"$logs/out") - 2))
