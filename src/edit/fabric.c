@@ -224,21 +224,13 @@ bool mw__journal_room(mw_fabric *f, size_t more)
 
 /* --- tiles and vertices come and go ----------------------------------------------------------------------------------- */
 
-/* Room for n more tiles, and numbers of the user's. */
-static __attribute__((noinline)) bool more_room(mw_fabric *f, size_t n, bool users)
+bool mw__more_tiles(mw_fabric *f, size_t n, bool users)
 {
     const mw_tiling *tiling = f->tiling;
     if (n > MW_MAX_TRIANGLES - tiling->tri_count || (users && n > MW_USER_MASK - tiling->number_count)) return false;
     const size_t tiles = tiling->tri_count + n, numbers = tiling->number_count + n;
     if (users && numbers > f->number_room && !more_numbers(f, numbers)) return false;
     return tiles <= f->tile_room || more_tiles(f, tiles);
-}
-
-bool mw__tile_room(mw_fabric *f, uint32_t beside, size_t n)
-{
-    const mw_tiling *tiling = f->tiling;
-    bool room = tiling->tri_count + n <= f->tile_room && tiling->number_count + n <= f->number_room;
-    return MW_LIKELY(room) || more_room(f, n, mw__is_users(f, beside));
 }
 
 void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles)
@@ -309,7 +301,7 @@ static bool more_vertices(mw_fabric *f, size_t least)
     return true;
 }
 
-static __attribute__((noinline)) bool room_for_vertices(mw_fabric *f, size_t n)
+bool mw__more_vertices(mw_fabric *f, size_t n)
 {
     const size_t places = f->tiling->point_count + n, numbers = f->vertex_count + n;
     if (numbers >= MW_GONE || places >= MW_NONE) return false;
@@ -317,18 +309,12 @@ static __attribute__((noinline)) bool room_for_vertices(mw_fabric *f, size_t n)
     return numbers <= f->vertex_room || more_vertices(f, numbers);
 }
 
-bool mw__vertex_room(mw_fabric *f, size_t n)
-{
-    bool places = f->tiling->point_count + n <= f->point_room;
-    return MW_LIKELY(places && f->vertex_count + n <= f->vertex_room) || room_for_vertices(f, n);
-}
-
 bool mw__fabric_reserve(mw_fabric *f, size_t n)
 {
     mw_tiling *tiling = f->tiling;
     const size_t tiles = 2 * (tiling->point_count + n); /* there are fewer in any triangulation of so many points */
     if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
-    return more_room(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__hole_room(f, tiles);
+    return mw__more_tiles(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__hole_room(f, tiles);
 }
 
 bool mw__free_vertex(mw_fabric *f, uint32_t v)

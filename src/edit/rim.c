@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool mw__rim_room(mw_fabric *f, size_t steps)
+bool mw__rim_enlarge(mw_fabric *f, size_t steps)
 {
-    if (steps <= f->rim_room) return true;
     size_t room = steps + steps / 2 + 16;
     mw_rim_step *rim = mw__realloc(f->rim, room, sizeof *rim);
     if (!rim) return false;

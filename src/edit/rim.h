@@ -96,7 +96,11 @@ typedef struct mw_star {
 bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star);
 
 /* Room for so many steps in f->rim and f->ahead, tiles in f->pool, and twice as many sights. */
-bool mw__rim_room(mw_fabric *f, size_t steps);
+bool mw__rim_enlarge(mw_fabric *f, size_t steps);
+static MW_INLINE bool mw__rim_room(mw_fabric *f, size_t steps)
+{
+    return MW_LIKELY(steps <= f->rim_room) || mw__rim_enlarge(f, steps);
+}
 void mw__rim_release(mw_fabric *f);
 size_t mw__rim_bytes(const mw_fabric *f);
 

@@ -22,7 +22,13 @@ static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
 }
 
 /* Room for n tiles more, and for their numbers if they are the user's, as tile `beside` is. False when out of memory or numbers. */
-bool mw__tile_room(mw_fabric *f, uint32_t beside, size_t n);
+bool mw__more_tiles(mw_fabric *f, size_t n, bool users);
+static MW_INLINE bool mw__tile_room(mw_fabric *f, uint32_t beside, size_t n)
+{
+    const mw_tiling *tiling = f->tiling;
+    bool room = tiling->tri_count + n <= f->tile_room && tiling->number_count + n <= f->number_room;
+    return MW_LIKELY(room) || mw__more_tiles(f, n, mw__is_users(f, beside));
+}
 
 /* n ghosts at the end of the array, for which there is room, all with the same number; as below. */
 void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles);
@@ -53,7 +59,12 @@ void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir);
 bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count);
 
 /* Room for n vertices more, and their numbers. False when out of memory or numbers. */
-bool mw__vertex_room(mw_fabric *f, size_t n);
+bool mw__more_vertices(mw_fabric *f, size_t n);
+static MW_INLINE bool mw__vertex_room(mw_fabric *f, size_t n)
+{
+    bool places = f->tiling->point_count + n <= f->point_room;
+    return MW_LIKELY(places && f->vertex_count + n <= f->vertex_room) || mw__more_vertices(f, n);
+}
 
 /* A vertex at q, for which there is room, with a number of its own. The place of one that no tile has any more is free. */
 static MW_INLINE uint32_t mw__add_vertex(mw_fabric *f, mw_point q)
