@@ -116,7 +116,7 @@ MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t verte
 
 /* Insert n points as one edit, quicker than one by one. They go in in the order in which they come where that is along a curve, each near the
  * one before, and along a Hilbert curve otherwise; mesh and numbers are those that insertions in that order lead to. It is one edit to undo,
- * and n in the log. Fields are interpolated.
+ * and n in the log. Fields are interpolated. Quickest where nobody asks what changed: `change` NULL, no undo, no index but the guide.
  *   points    x and y of each, `stride` doubles from one to the next (0: 2)
  *   vertices  NULL, or n numbers: the vertex at each point
  * change->vertex is the first of the new vertices, which have numbers one after another; MW_NONE if there was a vertex at each point. If
