@@ -158,9 +158,10 @@ static bool are_finite(const batch *b)
 
 /* Begin the step. Where nobody asks, and there is room for all that may be met, nothing can fail, and nothing has to be recorded. Room that is not
  * used takes addresses only, but time: more than a few records would. */
+enum { FEW = 100 };
 static bool begin(mw_editor *editor, const batch *b, const mw_change *change)
 {
-    enum { FEW = 100, TILES_PER_POINT = 4 }; /* that are changed */
+    enum { TILES_PER_POINT = 4 }; /* that are changed */
     mw_fabric *f = &editor->fabric;
     const mw_edit first = insertion(b->point[item(b, 0)]);
     bool sure = b->n >= FEW && !mw__editor_asks(editor, change) && are_finite(b) && mw__field_room(editor, b->n) &&
@@ -178,7 +179,7 @@ static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_c
     f->step[f->step_count - 1].edits = b->n;
     mw_status status = insert_all(editor, b, vertices, &own, error);
     status = mw__editor_conclude(editor, status, &own, change, error);
-    mw__rim_release(f); /* no edit will need as much */
+    if (b->n >= FEW) mw__rim_release(f); /* no edit will need as much */
     if (status && editor->upkeep.refreshes > refreshes) mw__upkeep_rolled_back(&editor->upkeep);
     for (size_t i = 0; i < b->n && !status && editor->keeps_log; i++)
         editor->log[editor->log_count++] = insertion(b->point[item(b, i)]);
