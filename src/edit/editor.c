@@ -226,6 +226,29 @@ static uint32_t first_tile(mw_editor *editor, uint32_t near, mw_point q)
     return mw__first_tile(&editor->locator, cursor, near, q, &cursor->random, NULL);
 }
 
+/* The same for an insertion. The guide leads near as a rule, and to ask whether the last insertion was nearer would cost more than it saves; but where
+ * many vertices have come into a cell it does not. */
+static uint32_t first_tile_for(mw_editor *editor, mw_point q)
+{
+    const mw_locator *locator = &editor->locator;
+    const uint32_t last = editor->fabric.last;
+    if (MW_LIKELY(locator->guide.start != MW_START_AUTO && !editor->astray))
+        return mw__index_tile(&locator->tiling, &locator->guide, q);
+    editor->astray = editor->astray && mw__is_close(locator, last, q);
+    return first_tile(editor, last, q);
+}
+
+/* To put a vertex at q into a mesh without fields. */
+static mw_status insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *place, mw_error *error)
+{
+    enum { FAR = 8 };
+    mw_fabric *f = &editor->fabric;
+    if (t != MW_NONE) return mw__fabric_insert(f, q, t, place, error);
+    mw_status status = mw__fabric_insert(f, q, first_tile_for(editor, q), place, error);
+    editor->astray |= f->walked > FAR;
+    return status;
+}
+
 static __attribute__((noinline)) mw_status insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t *vertex,
                                                               mw_error *error)
 {
@@ -251,7 +274,7 @@ mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, 
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     if (editor->view.field_count > 0) return insert_with_values(editor, edit, vertex, error);
     uint32_t place = MW_NONE;
-    mw_status status = mw__fabric_insert(f, q, t == MW_NONE ? first_tile(editor, f->last, q) : t, &place, error);
+    mw_status status = insert_at(editor, q, t, &place, error);
     if (!status) *vertex = f->vertex_number[place];
     return status;
 }
@@ -348,11 +371,6 @@ mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_chan
         return status;
     }
     mw__editor_look(editor);
-    if (!f->under_way) {
-        editor->edits++;
-        mw__upkeep_insertion(&editor->upkeep, own->vertex_made ? f->vertex_place[own->vertex] : MW_NONE);
-        return MW_OK;
-    }
     mw__fabric_commit(f);
     if (editor->undoable < editor->undo) editor->undoable++;
     editor->edits += f->step[f->step_count - 1].edits;
@@ -365,14 +383,31 @@ mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_chan
     return MW_OK;
 }
 
+/* An insertion about which nobody will ask is a step only if it becomes one (mw__fabric_insert). */
+static mw_status insert_unasked(mw_editor *editor, const mw_edit *edit, mw_error *error)
+{
+    mw_fabric *f = &editor->fabric;
+    const uint32_t before = f->vertex_count;
+    uint32_t vertex;
+    mw_status status = mw__editor_insert(editor, edit, MW_NONE, &vertex, error);
+    if (MW_UNLIKELY(status || f->under_way)) {
+        const mw_change own = {.vertex = MW_NONE};
+        return mw__editor_conclude(editor, status, &own, NULL, error);
+    }
+    mw__editor_look(editor);
+    editor->edits++;
+    mw__upkeep_insertion(&editor->upkeep, f->vertex_count > before ? f->vertex_place[vertex] : MW_NONE);
+    return MW_OK;
+}
+
 mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
+    if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log && !mw__editor_asks(editor, change))
+        return insert_unasked(editor, edit, error);
     const mw_edit copy = *edit; /* it may stand in the log, which grows */
     mw_change own = {.vertex = MW_NONE};
-    bool asked = edit->kind != MW_EDIT_INSERT || mw__editor_asks(editor, change);
-    if (!mw__log_room(editor, 1) || (asked && !mw__fabric_begin(&editor->fabric, &copy, true)))
-        return mw__fail_memory(error);
+    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy, true)) return mw__fail_memory(error);
     mw_status status = mw__editor_conclude(editor, carry_out(editor, &copy, &own, error), &own, change, error);
     if (status) return status;
     if (editor->keeps_log) editor->log[editor->log_count++] = copy;

@@ -14,6 +14,7 @@ struct mw_editor {
     size_t field_room; /* values of each field there is room for                        */
     mw_upkeep upkeep;
     mw_cursor cursor; /* finds where to insert */
+    bool astray;      /* the guide leads there by a long way, see first_tile_for */
     bool keeps_log;
     uint32_t threads; /* as in the options */
     size_t undo, undoable;
@@ -37,8 +38,8 @@ static MW_INLINE bool mw__editor_asks(const mw_editor *editor, const mw_change *
  * is to be chosen, as it is where values are interpolated, which finds the place first. Errors as mw_edit_apply; then the step is to be rolled back. */
 mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error);
 
-/* After the operations of the step under way, or an insertion that was none, which had this outcome: all or nothing. `change` may be NULL, or is
- * filled: with `own`, and the triangles. */
+/* After the operations of the step under way, which had this outcome: all or nothing. `change` may be NULL, or is filled: with `own`, and the
+ * triangles. An insertion that failed before it was a step is taken, too. */
 mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
                               mw_error *error);
 

@@ -63,9 +63,9 @@ static MW_INLINE bool is_closed(const mw_fabric *f, const mw_step_ahead *step, b
 }
 
 /* The vertex of the tile beyond a step across from it. */
-static MW_INLINE uint32_t apex_beyond(const mw_fabric *f, const mw_step_ahead *step)
+static MW_INLINE uint32_t apex_beyond(const mw_triangle *tri, uint32_t beyond)
 {
-    return f->tiling->tri[mw__link_triangle(step->beyond)].v[mw__prev(mw__link_edge(step->beyond))];
+    return tri[mw__link_triangle(beyond)].v[mw__prev(mw__link_edge(beyond))];
 }
 
 static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32_t a, uint32_t b, uint32_t c,
@@ -77,34 +77,42 @@ static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32
 }
 
 /* Does the tile beyond a step from f->sight[from] on go? Its apex is made f->sight[apex]. */
-static MW_INLINE void judge(const mw_fabric *f, mw_point q, uint32_t from, uint32_t apex, mw_step_ahead *step,
-                            bool plain)
+static MW_INLINE bool goes(const mw_fabric *f, mw_point q, uint32_t from, const mw_step_ahead *step, uint32_t apex,
+                           bool plain)
 {
-    if (MW_UNLIKELY(is_closed(f, step, plain))) {
-        step->apex = MW_NONE;
-        return;
-    }
-    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end], c = mw__sight_of(f, apex_beyond(f, step), q);
+    if (MW_UNLIKELY(is_closed(f, step, plain))) return false;
+    const uint32_t v = apex_beyond(f->tiling->tri, step->beyond);
+    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end], c = mw__sight_of(f, v, q);
     double bound, det = mw__sights_rounded(b, a, &c, &bound);
     f->sight[apex] = c;
-    bool goes = det > 0;
-    if (MW_UNLIKELY(!(fabs(det) > bound))) goes = in_circle_exact(f, step->end, from, apex, q);
-    step->apex = goes ? apex : MW_NONE;
+    if (MW_UNLIKELY(!(fabs(det) > bound))) return in_circle_exact(f, step->end, from, apex, q);
+    return det > 0;
+}
+
+typedef struct two_go {
+    bool one, two;
+} two_go;
+
+static __attribute__((noinline)) two_go each_goes(const mw_fabric *f, mw_point q, uint32_t from, mw_step_ahead one,
+                                                  mw_step_ahead two, uint32_t apex, bool plain)
+{
+    two_go go = {.one = goes(f, q, from, &one, apex, plain)};
+    go.two = goes(f, q, one.end, &two, apex + 1, plain);
+    return go;
 }
 
 /* The same for two steps one after the other, and two apices. */
-static MW_INLINE void judge_two(const mw_fabric *f, mw_point q, uint32_t from, uint32_t apex, mw_step_ahead *one,
-                                mw_step_ahead *two, bool plain)
+static MW_INLINE two_go both_go(const mw_fabric *f, mw_point q, uint32_t from, const mw_step_ahead *one,
+                                const mw_step_ahead *two, uint32_t apex, bool plain)
 {
     static const pair error = {MW_SIGHTS_ERROR, MW_SIGHTS_ERROR}, least = {MW_UNDERFLOW_ERROR, MW_UNDERFLOW_ERROR};
-    if (MW_UNLIKELY(is_closed(f, one, plain) || is_closed(f, two, plain))) {
-        judge(f, q, from, apex, one, plain);
-        judge(f, q, one->end, apex + 1, two, plain);
-        return;
-    }
-    const uint32_t v1 = apex_beyond(f, one), v2 = apex_beyond(f, two);
+    if (MW_UNLIKELY(is_closed(f, one, plain) || is_closed(f, two, plain)))
+        return each_goes(f, q, from, *one, *two, apex, plain);
+    const mw_triangle *tri = f->tiling->tri;
+    mw_sight *sight = f->sight;
+    const uint32_t v1 = apex_beyond(tri, one->beyond), v2 = apex_beyond(tri, two->beyond);
     const mw_point *p1 = &f->tiling->point[v1], *p2 = &f->tiling->point[v2];
-    const mw_sight *a = &f->sight[from], *b = &f->sight[one->end], *c = &f->sight[two->end];
+    const mw_sight *a = &sight[from], *b = &sight[one->end], *c = &sight[two->end];
     const pair here = {q.x, q.y}, to1 = (pair){p1->x, p1->y} - here, to2 = (pair){p2->x, p2->y} - here;
     const pair x = {to1[0], to2[0]}, y = {to1[1], to2[1]}, lift = x * x + y * y;
     const pair from_x = {a->x, b->x}, from_y = {a->y, b->y}, from_lift = {a->lift, b->lift};
@@ -112,26 +120,23 @@ static MW_INLINE void judge_two(const mw_fabric *f, mw_point q, uint32_t from, u
     const pair lifts = from_lift + end_lift + lift, bound = lifts * lifts * error + least;
     const pair det = end_lift * (from_x * y - from_y * x) + from_lift * (x * end_y - y * end_x) +
                      lift * (end_x * from_y - end_y * from_x);
-    f->sight[apex] = (mw_sight){to1[0], to1[1], lift[0], v1};
-    f->sight[apex + 1] = (mw_sight){to2[0], to2[1], lift[1], v2};
-    bool goes1 = det[0] > 0, goes2 = det[1] > 0;
-    if (MW_UNLIKELY(!(fabs(det[0]) > bound[0]))) goes1 = in_circle_exact(f, one->end, from, apex, q);
-    if (MW_UNLIKELY(!(fabs(det[1]) > bound[1]))) goes2 = in_circle_exact(f, two->end, one->end, apex + 1, q);
-    one->apex = goes1 ? apex : MW_NONE;
-    two->apex = goes2 ? apex + 1 : MW_NONE;
+    sight[apex] = (mw_sight){to1[0], to1[1], lift[0], v1};
+    sight[apex + 1] = (mw_sight){to2[0], to2[1], lift[1], v2};
+    two_go go = {det[0] > 0, det[1] > 0};
+    if (MW_UNLIKELY(!(fabs(det[0]) > bound[0]))) go.one = in_circle_exact(f, one->end, from, apex, q);
+    if (MW_UNLIKELY(!(fabs(det[1]) > bound[1]))) go.two = in_circle_exact(f, two->end, one->end, apex + 1, q);
+    return go;
 }
 
 /* --- along the boundary ------------------------------------------------------------------------------------------------- */
 
-/* The two steps in place of one across which a tile went, or across which q lies: edges `next` and `prev` of that tile. */
-static MW_INLINE void part(const mw_fabric *f, uint32_t half, uint32_t apex, uint32_t end, mw_step_ahead *one,
-                           mw_step_ahead *two, bool plain)
+/* Number by number, since to read at once what was just written in parts would take until that has left for the cache. */
+static MW_INLINE void put(mw_step_ahead *to, const mw_step_ahead *step, bool plain)
 {
-    uint32_t t = mw__link_triangle(half), e = mw__link_edge(half), next = mw__next(e), prev = mw__prev(e);
-    uint32_t fixed = plain ? 0 : f->mark[t];
-    const uint32_t *link = f->tiling->tri[t].link;
-    *two = (mw_step_ahead){.end = end, .beyond = link[prev], .fixed = fixed >> prev & 1};
-    *one = (mw_step_ahead){.end = apex, .beyond = link[next], .fixed = fixed >> next & 1};
+    to->end = step->end;
+    to->beyond = step->beyond;
+    to->apex = step->apex;
+    if (!plain) to->fixed = step->fixed;
 }
 
 /* From f->sight[from] on: `step`, and after it those of f->ahead, `steps` of them, the last one first. */
@@ -143,25 +148,29 @@ static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead
     ends at = begin(f, h, steps, sights);
     for (;;) {
         while (step.apex != MW_NONE) {
-            const uint32_t t = mw__link_triangle(step.beyond);
-            mw_step_ahead one, two;
+            const uint32_t t = mw__link_triangle(step.beyond), e = mw__link_edge(step.beyond), next = mw__next(e),
+                           prev = mw__prev(e), fixed = plain ? 0 : f->mark[t];
+            const uint32_t *link = f->tiling->tri[t].link;
             if (MW_UNLIKELY(at.pool >= at.full)) at = widen(f, h, steps, at);
             if (MW_UNLIKELY(at.pool >= at.full)) return false;
-            if (!mw__journal(f, t)) return false;
             *at.pool++ = t;
-            part(f, step.beyond, step.apex, step.end, &one, &two, plain);
-            judge_two(f, q, from, at.sights, &one, &two, plain);
+            mw_step_ahead one = {.end = step.apex, .beyond = link[next], .fixed = fixed >> next & 1},
+                          two = {.end = step.end, .beyond = link[prev], .fixed = fixed >> prev & 1};
+            const two_go go = both_go(f, q, from, &one, &two, at.sights, plain);
+            two.apex = go.two ? at.sights + 1 : MW_NONE;
+            put(at.ahead++, &two, plain);
+            one.apex = at.sights;
+            put(&step, &one, plain);
             at.sights += 2;
-            *at.ahead++ = two;
-            step = one;
+            if (!go.one) break;
         }
         at.rim->vertex = at.sight[from].vertex;
         at.rim->beyond = step.beyond;
-        at.rim->fixed = !plain && step.fixed;
+        if (!plain) at.rim->fixed = step.fixed;
         at.rim++;
         from = step.end;
         if (at.ahead == f->ahead) break;
-        step = *--at.ahead;
+        put(&step, --at.ahead, plain);
     }
     at.rim->vertex = at.sight[from].vertex;
     h->steps = (size_t)(at.rim - f->rim) - h->first;
@@ -175,7 +184,7 @@ static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead
 /* Tile t goes: room for what it and its neighbours bring. */
 static MW_INLINE bool begin_with(mw_fabric *f, mw_hole *h, uint32_t t)
 {
-    if (!mw__rim_room(f, room_besides(h, 3) + FEW) || !mw__journal(f, t)) return false;
+    if (!mw__rim_room(f, room_besides(h, 3) + FEW)) return false;
     f->pool[h->pool] = t;
     h->tiles = 1;
     return true;
@@ -184,14 +193,16 @@ static MW_INLINE bool begin_with(mw_fabric *f, mw_hole *h, uint32_t t)
 static MW_INLINE bool dig_tile(mw_fabric *f, mw_hole *h, uint32_t t, bool plain)
 {
     const uint32_t *link = f->tiling->tri[t].link, fixed = plain ? 0 : f->mark[t];
-    mw_step_ahead step[3] = {{.end = 1, .beyond = link[0], .fixed = fixed & 1},
-                             {.end = 2, .beyond = link[1], .fixed = fixed >> 1 & 1},
-                             {.end = 0, .beyond = link[2], .fixed = fixed >> 2 & 1}};
-    judge_two(f, h->q, 0, 3, &step[0], &step[1], plain);
-    judge(f, h->q, 2, 5, &step[2], plain);
-    f->ahead[0] = step[2];
-    f->ahead[1] = step[1];
-    return dig(f, h, 0, step[0], 2, 6, plain);
+    mw_step_ahead one = {.end = 1, .beyond = link[0], .fixed = fixed & 1},
+                  two = {.end = 2, .beyond = link[1], .fixed = fixed >> 1 & 1},
+                  three = {.end = 0, .beyond = link[2], .fixed = fixed >> 2 & 1};
+    const two_go go = both_go(f, h->q, 0, &one, &two, 3, plain);
+    one.apex = go.one ? 3 : MW_NONE;
+    two.apex = go.two ? 4 : MW_NONE;
+    three.apex = goes(f, h->q, 2, &three, 5, plain) ? 5 : MW_NONE;
+    put(&f->ahead[0], &three, plain);
+    put(&f->ahead[1], &two, plain);
+    return dig(f, h, 0, one, 2, 6, plain);
 }
 
 bool mw__dig_tile(mw_fabric *f, mw_hole *h, uint32_t t)
@@ -204,11 +215,14 @@ bool mw__dig_tile(mw_fabric *f, mw_hole *h, uint32_t t)
 bool mw__dig_side(mw_fabric *f, mw_hole *h, uint32_t half)
 {
     const uint32_t t = mw__link_triangle(half), k = mw__link_edge(half), next = mw__next(k);
-    mw_step_ahead one, two;
+    const uint32_t prev = mw__prev(k), *link = f->tiling->tri[t].link, fixed = f->mark[t];
+    mw_step_ahead one = {.end = prev, .beyond = link[next], .fixed = fixed >> next & 1},
+                  two = {.end = k, .beyond = link[prev], .fixed = fixed >> prev & 1};
     if (!begin_with(f, h, t)) return false;
     mw__see_corners(f, t, h->q);
-    part(f, half, mw__prev(k), k, &one, &two, false);
-    judge_two(f, h->q, next, 3, &one, &two, false);
+    const two_go go = both_go(f, h->q, next, &one, &two, 3, false);
+    one.apex = go.one ? 3 : MW_NONE;
+    two.apex = go.two ? 4 : MW_NONE;
     f->ahead[0] = two;
     return dig(f, h, next, one, 1, 5, false);
 }
@@ -247,6 +261,7 @@ bool mw__dig_outside(mw_fabric *f, mw_hole *h, uint32_t t)
         steps++;
     }
     f->sight[steps] = mw__sight_of(f, mw__corner(f, after), q);
-    for (uint32_t i = 0; i < steps; i++) judge(f, q, i + 1, steps + 1 + i, &f->ahead[i], false);
+    for (uint32_t i = 0; i < steps; i++)
+        f->ahead[i].apex = goes(f, q, i + 1, &f->ahead[i], steps + 1 + i, false) ? steps + 1 + i : MW_NONE;
     return dig(f, h, steps, f->ahead[steps - 1], steps - 1, 2 * steps + 1, false);
 }

@@ -12,7 +12,7 @@
 
 /* Where a point is: in `tile`, whose corners are the first three of f->sight, seen from there; or outside, beyond an edge of that tile. */
 typedef struct place {
-    uint32_t tile;
+    uint32_t tile, walked;    /* the last one of so many */
     bool inside, on_boundary; /* the tile's own */
 } place;
 
@@ -22,7 +22,7 @@ static __attribute__((noinline)) place find_surely(mw_fabric *f, mw_point q, uin
 {
     mw_walk walk = mw__walk_begin(f->tiling, q, t, 0, 0, NULL);
     bool inside = mw__walk_surely(&walk, false) == MW_FOUND;
-    place at = {.tile = walk.t, .inside = inside};
+    place at = {.tile = walk.t, .walked = MANY, .inside = inside};
     mw__see_corners(f, at.tile, q);
     for (int k = 0; k < 3; k++) {
         const mw_sight *a = &f->sight[k], *b = &f->sight[mw__next((uint32_t)k)];
@@ -49,7 +49,7 @@ static place find(mw_fabric *f, mw_point q, uint32_t t)
     }
     while (exit != MW_NONE) { /* by an edge from b to a, which in the next tile goes from a to b */
         uint32_t link = tri[t].link[exit];
-        if (link == MW_NONE) return (place){.tile = t};
+        if (link == MW_NONE) return (place){.tile = t, .walked = MANY - fuel};
         t = mw__link_triangle(link);
         if (MW_UNLIKELY(fuel-- == 0)) return find_surely(f, q, t);
         e = mw__link_edge(link);
@@ -67,7 +67,7 @@ static place find(mw_fabric *f, mw_point q, uint32_t t)
     f->sight[e] = a;
     f->sight[mw__next(e)] = b;
     f->sight[mw__prev(e)] = c;
-    return (place){.tile = t, .inside = true, .on_boundary = ab == 0 || bc == 0 || ca == 0};
+    return (place){.tile = t, .walked = MANY - fuel, .inside = true, .on_boundary = ab == 0 || bc == 0 || ca == 0};
 }
 
 static mw_status refuse_outside(mw_point q, mw_error *error)
@@ -107,11 +107,19 @@ static mw_status tile_failure(const mw_fabric *f, size_t n, mw_error *error)
     return mw__fail_memory(error);
 }
 
+static MW_INLINE bool journal_pool(mw_fabric *f, const mw_hole *h)
+{
+    for (size_t i = 0; f->journaled > 0 && i < h->tiles; i++)
+        if (!mw__journal(f, f->pool[h->pool + i])) return false;
+    return true;
+}
+
 /* Fill the hole with tiles round the vertex: its own, and others beside tile `beside`. Where this fails it has changed nothing. */
 static mw_status fill(mw_fabric *f, const mw_hole *h, uint32_t *vertex, uint32_t beside, fan *made, mw_error *error)
 {
     const size_t more = h->steps - h->tiles;
     if (!mw__tile_room(f, beside, more)) return tile_failure(f, more, error);
+    if (!journal_pool(f, h)) return mw__fail_memory(error);
     mw_status status = make_vertex(f, h->q, vertex, error);
     if (status) return status;
     const uint32_t v = *vertex;
@@ -238,6 +246,7 @@ mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vert
     if (!mw__rim_room(f, SIGHTS)) return mw__fail_memory(error);
     place at = find(f, q, t);
     f->last = at.tile;
+    f->walked = at.walked;
     if (MW_UNLIKELY(at.on_boundary) && corner_there(f) < 3) {
         *vertex = f->sight[corner_there(f)].vertex;
         return MW_OK;

@@ -47,53 +47,84 @@ static bool choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t
 
 /* --- looking ahead ------------------------------------------------------------------------------------------------------- */
 
-/* While a point goes in, memory is asked for what the next ones will meet: first the tile that the guide names, then its corners and neighbours, then
- * what lies beyond those. Points that go in do not move tiles, so a name stays good. */
+/* While a point goes in, those after it are on their way: each begins at the tile that the guide names, and goes a tile nearer now and then. Where to
+ * cannot be guessed, and is known late: a walk of one's own would wait each time, while here another point goes in. What each will meet is asked of
+ * memory as it comes nearer. They walk in plain doubles, since any tile will do to begin at; and points that go in do not move tiles, so
+ * that all of them stay tiles. */
 enum {
-    AHEAD = 16,  /* points of which a place in memory is asked for  */
-    NAMED = 12,  /* those whose first tile is                       */
-    CORNERS = 8, /* its corners and neighbours                      */
-    BEYOND = 4   /* and theirs                                      */
+    AHEAD = 16,   /* points of which a place in memory is asked for */
+    NAMED = 14,   /* those that get their first tile                */
+    CORNERS = 12, /* its corners and neighbours are asked for       */
+    STEPS = 8,    /* they go a tile nearer: from here on            */
+    STEP = 2,     /* every so many points                           */
+    BEYOND = 2    /* what lies beyond the neighbours is asked for   */
 };
+
+typedef struct traveller {
+    mw_point q;
+    uint32_t tile; /* where to begin */
+} traveller;
 
 typedef struct outlook {
     const batch *points;
     const mw_locator *locator;
     bool used;
-    uint32_t first[AHEAD]; /* where to begin for point i: first[i % AHEAD] */
+    traveller on_way[AHEAD]; /* point i is on_way[i % AHEAD] */
 } outlook;
 
-static void fetch_tile(const mw_tiling *tiling, uint32_t link)
+static MW_INLINE void fetch_tile(const mw_tiling *tiling, uint32_t link)
 {
-    if (link != MW_NONE) __builtin_prefetch(&tiling->tri[mw__link_triangle(link)]);
+    if (MW_LIKELY(link != MW_NONE)) __builtin_prefetch(&tiling->tri[mw__link_triangle(link)]);
 }
 
-static void name_first(outlook *o, size_t i)
+static MW_INLINE void name_first(outlook *o, size_t i)
 {
     const mw_tiling *tiling = &o->locator->tiling;
-    uint32_t t = o->first[i % AHEAD] = mw__index_tile(tiling, &o->locator->guide, o->points->point[item(o->points, i)]);
-    __builtin_prefetch(&tiling->tri[t]);
+    traveller *one = &o->on_way[i % AHEAD];
+    one->q = o->points->point[item(o->points, i)];
+    one->tile = mw__index_tile(tiling, &o->locator->guide, one->q);
+    __builtin_prefetch(&tiling->tri[one->tile]);
 }
 
-static void fetch_corners(const outlook *o, size_t i)
+static MW_INLINE void fetch_corners(const mw_tiling *tiling, const traveller *one)
 {
-    const mw_tiling *tiling = &o->locator->tiling;
-    const mw_triangle *tile = &tiling->tri[o->first[i % AHEAD]];
+    const mw_triangle *tile = &tiling->tri[one->tile];
     for (int k = 0; k < 3; k++) {
         __builtin_prefetch(&tiling->point[tile->v[k]]);
         fetch_tile(tiling, tile->link[k]);
     }
 }
 
-static void fetch_beyond(const outlook *o, size_t i)
+/* Over an edge that q lies beyond, if there is one: looked up, as a jump would be guessed wrong. */
+static MW_INLINE void go_nearer(const mw_tiling *tiling, traveller *one)
 {
-    const mw_tiling *tiling = &o->locator->tiling;
-    const mw_triangle *tile = &tiling->tri[o->first[i % AHEAD]];
+    static const uint8_t edge[8] = {3, 0, 1, 0, 2, 2, 1, 3}; /* by those that q lies beyond */
+    const mw_point q = one->q;
+    const uint32_t t = one->tile;
+    const mw_triangle *tile = &tiling->tri[t];
+    mw_point a = tiling->point[tile->v[0]], b = tiling->point[tile->v[1]], c = tiling->point[tile->v[2]];
+    const uint32_t way[4] = {tile->link[0], tile->link[1], tile->link[2], mw__link(t, 0)};
+    const uint32_t ab = mw__orient2d_double(a, b, q) < 0, bc = mw__orient2d_double(b, c, q) < 0,
+                   ca = mw__orient2d_double(c, a, q) < 0, link = way[edge[ab | bc << 1 | ca << 2]];
+    if (MW_UNLIKELY(link == MW_NONE)) return;
+    const uint32_t e = mw__link_edge(link);
+    one->tile = mw__link_triangle(link);
+    tile = &tiling->tri[mw__link_triangle(link)];
+    __builtin_prefetch(&tiling->point[tile->v[mw__prev(e)]]);
+    fetch_tile(tiling, tile->link[mw__next(e)]);
+    fetch_tile(tiling, tile->link[mw__prev(e)]);
+}
+
+static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one)
+{
+    const mw_triangle *tile = &tiling->tri[one->tile];
     for (int k = 0; k < 3; k++) {
-        if (tile->link[k] == MW_NONE) continue;
+        __builtin_prefetch(&tiling->tile_at[tile->v[k]], 1);
+        if (MW_UNLIKELY(tile->link[k] == MW_NONE)) continue;
         const mw_triangle *other = &tiling->tri[mw__link_triangle(tile->link[k])];
         uint32_t e = mw__link_edge(tile->link[k]);
         __builtin_prefetch(&tiling->point[other->v[mw__prev(e)]]);
+        __builtin_prefetch(&tiling->tile_at[other->v[mw__prev(e)]], 1);
         fetch_tile(tiling, other->link[mw__next(e)]);
         fetch_tile(tiling, other->link[mw__prev(e)]);
     }
@@ -108,16 +139,18 @@ static void begin_outlook(outlook *o, const mw_editor *editor, const batch *b)
     for (size_t i = 0; used && i < NAMED && i < b->n; i++) name_first(o, i);
 }
 
-/* Before point i goes in: a tile to begin at; MW_NONE: any. */
+/* Before point i goes in: a tile to begin at; MW_NONE: any. At the end those that are in already go on in place of others. */
 static MW_INLINE uint32_t look_ahead(outlook *o, size_t i)
 {
+    const mw_tiling *tiling = &o->locator->tiling;
     const size_t n = o->points->n;
     if (!o->used) return MW_NONE;
     if (i + AHEAD < n) __builtin_prefetch(&o->points->point[item(o->points, i + AHEAD)]);
     if (i + NAMED < n) name_first(o, i + NAMED);
-    if (i + CORNERS < n) fetch_corners(o, i + CORNERS);
-    if (i + BEYOND < n) fetch_beyond(o, i + BEYOND);
-    return o->first[i % AHEAD];
+    fetch_corners(tiling, &o->on_way[(i + CORNERS) % AHEAD]);
+    for (size_t k = STEPS; k > BEYOND; k -= STEP) go_nearer(tiling, &o->on_way[(i + k) % AHEAD]);
+    fetch_beyond(tiling, &o->on_way[(i + BEYOND) % AHEAD]);
+    return o->on_way[i % AHEAD].tile;
 }
 
 /* --- one step ----------------------------------------------------------------------------------------------------------- */

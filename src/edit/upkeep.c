@@ -170,32 +170,34 @@ static bool covers(const mw_index *index, mw_point p)
     return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_covers(&index->two_level_grid, p);
 }
 
+static const mw_index *index_of(const mw_upkeep *u, mw_start_kind start)
+{
+    return start == MW_START_AUTO ? &u->locator->guide : &u->index[start];
+}
+
 static bool is_there(const mw_fabric *f, uint32_t v)
 {
     return v < f->tiling->point_count && f->tiling->tile_at[v] != MW_NONE;
 }
 
-static void count_outsiders(mw_upkeep *u, mw_start_kind start, const uint32_t *vertices, uint32_t n)
+/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
+static MW_INLINE void note_place(mw_upkeep *u, mw_point p)
 {
-    const mw_fabric *f = u->fabric;
-    const mw_index *index = start == MW_START_AUTO ? &u->locator->guide : &u->index[start];
-    for (uint32_t i = 0; i < n; i++)
-        u->since[start].outsiders += is_there(f, vertices[i]) && !covers(index, f->tiling->point[vertices[i]]);
+    double *low = u->locator->low, *high = u->locator->high;
+    if (p.x < low[0]) low[0] = p.x;
+    if (p.y < low[1]) low[1] = p.y;
+    if (p.x > high[0]) high[0] = p.x;
+    if (p.y > high[1]) high[1] = p.y;
 }
 
-/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
 static void note_places(mw_upkeep *u, const uint32_t *vertices, uint32_t n)
 {
-    const mw_fabric *f = u->fabric;
-    double *low = u->locator->low, *high = u->locator->high;
-    for (uint32_t i = 0; i < u->kept_count; i++) count_outsiders(u, u->kept[i], vertices, n);
+    const mw_point *p = u->fabric->tiling->point;
     for (uint32_t i = 0; i < n; i++) {
-        if (!is_there(f, vertices[i])) continue;
-        mw_point p = f->tiling->point[vertices[i]];
-        if (p.x < low[0]) low[0] = p.x;
-        if (p.y < low[1]) low[1] = p.y;
-        if (p.x > high[0]) high[0] = p.x;
-        if (p.y > high[1]) high[1] = p.y;
+        if (!is_there(u->fabric, vertices[i])) continue;
+        for (uint32_t k = 0; k < u->kept_count; k++)
+            u->since[u->kept[k]].outsiders += !covers(index_of(u, u->kept[k]), p[vertices[i]]);
+        note_place(u, p[vertices[i]]);
     }
 }
 
@@ -294,9 +296,15 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
 
 void mw__upkeep_insertion(mw_upkeep *u, uint32_t v)
 {
+    mw_since *since = &u->since[MW_START_AUTO]; /* as nobody asks there is the guide only */
     begin(u);
-    if (v != MW_NONE) note_places(u, &v, 1);
-    end(u, 1);
+    if (v != MW_NONE) {
+        const mw_point p = u->fabric->tiling->point[v];
+        since->outsiders += !covers(&u->locator->guide, p);
+        note_place(u, p);
+    }
+    since->edits++;
+    if (MW_UNLIKELY(is_due(since, live_vertices(u->fabric)))) refresh(u, MW_START_AUTO);
 }
 
 void mw__upkeep_grow(mw_upkeep *u)
