@@ -1,7 +1,8 @@
 /* hole.c - digging: along the boundary, counter-clockwise, where the tile beyond a step goes, its two other edges are steps instead.
  *
  * No tile is met twice, for a vertex all of whose tiles were in the hole would lie where q does. As tiles bring steps by twos, circles are
- * tested by twos, in the two halves of vectors. */
+ * tested by twos, in the two halves of vectors. Whether a tile goes nobody can guess, a processor neither, which takes up to a quarter of the
+ * time. So the neighbours of the first tile, of which half go, are looked at together with what lies beyond them, before anything follows. */
 #include "edit/hole.h"
 
 /* --- room -------------------------------------------------------------------------------------------------------------- */
@@ -76,6 +77,12 @@ static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32
     return mw__incircle_exact(p[sight[a].vertex], p[sight[b].vertex], p[sight[c].vertex], q) > 0;
 }
 
+/* By arithmetic, as a jump would be guessed wrong: one of two numbers. */
+static MW_INLINE uint32_t choose(bool which, uint32_t yes, uint32_t no)
+{
+    return no ^ ((no ^ yes) & (0 - (uint32_t)which));
+}
+
 /* Does the tile beyond a step from f->sight[from] on go? Its apex is made f->sight[apex]. */
 static MW_INLINE bool goes(const mw_fabric *f, mw_point q, uint32_t from, const mw_step_ahead *step, uint32_t apex,
                            bool plain)
@@ -105,7 +112,6 @@ static __attribute__((noinline)) two_go each_goes(const mw_fabric *f, mw_point q
 static MW_INLINE two_go both_go(const mw_fabric *f, mw_point q, uint32_t from, const mw_step_ahead *one,
                                 const mw_step_ahead *two, uint32_t apex, bool plain)
 {
-    static const pair error = {MW_SIGHTS_ERROR, MW_SIGHTS_ERROR}, least = {MW_UNDERFLOW_ERROR, MW_UNDERFLOW_ERROR};
     if (MW_UNLIKELY(is_closed(f, one, plain) || is_closed(f, two, plain)))
         return each_goes(f, q, from, *one, *two, apex, plain);
     const mw_triangle *tri = f->tiling->tri;
@@ -117,15 +123,16 @@ static MW_INLINE two_go both_go(const mw_fabric *f, mw_point q, uint32_t from, c
     const pair x = {to1[0], to2[0]}, y = {to1[1], to2[1]}, lift = x * x + y * y;
     const pair from_x = {a->x, b->x}, from_y = {a->y, b->y}, from_lift = {a->lift, b->lift};
     const pair end_x = {b->x, c->x}, end_y = {b->y, c->y}, end_lift = {b->lift, c->lift};
-    const pair lifts = from_lift + end_lift + lift, bound = lifts * lifts * error + least;
+    const pair lifts = from_lift + end_lift + lift;
     const pair det = end_lift * (from_x * y - from_y * x) + from_lift * (x * end_y - y * end_x) +
                      lift * (end_x * from_y - end_y * from_x);
     sight[apex] = (mw_sight){to1[0], to1[1], lift[0], v1};
     sight[apex + 1] = (mw_sight){to2[0], to2[1], lift[1], v2};
-    two_go go = {det[0] > 0, det[1] > 0};
-    if (MW_UNLIKELY(!(fabs(det[0]) > bound[0]))) go.one = in_circle_exact(f, one->end, from, apex, q);
-    if (MW_UNLIKELY(!(fabs(det[1]) > bound[1]))) go.two = in_circle_exact(f, two->end, one->end, apex + 1, q);
-    return go;
+    const double both = lifts[0] + lifts[1], bound = both * both * MW_SIGHTS_ERROR + MW_UNDERFLOW_ERROR;
+    const double first = fabs(det[0]), second = fabs(det[1]);
+    if (MW_UNLIKELY(!((first < second ? first : second) > bound)))
+        return each_goes(f, q, from, *one, *two, apex, plain);
+    return (two_go){det[0] > 0, det[1] > 0};
 }
 
 /* --- along the boundary ------------------------------------------------------------------------------------------------- */
@@ -157,7 +164,7 @@ static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead
             mw_step_ahead one = {.end = step.apex, .beyond = link[next], .fixed = fixed >> next & 1},
                           two = {.end = step.end, .beyond = link[prev], .fixed = fixed >> prev & 1};
             const two_go go = both_go(f, q, from, &one, &two, at.sights, plain);
-            two.apex = go.two ? at.sights + 1 : MW_NONE;
+            two.apex = choose(go.two, at.sights + 1, MW_NONE);
             put(at.ahead++, &two, plain);
             one.apex = at.sights;
             put(&step, &one, plain);
@@ -190,19 +197,51 @@ static MW_INLINE bool begin_with(mw_fabric *f, mw_hole *h, uint32_t t)
     return true;
 }
 
+/* The edge k of tile t, which goes, as a step up to a sight. */
+static MW_INLINE mw_step_ahead edge_of(const mw_fabric *f, uint32_t t, uint32_t k, uint32_t end, bool plain)
+{
+    return (mw_step_ahead){.end = end, .beyond = f->tiling->tri[t].link[k], .fixed = !plain && f->mark[t] >> k & 1};
+}
+
+/* Edge k of the first tile, `step`, is put ahead, of which there are `steps`; or, where the tile beyond goes, the two in its place. Returns how many there
+ * are then. Sights: 3 + k is the apex of the tile beyond, from 6 + 2 k on those of the next ones. */
+static MW_INLINE size_t put_neighbour(mw_fabric *f, mw_hole *h, size_t steps, uint32_t k, const mw_step_ahead *step,
+                                      bool gone, bool plain)
+{
+    const uint32_t t = mw__link_triangle(step->beyond), e = mw__link_edge(step->beyond), apex = 3 + k, next = 6 + 2 * k;
+    mw_step_ahead one = edge_of(f, t, mw__next(e), apex, plain), two = edge_of(f, t, mw__prev(e), step->end, plain);
+    const two_go go = both_go(f, h->q, k, &one, &two, next, plain);
+    one.apex = choose(go.one, next, MW_NONE);
+    two.apex = choose(gone & go.two, next + 1, MW_NONE);
+    two.beyond = choose(gone, two.beyond, step->beyond);
+    if (!plain && !gone) two.fixed = step->fixed;
+    put(&f->ahead[steps], &two, plain);
+    put(&f->ahead[steps + 1], &one, plain); /* the first one is the last on the list: not there if there is but one */
+    f->pool[h->pool + h->tiles] = t;
+    h->tiles += gone;
+    return steps + 1 + gone;
+}
+
 static MW_INLINE bool dig_tile(mw_fabric *f, mw_hole *h, uint32_t t, bool plain)
 {
-    const uint32_t *link = f->tiling->tri[t].link, fixed = plain ? 0 : f->mark[t];
-    mw_step_ahead one = {.end = 1, .beyond = link[0], .fixed = fixed & 1},
-                  two = {.end = 2, .beyond = link[1], .fixed = fixed >> 1 & 1},
-                  three = {.end = 0, .beyond = link[2], .fixed = fixed >> 2 & 1};
+    mw_step_ahead one = edge_of(f, t, 0, 1, plain), two = edge_of(f, t, 1, 2, plain),
+                  three = edge_of(f, t, 2, 0, plain);
     const two_go go = both_go(f, h->q, 0, &one, &two, 3, plain);
-    one.apex = go.one ? 3 : MW_NONE;
-    two.apex = go.two ? 4 : MW_NONE;
-    three.apex = goes(f, h->q, 2, &three, 5, plain) ? 5 : MW_NONE;
-    put(&f->ahead[0], &three, plain);
-    put(&f->ahead[1], &two, plain);
-    return dig(f, h, 0, one, 2, 6, plain);
+    const bool last = goes(f, h->q, 2, &three, 5, plain);
+    if (MW_UNLIKELY(is_closed(f, &one, plain) || is_closed(f, &two, plain) || is_closed(f, &three, plain))) {
+        one.apex = go.one ? 3 : MW_NONE;
+        two.apex = go.two ? 4 : MW_NONE;
+        three.apex = last ? 5 : MW_NONE;
+        put(&f->ahead[0], &three, plain);
+        put(&f->ahead[1], &two, plain);
+        return dig(f, h, 0, one, 2, 6, plain);
+    }
+    size_t steps = put_neighbour(f, h, 0, 2, &three, last, plain);
+    steps = put_neighbour(f, h, steps, 1, &two, go.two, plain);
+    steps = put_neighbour(f, h, steps, 0, &one, go.one, plain) - 1;
+    f->flips += (uint32_t)h->tiles - 1;
+    put(&one, &f->ahead[steps], plain);
+    return dig(f, h, 0, one, steps, 12, plain);
 }
 
 bool mw__dig_tile(mw_fabric *f, mw_hole *h, uint32_t t)
@@ -215,9 +254,8 @@ bool mw__dig_tile(mw_fabric *f, mw_hole *h, uint32_t t)
 bool mw__dig_side(mw_fabric *f, mw_hole *h, uint32_t half)
 {
     const uint32_t t = mw__link_triangle(half), k = mw__link_edge(half), next = mw__next(k);
-    const uint32_t prev = mw__prev(k), *link = f->tiling->tri[t].link, fixed = f->mark[t];
-    mw_step_ahead one = {.end = prev, .beyond = link[next], .fixed = fixed >> next & 1},
-                  two = {.end = k, .beyond = link[prev], .fixed = fixed >> prev & 1};
+    const uint32_t prev = mw__prev(k);
+    mw_step_ahead one = edge_of(f, t, next, prev, false), two = edge_of(f, t, prev, k, false);
     if (!begin_with(f, h, t)) return false;
     mw__see_corners(f, t, h->q);
     const two_go go = both_go(f, h->q, next, &one, &two, 3, false);

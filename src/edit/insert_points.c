@@ -52,12 +52,12 @@ static bool choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t
  * memory as it comes nearer. They walk in plain doubles, since any tile will do to begin at; and points that go in do not move tiles, so
  * that all of them stay tiles. */
 enum {
-    AHEAD = 16,   /* points of which a place in memory is asked for */
-    NAMED = 14,   /* those that get their first tile                */
-    CORNERS = 12, /* its corners and neighbours are asked for       */
-    STEPS = 8,    /* they go a tile nearer: from here on            */
-    STEP = 2,     /* every so many points                           */
-    BEYOND = 2    /* what lies beyond the neighbours is asked for   */
+    AHEAD = 16,  /* points of which a place in memory is asked for */
+    NAMED = 12,  /* those that get their first tile                */
+    CORNERS = 8, /* its corners and neighbours are asked for       */
+    STEPS = 6,   /* they go a tile nearer: from here on            */
+    STEP = 2,    /* every so many points                           */
+    BEYOND = 2   /* what lies beyond the neighbours is asked for   */
 };
 
 typedef struct traveller {

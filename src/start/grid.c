@@ -106,7 +106,7 @@ static void judge(mw_grid_plan *plan, uint32_t cells, uint32_t asked)
         seen += count;
         crowd += has(plan, c, CROWD) ? count : 0;
     }
-    plan->even = taken >= asked / SHARE;
+    plan->even = taken >= asked / (plan->share ? plan->share : SHARE);
     plan->crowded = crowd > seen / SHARE;
 }
 
