@@ -9,7 +9,7 @@
  *   a curve  holds places of tiles, which say less and less. It is built anew only on request.
  *
  * The guide is not told of edits. Guide, grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built,
- * or half; after four edits for each vertex there was, the guide after one for two vertices; grids also when a quarter as many vertices were put
+ * or half; after four edits for each vertex there was, the guide after one for each; grids also when a quarter as many vertices were put
  * beyond their rims; layers when one has half or twice as many vertices as its chance of them lets expect. That is O(1) for each edit.
  * Where memory is short the old ones stay, and layers that cannot follow are dropped: all of this is only a guide, no answer depends on it. */
 #ifndef MW_SRC_UPKEEP_H
