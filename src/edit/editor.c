@@ -164,13 +164,13 @@ bool mw__field_room(mw_editor *editor, size_t more)
     return true;
 }
 
-/* Give the next vertex its values: interpolated in the mesh as it is before it comes; *borrows: it lies outside. Returns the tile where that
+/* Give the next vertex its values: interpolated in the mesh as it is before it comes; *borrows: it lies outside. From a tile to the one where that
  * ended. */
-static uint32_t set_values(mw_editor *editor, const mw_edit *edit, bool *borrows)
+static uint32_t set_values(mw_editor *editor, const mw_edit *edit, uint32_t from, bool *borrows)
 {
     const mw_fabric *f = &editor->fabric;
     mw_mesh *view = &editor->view;
-    editor->cursor.last = f->last;
+    editor->cursor.last = from;
     editor->cursor.epoch = editor->locator.epoch;
     mw__editor_look(editor);
     mw_location at = mw_locate(&editor->locator, &editor->cursor, edit->x, edit->y);
@@ -216,26 +216,14 @@ static mw_status refuse_vertex(const mw_fabric *f, uint32_t number, mw_error *er
     return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
 }
 
-/* A tile to begin at to look for q: `near` if it is, else what the guide says, if there is one. */
-static uint32_t first_tile(mw_editor *editor, uint32_t near, mw_point q)
-{
-    mw_cursor *cursor = &editor->cursor;
-    if (MW_LIKELY(editor->locator.guide.start != MW_START_AUTO)) return mw__guided(&editor->locator, near, q);
-    cursor->last = near;
-    cursor->epoch = editor->locator.epoch;
-    return mw__first_tile(&editor->locator, cursor, near, q, &cursor->random, NULL);
-}
-
-/* The same for an insertion. The guide leads near as a rule, and to ask whether the last insertion was nearer would cost more than it saves; but where
- * many vertices have come into a cell it does not. */
-static uint32_t first_tile_for(mw_editor *editor, mw_point q)
+/* A tile to begin at to look for q. The guide leads near as a rule, and to ask whether the last edit was nearer would cost more than it saves; but
+ * after a long walk, such as where many vertices have come into a cell, that is asked until it was not. */
+static uint32_t first_tile(mw_editor *editor, mw_point q)
 {
     const mw_locator *locator = &editor->locator;
     const uint32_t last = editor->fabric.last;
-    if (MW_LIKELY(locator->guide.start != MW_START_AUTO && !editor->astray))
-        return mw__index_tile(&locator->tiling, &locator->guide, q);
     editor->astray = editor->astray && mw__is_close(locator, last, q);
-    return first_tile(editor, last, q);
+    return MW_UNLIKELY(editor->astray) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
 }
 
 /* To put a vertex at q into a mesh without fields. */
@@ -244,13 +232,13 @@ static mw_status insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *
     enum { FAR = 8 };
     mw_fabric *f = &editor->fabric;
     if (t != MW_NONE) return mw__fabric_insert(f, q, t, place, error);
-    mw_status status = mw__fabric_insert(f, q, first_tile_for(editor, q), place, error);
+    mw_status status = mw__fabric_insert(f, q, first_tile(editor, q), place, error);
     editor->astray |= f->walked > FAR;
     return status;
 }
 
-static __attribute__((noinline)) mw_status insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t *vertex,
-                                                              mw_error *error)
+static __attribute__((noinline)) mw_status insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t t,
+                                                              uint32_t *vertex, mw_error *error)
 {
     mw_fabric *f = &editor->fabric;
     const uint32_t before = f->vertex_count;
@@ -259,7 +247,7 @@ static __attribute__((noinline)) mw_status insert_with_values(mw_editor *editor,
     if (!isnan(edit->value) && edit->field >= editor->view.field_count)
         return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     if (!mw__field_room(editor, 1)) return mw__fail_memory(error);
-    uint32_t t = set_values(editor, edit, &borrows);
+    t = set_values(editor, edit, t == MW_NONE ? f->last : t, &borrows);
     mw_status status = mw__fabric_insert(f, (mw_point){edit->x, edit->y}, t, &place, error);
     if (status) return status;
     if (borrows && f->vertex_count > before) borrow_values(editor, edit, place);
@@ -272,7 +260,7 @@ mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, 
     mw_fabric *f = &editor->fabric;
     const mw_point q = {edit->x, edit->y};
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
-    if (editor->view.field_count > 0) return insert_with_values(editor, edit, vertex, error);
+    if (editor->view.field_count > 0) return insert_with_values(editor, edit, t, vertex, error);
     uint32_t place = MW_NONE;
     mw_status status = insert_at(editor, q, t, &place, error);
     if (!status) *vertex = f->vertex_number[place];
@@ -299,7 +287,7 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
     }
     if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     mw_point q = {edit->x, edit->y};
-    return mw__fabric_move(f, v, q, first_tile(editor, f->tiling->tile_at[v], q), error);
+    return mw__fabric_move(f, v, q, mw__guided(&editor->locator, f->tiling->tile_at[v], q), error);
 }
 
 static mw_status change_edge(mw_fabric *f, const mw_edit *edit, mw_change *change, mw_error *error)

@@ -14,7 +14,7 @@ struct mw_editor {
     size_t field_room; /* values of each field there is room for                        */
     mw_upkeep upkeep;
     mw_cursor cursor; /* finds where to insert */
-    bool astray;      /* the guide leads there by a long way, see first_tile_for */
+    bool astray;      /* the last walk there was long: see first_tile */
     bool keeps_log;
     uint32_t threads; /* as in the options */
     size_t undo, undoable;
@@ -35,11 +35,11 @@ static MW_INLINE bool mw__editor_asks(const mw_editor *editor, const mw_change *
 }
 
 /* One insertion, within the step under way if there is one; *vertex is set to the number of the vertex there. `t`: a tile to begin at, MW_NONE: which
- * is to be chosen, as it is where values are interpolated, which finds the place first. Errors as mw_edit_apply; then the step is to be rolled back. */
+ * is to be chosen. Errors as mw_edit_apply; then the step is to be rolled back. */
 mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error);
 
 /* After the operations of the step under way, which had this outcome: all or nothing. `change` may be NULL, or is filled: with `own`, and the
- * triangles. An insertion that failed before it was a step is taken, too. */
+ * triangles. Also for an insertion that failed before it was a step: then there is nothing to roll back. */
 mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
                               mw_error *error);
 

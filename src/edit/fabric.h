@@ -69,7 +69,7 @@ typedef struct mw_fabric {
     mw_sight *sight;      /* scratch: vertices that were looked at */
     size_t rim_room;      /* of the four, see mw__rim_room */
     uint32_t last;        /* a tile where the last edit was */
-    uint32_t walked;      /* how many tiles lay on the way to the last vertex put in */
+    uint32_t walked;      /* how many tiles lay on the way, when a place to insert at was looked for last */
     uint32_t flips;       /* of this edit                   */
 } mw_fabric;
 

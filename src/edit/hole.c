@@ -108,12 +108,13 @@ static __attribute__((noinline)) two_go each_goes(const mw_fabric *f, mw_point q
     return go;
 }
 
-/* The same for two steps one after the other, and two apices. */
+/* The same for two steps one after the other, and two apices. Where it is not `wanted` it may be wrong. */
 static MW_INLINE two_go both_go(const mw_fabric *f, mw_point q, uint32_t from, const mw_step_ahead *one,
-                                const mw_step_ahead *two, uint32_t apex, bool plain)
+                                const mw_step_ahead *two, uint32_t apex, bool wanted, bool plain)
 {
+    const two_go neither = {false, false};
     if (MW_UNLIKELY(is_closed(f, one, plain) || is_closed(f, two, plain)))
-        return each_goes(f, q, from, *one, *two, apex, plain);
+        return wanted ? each_goes(f, q, from, *one, *two, apex, plain) : neither;
     const mw_triangle *tri = f->tiling->tri;
     mw_sight *sight = f->sight;
     const uint32_t v1 = apex_beyond(tri, one->beyond), v2 = apex_beyond(tri, two->beyond);
@@ -131,7 +132,7 @@ static MW_INLINE two_go both_go(const mw_fabric *f, mw_point q, uint32_t from, c
     const double both = lifts[0] + lifts[1], bound = both * both * MW_SIGHTS_ERROR + MW_UNDERFLOW_ERROR;
     const double first = fabs(det[0]), second = fabs(det[1]);
     if (MW_UNLIKELY(!((first < second ? first : second) > bound)))
-        return each_goes(f, q, from, *one, *two, apex, plain);
+        return wanted ? each_goes(f, q, from, *one, *two, apex, plain) : neither;
     return (two_go){det[0] > 0, det[1] > 0};
 }
 
@@ -163,13 +164,13 @@ static MW_INLINE bool dig(mw_fabric *f, mw_hole *h, uint32_t from, mw_step_ahead
             *at.pool++ = t;
             mw_step_ahead one = {.end = step.apex, .beyond = link[next], .fixed = fixed >> next & 1},
                           two = {.end = step.end, .beyond = link[prev], .fixed = fixed >> prev & 1};
-            const two_go go = both_go(f, q, from, &one, &two, at.sights, plain);
+            const two_go go = both_go(f, q, from, &one, &two, at.sights, true, plain);
             two.apex = choose(go.two, at.sights + 1, MW_NONE);
             put(at.ahead++, &two, plain);
             one.apex = at.sights;
             put(&step, &one, plain);
             at.sights += 2;
-            if (!go.one) break;
+            if (!go.one) break; /* with an apex that nobody looks at */
         }
         at.rim->vertex = at.sight[from].vertex;
         at.rim->beyond = step.beyond;
@@ -203,21 +204,22 @@ static MW_INLINE mw_step_ahead edge_of(const mw_fabric *f, uint32_t t, uint32_t 
     return (mw_step_ahead){.end = end, .beyond = f->tiling->tri[t].link[k], .fixed = !plain && f->mark[t] >> k & 1};
 }
 
-/* Edge k of the first tile, `step`, is put ahead, of which there are `steps`; or, where the tile beyond goes, the two in its place. Returns how many there
- * are then. Sights: 3 + k is the apex of the tile beyond, from 6 + 2 k on those of the next ones. */
+/* Put edge k of the first tile, `step`, ahead, behind `steps` others; or, where the tile beyond goes, the two steps in its place. Returns how many are ahead
+ * then. Sights: 3 + k is the apex of the tile beyond, 6 + 2 k and the one after it are those of the tiles beyond that. */
 static MW_INLINE size_t put_neighbour(mw_fabric *f, mw_hole *h, size_t steps, uint32_t k, const mw_step_ahead *step,
                                       bool gone, bool plain)
 {
     const uint32_t t = mw__link_triangle(step->beyond), e = mw__link_edge(step->beyond), apex = 3 + k, next = 6 + 2 * k;
     mw_step_ahead one = edge_of(f, t, mw__next(e), apex, plain), two = edge_of(f, t, mw__prev(e), step->end, plain);
-    const two_go go = both_go(f, h->q, k, &one, &two, next, plain);
+    const two_go go = both_go(f, h->q, k, &one, &two, next, gone, plain);
     one.apex = choose(go.one, next, MW_NONE);
     two.apex = choose(gone & go.two, next + 1, MW_NONE);
     two.beyond = choose(gone, two.beyond, step->beyond);
     if (!plain && !gone) two.fixed = step->fixed;
     put(&f->ahead[steps], &two, plain);
-    put(&f->ahead[steps + 1], &one, plain); /* the first one is the last on the list: not there if there is but one */
-    f->pool[h->pool + h->tiles] = t;
+    put(&f->ahead[steps + 1], &one,
+        plain);                      /* which comes first, and so lies on top; beyond the end where the tile stays */
+    f->pool[h->pool + h->tiles] = t; /* the same */
     h->tiles += gone;
     return steps + 1 + gone;
 }
@@ -226,12 +228,13 @@ static MW_INLINE bool dig_tile(mw_fabric *f, mw_hole *h, uint32_t t, bool plain)
 {
     mw_step_ahead one = edge_of(f, t, 0, 1, plain), two = edge_of(f, t, 1, 2, plain),
                   three = edge_of(f, t, 2, 0, plain);
-    const two_go go = both_go(f, h->q, 0, &one, &two, 3, plain);
+    const bool open = !is_closed(f, &one, plain) && !is_closed(f, &two, plain) && !is_closed(f, &three, plain);
+    const two_go go = both_go(f, h->q, 0, &one, &two, 3, true, plain);
     const bool last = goes(f, h->q, 2, &three, 5, plain);
-    if (MW_UNLIKELY(is_closed(f, &one, plain) || is_closed(f, &two, plain) || is_closed(f, &three, plain))) {
-        one.apex = go.one ? 3 : MW_NONE;
-        two.apex = go.two ? 4 : MW_NONE;
-        three.apex = last ? 5 : MW_NONE;
+    if (MW_UNLIKELY(!open)) {
+        one.apex = choose(go.one, 3, MW_NONE);
+        two.apex = choose(go.two, 4, MW_NONE);
+        three.apex = choose(last, 5, MW_NONE);
         put(&f->ahead[0], &three, plain);
         put(&f->ahead[1], &two, plain);
         return dig(f, h, 0, one, 2, 6, plain);
@@ -258,7 +261,7 @@ bool mw__dig_side(mw_fabric *f, mw_hole *h, uint32_t half)
     mw_step_ahead one = edge_of(f, t, next, prev, false), two = edge_of(f, t, prev, k, false);
     if (!begin_with(f, h, t)) return false;
     mw__see_corners(f, t, h->q);
-    const two_go go = both_go(f, h->q, next, &one, &two, 3, false);
+    const two_go go = both_go(f, h->q, next, &one, &two, 3, true, false);
     one.apex = go.one ? 3 : MW_NONE;
     two.apex = go.two ? 4 : MW_NONE;
     f->ahead[0] = two;
@@ -293,6 +296,7 @@ bool mw__dig_outside(mw_fabric *f, mw_hole *h, uint32_t t)
     while (mw__beyond(f, half) != MW_NONE || !sees(f, q, half)) half = mw__half_next(half);
     while (sees(f, q, hull_before(f, half))) half = hull_before(f, half);
     for (after = half; sees(f, q, after); after = hull_after(f, after)) {
+        /* it stays, but nothing else tells that it had no neighbour there */
         if (!mw__journal(f, mw__link_triangle(after)) || !mw__rim_room(f, room_besides(h, steps + 1))) return false;
         f->sight[steps] = mw__sight_of(f, mw__corner(f, after), q);
         f->ahead[steps] = (mw_step_ahead){.end = steps, .beyond = after, .fixed = mw__is_fixed(f, after)};

@@ -1,14 +1,14 @@
 /* hole.h - the tiles that go because a new vertex lies in their circles, and the boundary of what they leave. Private.
  *
  * A hole is seen whole from the new vertex [Bowyer 1981; Watson 1981]. Fixed edges bound it, and where the mesh is not kept Delaunay all edges do.
- * Digging changes no tile. */
+ * Digging changes no tile, nor does it put any into the journal, but for those at the hull that stay and get a neighbour. */
 #ifndef MW_SRC_HOLE_H
 #define MW_SRC_HOLE_H
 
 #include "edit/rim.h"
 
 /* Round q: steps, counter-clockwise, in f->rim from `first` on (the one after the last tells where it ends), and the tiles that go in f->pool
- * from `pool` on, in the order in which they are met. */
+ * from `pool` on, in the order in which they are met, from the first tile's neighbours on; which number goes where follows from that. */
 typedef struct mw_hole {
     mw_point q;
     size_t first, pool;

@@ -55,8 +55,8 @@ enum {
     AHEAD = 16,  /* points of which a place in memory is asked for */
     NAMED = 12,  /* those that get their first tile                */
     CORNERS = 8, /* its corners and neighbours are asked for       */
-    STEPS = 6,   /* they go a tile nearer: from here on            */
-    STEP = 2,    /* every so many points                           */
+    NEARER = 6,  /* they go a tile nearer, from here on            */
+    EVERY = 2,   /* once for so many points                        */
     BEYOND = 2   /* what lies beyond the neighbours is asked for   */
 };
 
@@ -68,6 +68,7 @@ typedef struct traveller {
 typedef struct outlook {
     const batch *points;
     const mw_locator *locator;
+    const mw_fabric *fabric;
     bool used;
     traveller on_way[AHEAD]; /* point i is on_way[i % AHEAD] */
 } outlook;
@@ -130,25 +131,25 @@ static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one
     }
 }
 
-/* Where there is no guide, or points are so many that each lies in a tile of the one before, or beside it, there is nothing to look for. */
+/* Where points are so many that each lies in a tile of the one before, or beside it, there is nothing to look for. */
 static void begin_outlook(outlook *o, const mw_editor *editor, const batch *b)
 {
     const mw_locator *locator = &editor->locator;
-    bool used = locator->guide.start != MW_START_AUTO && b->n < editor->fabric.vertex_count;
-    *o = (outlook){.points = b, .locator = locator, .used = used};
+    bool used = b->n < editor->fabric.vertex_count;
+    *o = (outlook){.points = b, .locator = locator, .fabric = &editor->fabric, .used = used};
     for (size_t i = 0; used && i < NAMED && i < b->n; i++) name_first(o, i);
 }
 
-/* Before point i goes in: a tile to begin at; MW_NONE: any. At the end those that are in already go on in place of others. */
+/* Before point i goes in: a tile to begin at. At the end places of points that are in already are looked at in place of others, as any is a tile's. */
 static MW_INLINE uint32_t look_ahead(outlook *o, size_t i)
 {
     const mw_tiling *tiling = &o->locator->tiling;
     const size_t n = o->points->n;
-    if (!o->used) return MW_NONE;
+    if (!o->used) return o->fabric->last;
     if (i + AHEAD < n) __builtin_prefetch(&o->points->point[item(o->points, i + AHEAD)]);
     if (i + NAMED < n) name_first(o, i + NAMED);
     fetch_corners(tiling, &o->on_way[(i + CORNERS) % AHEAD]);
-    for (size_t k = STEPS; k > BEYOND; k -= STEP) go_nearer(tiling, &o->on_way[(i + k) % AHEAD]);
+    for (size_t k = NEARER; k > BEYOND; k -= EVERY) go_nearer(tiling, &o->on_way[(i + k) % AHEAD]);
     fetch_beyond(tiling, &o->on_way[(i + BEYOND) % AHEAD]);
     return o->on_way[i % AHEAD].tile;
 }

@@ -64,7 +64,7 @@ static mw_status make_tiling(mw_locator *locator, const mw_locator_options *opti
 
 /* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie along one. Tiles that are edited do not
  * keep to a curve; there crowded cells are grids themselves. False when out of memory. */
-static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, uint32_t cells)
+static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, bool even, uint32_t cells)
 {
     const mw_tiling *tiling = &locator->tiling;
     mw_curve curve = {0};
@@ -76,7 +76,7 @@ static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan
         return true;
     }
     mw__curve_release(&curve);
-    if (plan->even) {
+    if (even) {
         mw__grid_end(&guide->grid, plan, false);
         return done;
     }
@@ -89,23 +89,26 @@ static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan
 
 /* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of the tiles along a Hilbert
  * curve, if they lie so. The grid is small, for half a byte a triangle, and of little work: a larger one makes queries up to
- * a quarter faster (start/grid.c), but takes longer to build than a million queries gain.
- *
- * Edits go there one by one, and wait for what cannot be guessed of a walk: twice as many cells take a twelfth off an insertion. What is even is to be
- * the same. */
-enum { TRIANGLES_PER_CELL = 8 };
+ * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. In a mesh that is edited it has twice as many cells: an
+ * insertion waits for each tile on its way, since the way cannot be guessed, and takes a twentieth less. */
+static uint32_t count_cells(const mw_tiling *tiling)
+{
+    enum { TRIANGLES_PER_CELL = 8, FINER = 2 };
+    return tiling->tri_count / (tiling->tile_of ? TRIANGLES_PER_CELL / FINER : TRIANGLES_PER_CELL) + 1;
+}
+
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
-    enum { STRIDE = 2, SHARE = 4, FINER = 2 };
+    enum { STRIDE = 2, UNEVEN = 32 }; /* tiles for each cell that has any, if there are no empty ones in between */
     const mw_tiling *tiling = &locator->tiling;
-    const uint32_t finer = tiling->tile_of ? FINER : 1;
     *guide = (mw_index){0};
     if (tiling->open || !tiling->embedding) return true;
-    uint32_t cells = tiling->tri_count / (TRIANGLES_PER_CELL / finer) + 1;
-    mw_grid_plan plan = {.tiling = tiling, .stride = STRIDE, .share = SHARE * finer};
+    uint32_t cells = count_cells(tiling);
+    mw_grid_plan plan = {.tiling = tiling, .stride = STRIDE};
     guide->start = MW_START_GRID;
     if (!mw__grid_begin(&guide->grid, &plan, locator->low, locator->high, cells)) return false;
-    if (plan.crowded || !plan.even) return guide_crowd(locator, guide, &plan, cells);
+    bool even = plan.taken >= tiling->tri_count / UNEVEN;
+    if (plan.crowded || !even) return guide_crowd(locator, guide, &plan, even, cells);
     mw__grid_end(&guide->grid, &plan, false);
     return true;
 }
@@ -119,7 +122,7 @@ void mw__locator_survey(mw_locator *locator)
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
-    locator->cell2 = width / (tiling->tri_count / TRIANGLES_PER_CELL + 1) * height;
+    locator->cell2 = width / count_cells(tiling) * height;
     locator->pace = expect_pace(tiling->tri_count, width, height);
 }
 

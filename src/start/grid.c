@@ -34,7 +34,7 @@ enum {
     MOST_SHARES = 8,      /* of the tiles: each has its sites for all cells */
     CROWDED = 48,         /* tiles in a cell from which on the curve is better                                    */
     CROWD = 128,          /* the same, so much so that it pays to have it, if one tile in SHARE is in such a cell */
-    SHARE = 4             /* or if but one cell in SHARE has a tile                                               */
+    SHARE = 4
 };
 
 /* Of every few tiles, put the one nearest to the middle of a cell into it, and count them: share i, with sites of its own. */
@@ -97,7 +97,7 @@ static bool is_gap(const mw_grid_plan *plan, uint32_t cell)
     return !(plan->site[cell].off < INFINITY);
 }
 
-static void judge(mw_grid_plan *plan, uint32_t cells, uint32_t asked)
+static void judge(mw_grid_plan *plan, uint32_t cells)
 {
     uint32_t taken = 0, seen = 0, crowd = 0;
     for (uint32_t c = 0; c < cells; c++) {
@@ -106,7 +106,7 @@ static void judge(mw_grid_plan *plan, uint32_t cells, uint32_t asked)
         seen += count;
         crowd += has(plan, c, CROWD) ? count : 0;
     }
-    plan->even = taken >= asked / (plan->share ? plan->share : SHARE);
+    plan->taken = taken;
     plan->crowded = crowd > seen / SHARE;
 }
 
@@ -124,7 +124,7 @@ bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], cons
         return false;
     }
     look_together(grid, plan, shares);
-    judge(plan, count, cells);
+    judge(plan, count);
     return true;
 }
 

@@ -26,9 +26,8 @@ typedef struct mw_grid_site {
 typedef struct mw_grid_plan {
     const mw_tiling *tiling;
     uint32_t stride;
-    uint32_t share;     /* for `even`: 0 is 4 */
     mw_grid_site *site; /* of each cell; released by mw__grid_end, or with free() */
-    bool even;          /* of `share` cells one has a tile that was looked at     */
+    uint32_t taken;     /* cells that have a tile that was looked at              */
     bool crowded;       /* a quarter of the tiles lies in cells with very many    */
 } mw_grid_plan;
 
