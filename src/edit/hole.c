@@ -1,8 +1,9 @@
 /* hole.c - digging: along the boundary, counter-clockwise, where the tile beyond a step goes, its two other edges are steps instead.
  *
  * No tile is met twice, for a vertex all of whose tiles were in the hole would lie where q does. As tiles bring steps by twos, circles are
- * tested by twos, in the two halves of vectors. Whether a tile goes nobody can guess, a processor neither, which takes up to a quarter of the
- * time. So the neighbours of the first tile, of which half go, are looked at together with what lies beyond them, before anything follows. */
+ * tested by twos, in the two halves of vectors. Whether a tile goes nobody can guess, a processor neither, which begins
+ * again where it was wrong. So the neighbours of the first tile, of which two in three go, are looked at together with what lies beyond them, before
+ * anything follows. */
 #include "edit/hole.h"
 
 /* --- room -------------------------------------------------------------------------------------------------------------- */

@@ -99,7 +99,8 @@ static uint32_t count_cells(const mw_tiling *tiling)
 
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
-    enum { STRIDE = 2, UNEVEN = 32 }; /* tiles for each cell that has any, if there are no empty ones in between */
+    /* Most cells are empty where those that have tiles have more than UNEVEN of them on the average. */
+    enum { STRIDE = 2, UNEVEN = 32 };
     const mw_tiling *tiling = &locator->tiling;
     *guide = (mw_index){0};
     if (tiling->open || !tiling->embedding) return true;
