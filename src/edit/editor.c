@@ -232,7 +232,9 @@ static mw_status insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *
     enum { FAR = 8 };
     mw_fabric *f = &editor->fabric;
     if (t != MW_NONE) return mw__fabric_insert(f, q, t, place, error);
-    mw_status status = mw__fabric_insert(f, q, first_tile(editor, q), place, error);
+    t = first_tile(editor, q);
+    for (int k = 0; k < 3; k++) mw__fetch_tile(f->tiling, f->tiling->tri[t].link[k]);
+    mw_status status = mw__fabric_insert(f, q, t, place, error);
     editor->astray |= f->walked > FAR;
     return status;
 }

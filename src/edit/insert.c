@@ -32,7 +32,8 @@ static __attribute__((noinline)) place find_surely(mw_fabric *f, mw_point q, uin
 }
 
 /* The remembering walk from tile t on [thesis, App. A, sec. 2], written once more because what it saw of the corners is of use for what
- * follows. There has to be room for sights. */
+ * follows. There has to be room for sights. What lies beyond is asked of memory together with the corners: the walk goes there, or
+ * the hole that is dug. */
 static place find(mw_fabric *f, mw_point q, uint32_t t)
 {
     const mw_triangle *tri = f->tiling->tri;
@@ -53,6 +54,8 @@ static place find(mw_fabric *f, mw_point q, uint32_t t)
         t = mw__link_triangle(link);
         if (MW_UNLIKELY(fuel-- == 0)) return find_surely(f, q, t);
         e = mw__link_edge(link);
+        mw__fetch_tile(f->tiling, tri[t].link[mw__next(e)]);
+        mw__fetch_tile(f->tiling, tri[t].link[mw__prev(e)]);
         c = mw__sight_of(f, tri[t].v[mw__prev(e)], q);
         exit = MW_NONE;
         ab = 1; /* it came over this edge */

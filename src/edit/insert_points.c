@@ -73,17 +73,12 @@ typedef struct outlook {
     traveller on_way[AHEAD]; /* point i is on_way[i % AHEAD] */
 } outlook;
 
-static MW_INLINE void fetch_tile(const mw_tiling *tiling, uint32_t link)
-{
-    if (MW_LIKELY(link != MW_NONE)) __builtin_prefetch(&tiling->tri[mw__link_triangle(link)]);
-}
-
 static MW_INLINE void name_first(outlook *o, size_t i)
 {
     const mw_tiling *tiling = &o->locator->tiling;
     traveller *one = &o->on_way[i % AHEAD];
     one->q = o->points->point[item(o->points, i)];
-    one->tile = mw__index_tile(tiling, &o->locator->guide, one->q);
+    one->tile = mw__index_tile_ahead(tiling, &o->locator->guide, one->q);
     __builtin_prefetch(&tiling->tri[one->tile]);
 }
 
@@ -92,7 +87,7 @@ static MW_INLINE void fetch_corners(const mw_tiling *tiling, const traveller *on
     const mw_triangle *tile = &tiling->tri[one->tile];
     for (int k = 0; k < 3; k++) {
         __builtin_prefetch(&tiling->point[tile->v[k]]);
-        fetch_tile(tiling, tile->link[k]);
+        mw__fetch_tile(tiling, tile->link[k]);
     }
 }
 
@@ -112,8 +107,8 @@ static MW_INLINE void go_nearer(const mw_tiling *tiling, traveller *one)
     one->tile = mw__link_triangle(link);
     tile = &tiling->tri[mw__link_triangle(link)];
     __builtin_prefetch(&tiling->point[tile->v[mw__prev(e)]]);
-    fetch_tile(tiling, tile->link[mw__next(e)]);
-    fetch_tile(tiling, tile->link[mw__prev(e)]);
+    mw__fetch_tile(tiling, tile->link[mw__next(e)]);
+    mw__fetch_tile(tiling, tile->link[mw__prev(e)]);
 }
 
 static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one)
@@ -126,8 +121,8 @@ static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one
         uint32_t e = mw__link_edge(tile->link[k]);
         __builtin_prefetch(&tiling->point[other->v[mw__prev(e)]]);
         __builtin_prefetch(&tiling->tile_at[other->v[mw__prev(e)]], 1);
-        fetch_tile(tiling, other->link[mw__next(e)]);
-        fetch_tile(tiling, other->link[mw__prev(e)]);
+        mw__fetch_tile(tiling, other->link[mw__next(e)]);
+        mw__fetch_tile(tiling, other->link[mw__prev(e)]);
     }
 }
 

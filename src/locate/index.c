@@ -108,15 +108,30 @@ static MW_INLINE uint32_t within(const mw_tiling *tiling, uint32_t t)
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
 }
 
+/* The name of the first tile; of a curve, its place. */
+static MW_INLINE uint32_t first_name(const mw_index *index, mw_point q)
+{
+    switch (index->start) {
+    case MW_START_GRID: return mw__grid_first(&index->grid, q);
+    case MW_START_TWO_LEVEL_GRID: return mw__two_level_grid_first(&index->two_level_grid, q);
+    case MW_START_CURVE: return mw__curve_first(&index->curve, q);
+    default: return 0;
+    }
+}
+
+uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q)
+{
+    const uint32_t name = first_name(index, q);
+    return index->start == MW_START_CURVE ? within(tiling, name) : mw__tile_named(tiling, name);
+}
+
+/* In a tiling that is edited, where it was triangulated here, most tiles have their place as number. To see that, nothing has to come from memory but
+ * the tile, which is wanted next. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
-    uint32_t name = 0;
-    switch (index->start) {
-    case MW_START_GRID: name = mw__grid_first(&index->grid, q); break;
-    case MW_START_TWO_LEVEL_GRID: name = mw__two_level_grid_first(&index->two_level_grid, q); break;
-    case MW_START_CURVE: return within(tiling, mw__curve_first(&index->curve, q));
-    default: break;
-    }
+    const uint32_t name = first_name(index, q);
+    if (index->start == MW_START_CURVE) return within(tiling, name);
+    if (tiling->tile_of && name < tiling->tri_count && (tiling->tri[name].user & ~MW_FLIPPED) == name) return name;
     return mw__tile_named(tiling, name);
 }
 

@@ -30,6 +30,8 @@ size_t mw__index_bytes(const mw_index *index);
 
 /* The first tile for q: a tile of this tiling, whatever mesh the index was made from. Not for layers. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q);
+/* The same, without a look at that tile: where it has yet to be asked of memory, and is wanted later. */
+uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q);
 
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking
  * through the index did is added to *work, if the cursor counts. */
