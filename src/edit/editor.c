@@ -1,6 +1,7 @@
 /* editor.c - making an editor, and carrying out edits. */
 #include "edit/editor.h"
 
+#include "edit/fetch.h"
 #include "edit/rim.h"
 
 #include <inttypes.h>
@@ -233,7 +234,10 @@ static mw_status insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *
     mw_fabric *f = &editor->fabric;
     if (t != MW_NONE) return mw__fabric_insert(f, q, t, place, error);
     t = first_tile(editor, q);
-    for (int k = 0; k < 3; k++) mw__fetch_tile(f->tiling, f->tiling->tri[t].link[k]);
+    if (editor->upkeep.large) {
+        mw__fetch_tiles_round(f->tiling, t);
+        mw__fetch_points_round(f->tiling, f->tiling->tri[t].v[0]);
+    }
     mw_status status = mw__fabric_insert(f, q, t, place, error);
     editor->astray |= f->walked > FAR;
     return status;
@@ -283,6 +287,10 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
     uint32_t v = mw__vertex_there(f, edit->vertex);
     if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
     change->vertex = edit->vertex;
+    if (editor->upkeep.large) {
+        mw__fetch_points_round(f->tiling, v);
+        mw__fetch_tiles_round(f->tiling, f->tiling->tile_at[v]);
+    }
     if (edit->kind == MW_EDIT_REMOVE) {
         change->vertex_freed = 1;
         return mw__fabric_remove(f, v, error);

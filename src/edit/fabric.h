@@ -104,12 +104,6 @@ static MW_INLINE bool mw__is_users(const mw_fabric *f, uint32_t tile)
     return !(f->tiling->tri[tile].user & MW_GHOST);
 }
 
-/* Ask memory for the tile beyond an edge, if there is one. */
-static MW_INLINE void mw__fetch_tile(const mw_tiling *tiling, uint32_t link)
-{
-    if (MW_LIKELY(link != MW_NONE)) __builtin_prefetch(&tiling->tri[mw__link_triangle(link)]);
-}
-
 /* Take the arrays of a tiling, borrowed from `mesh` or its own (borrowed ones are copied); `mesh` gives the numbers of vertices. Border
  * between tiles and ghosts is fixed. MW_ERROR_INPUT: vertices at one place, or triangles cut; MW_ERROR_MEMORY. Release in either case,
  * before the tiling is. */

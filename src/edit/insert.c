@@ -2,6 +2,7 @@
  *
  * The tiles that have to go are dug out (hole.h), and what they leave is filled with a star round the vertex: the tiles that flips one after
  * another would lead to [Lawson 1977], each made once. All of them have the vertex as corner 2. */
+#include "edit/fetch.h"
 #include "edit/hole.h"
 
 #include "walk/walk.h"

@@ -1,5 +1,6 @@
 /* insert_points.c - many points at once: one step, whose journal has each tile once, or which needs none. */
 #include "edit/editor.h"
+#include "edit/fetch.h"
 #include "edit/rim.h"
 
 #include "mesh/curve.h"
@@ -67,18 +68,17 @@ typedef struct traveller {
 
 typedef struct outlook {
     const batch *points;
-    const mw_locator *locator;
-    const mw_fabric *fabric;
+    const mw_editor *editor;
     bool used;
     traveller on_way[AHEAD]; /* point i is on_way[i % AHEAD] */
 } outlook;
 
 static MW_INLINE void name_first(outlook *o, size_t i)
 {
-    const mw_tiling *tiling = &o->locator->tiling;
+    const mw_tiling *tiling = &o->editor->locator.tiling;
     traveller *one = &o->on_way[i % AHEAD];
     one->q = o->points->point[item(o->points, i)];
-    one->tile = mw__index_tile_ahead(tiling, &o->locator->guide, one->q);
+    one->tile = mw__index_tile_ahead(tiling, &o->editor->locator.guide, one->q);
     __builtin_prefetch(&tiling->tri[one->tile]);
 }
 
@@ -126,26 +126,34 @@ static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one
     }
 }
 
+/* In a small mesh all is near, and to ask for more costs more than it gains. */
+static MW_INLINE void fetch_far(const outlook *o, size_t i)
+{
+    const mw_tiling *tiling = &o->editor->locator.tiling;
+    mw__fetch_tiles_round(tiling, o->on_way[(i + NAMED) % AHEAD].tile);
+    mw__fetch_points_round(tiling, tiling->tri[o->on_way[(i + CORNERS) % AHEAD].tile].v[0]);
+    fetch_beyond(tiling, &o->on_way[(i + BEYOND) % AHEAD]);
+}
+
 /* Where points are so many that each lies in a tile of the one before, or beside it, there is nothing to look for. */
 static void begin_outlook(outlook *o, const mw_editor *editor, const batch *b)
 {
-    const mw_locator *locator = &editor->locator;
     bool used = b->n < editor->fabric.vertex_count;
-    *o = (outlook){.points = b, .locator = locator, .fabric = &editor->fabric, .used = used};
+    *o = (outlook){.points = b, .editor = editor, .used = used};
     for (size_t i = 0; used && i < NAMED && i < b->n; i++) name_first(o, i);
 }
 
 /* Before point i goes in: a tile to begin at. At the end places of points that are in already are looked at in place of others, as any is a tile's. */
 static MW_INLINE uint32_t look_ahead(outlook *o, size_t i)
 {
-    const mw_tiling *tiling = &o->locator->tiling;
+    const mw_tiling *tiling = &o->editor->locator.tiling;
     const size_t n = o->points->n;
-    if (!o->used) return o->fabric->last;
+    if (!o->used) return o->editor->fabric.last;
     if (i + AHEAD < n) __builtin_prefetch(&o->points->point[item(o->points, i + AHEAD)]);
     if (i + NAMED < n) name_first(o, i + NAMED);
     fetch_corners(tiling, &o->on_way[(i + CORNERS) % AHEAD]);
     for (size_t k = NEARER; k > BEYOND; k -= EVERY) go_nearer(tiling, &o->on_way[(i + k) % AHEAD]);
-    fetch_beyond(tiling, &o->on_way[(i + BEYOND) % AHEAD]);
+    if (o->editor->upkeep.large) fetch_far(o, i);
     return o->on_way[i % AHEAD].tile;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "edit/rim.h"
+#include "locate/spread.h"
 
 /* --- building ---------------------------------------------------------------------------------------------------------- */
 
@@ -16,19 +17,22 @@ static bool is_built(const mw_upkeep *u, mw_start_kind start)
     return u->since[start].built;
 }
 
-/* The guide does not follow edits: two for each vertex would double the walks from it. Built anew after one for each, it takes a quarter as long as so many
- * insertions in an order of space, a twentieth of insertions anywhere in a large mesh. */
+/* The guide does not follow edits. Insertions lengthen the walks from it, by half when there are three times as many vertices; other edits wear its names
+ * out, too. Built anew after two insertions for each vertex, or one other edit, it takes a tenth as long as these, if they come in an order of space; a
+ * twentieth of insertions anywhere in a large mesh. */
 static void begin_anew(mw_upkeep *u, mw_start_kind start)
 {
-    enum { FEW = 64, EDITS_PER_VERTEX = 4, OUTSIDERS = 4 };
+    enum { FEW = 64, EDITS_PER_VERTEX = 4, INSERTIONS_PER_VERTEX = 2, OUTSIDERS = 4 };
+    const bool guide = start == MW_START_AUTO;
     uint64_t n = live_vertices(u->fabric);
     if (!is_built(u, start) && start != MW_START_CURVE) u->kept[u->kept_count++] = start;
     u->since[start] = (mw_since){
         .built = true,
-        .most_edits = FEW + (start == MW_START_AUTO ? n : EDITS_PER_VERTEX * n),
+        .most_edits = FEW + (guide ? INSERTIONS_PER_VERTEX : EDITS_PER_VERTEX) * n,
+        .weight = guide ? INSERTIONS_PER_VERTEX : 1,
         .most_outsiders = FEW + n / OUTSIDERS,
         .fewest = (n + 1) / 2,
-        .most = 2 * n,
+        .most = guide ? (1 + INSERTIONS_PER_VERTEX) * n : 2 * n,
     };
 }
 
@@ -79,7 +83,9 @@ mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_opt
 static bool build_guide(mw_upkeep *u)
 {
     mw_index fresh;
+    const mw_caches caches = mw__caches();
     mw__locator_survey(u->locator);
+    u->large = mw__room_of_all(u->locator, &caches) == MW_ROOM_BEYOND;
     begin_anew(u, MW_START_AUTO);
     bool done = mw__locator_guide(u->locator, &fresh);
     if (done) {
@@ -289,7 +295,10 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     if (undone) redirect_names(u, step, first, count);
     note_tiles(u, step, first, count);
     follow_vertices(u, step);
-    for (uint32_t i = 0; i < u->kept_count; i++) count_edits(u, u->kept[i], step->edits);
+    for (uint32_t i = 0; i < u->kept_count; i++) {
+        const uint32_t weight = step->edit.kind == MW_EDIT_INSERT ? 1 : u->since[u->kept[i]].weight;
+        count_edits(u, u->kept[i], weight * step->edits);
+    }
 }
 
 void mw__upkeep_insertion(mw_upkeep *u, uint32_t v)

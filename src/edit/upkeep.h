@@ -8,8 +8,9 @@
  *   layers   follow each vertex [Devillers 2002]: see live_layers.h.
  *   a curve  holds places of tiles, which say less and less. It is built anew only on request.
  *
- * The guide is not told of edits. Guide, grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built,
- * or half; after four edits for each vertex there was, the guide after one for each; grids also when a quarter as many vertices were put
+ * The guide is not told of edits. Grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built,
+ * or half, or after four edits for each vertex there was; the guide when there are three times as many, or half, or after two insertions for each, other
+ * edits counting twice; grids also when a quarter as many vertices were put
  * beyond their rims; layers when one has half or twice as many vertices as its chance of them lets expect. That is O(1) for each edit.
  * Where memory is short the old ones stay, and layers that cannot follow are dropped: all of this is only a guide, no answer depends on it. */
 #ifndef MW_SRC_UPKEEP_H
@@ -25,6 +26,7 @@ typedef struct mw_since {
     uint64_t edits, outsiders;           /* since it was built: edits; vertices put where it has no cells */
     uint64_t most_edits, most_outsiders; /* as many are borne                                             */
     uint64_t fewest, most;               /* vertices                                                      */
+    uint32_t weight;                     /* an edit that is no insertion counts as so many                */
 } mw_since;
 
 typedef struct mw_upkeep {
@@ -37,6 +39,7 @@ typedef struct mw_upkeep {
     uint32_t kept_count;
     mw_live_layers live; /* what follows the vertices of index[MW_START_LAYERS] */
     uint64_t refreshes;  /* times that something was built anew */
+    bool large;          /* the mesh is more than caches hold as a rule: found out with the guide */
 } mw_upkeep;
 
 /* Take a locator whose `tiling` is the fabric's, and all else is zero: find its extent, walks, guide, and what else it keeps. None of the three may
@@ -59,7 +62,7 @@ void mw__upkeep_edit(mw_upkeep *upkeep, bool undone);
 /* The same after an insertion that was no step, as nobody asked: of vertex v, or MW_NONE where there was one. */
 void mw__upkeep_insertion(mw_upkeep *upkeep, uint32_t v);
 
-/* In the middle of an edit that puts in many vertices: the guide is built anew if there are twice as many. */
+/* In the middle of an edit that puts in many vertices: the guide is built anew if it is due. */
 void mw__upkeep_grow(mw_upkeep *upkeep);
 
 /* After an edit in which the guide was built anew failed, and was rolled back: it names tiles that are not there. */

@@ -100,7 +100,7 @@ static uint32_t count_cells(const mw_tiling *tiling)
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
     /* Most cells are empty where those that have tiles have more than UNEVEN of them on the average. */
-    enum { STRIDE = 2, UNEVEN = 32 };
+    enum { STRIDE = 2, UNEVEN = 32, SPARSE = 3 };
     const mw_tiling *tiling = &locator->tiling;
     *guide = (mw_index){0};
     if (tiling->open || !tiling->embedding) return true;
@@ -111,6 +111,8 @@ bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
     bool even = plan.taken >= tiling->tri_count / UNEVEN;
     if (plan.crowded || !even) return guide_crowd(locator, guide, &plan, even, cells);
     mw__grid_end(&guide->grid, &plan, false);
+    if (tiling->tile_of && plan.taken < mw__lattice_cells(&guide->grid.lattice) / SPARSE)
+        return mw__grid_refine(&guide->grid, tiling, STRIDE);
     return true;
 }
 

@@ -50,9 +50,9 @@ static void look(const mw_grid *grid, const mw_grid_plan *plan, int i, int share
         uint32_t t = (uint32_t)(look * plan->stride);
         mw_grid_site *site = &sites[mw__lattice_cell_off(&grid->lattice, mw__tile_middle(plan->tiling, t), &off)];
         site->count++;
-        if (!(off < site->off)) continue;
-        site->tile = t;
-        site->off = off;
+        const uint32_t nearer = 0 - (uint32_t)(off < site->off); /* no jump: every other one would be guessed wrong */
+        site->tile ^= (site->tile ^ t) & nearer;
+        site->off = off < site->off ? off : site->off;
     }
 }
 
@@ -110,10 +110,9 @@ static void judge(mw_grid_plan *plan, uint32_t cells)
     plan->crowded = crowd > seen / SHARE;
 }
 
-bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells)
+/* Look at the tiles that are in the cells of a lattice. */
+static bool look_at_cells(mw_grid *grid, mw_grid_plan *plan)
 {
-    if (cells == 0) cells = mw__lattice_choose(plan->tiling);
-    grid->lattice = mw__lattice_of(plan->tiling, low, high, cells);
     uint32_t count = mw__lattice_cells(&grid->lattice);
     int shares = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
     if (shares > MOST_SHARES) shares = MOST_SHARES;
@@ -124,7 +123,15 @@ bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], cons
         return false;
     }
     look_together(grid, plan, shares);
-    judge(plan, count);
+    return true;
+}
+
+bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells)
+{
+    if (cells == 0) cells = mw__lattice_choose(plan->tiling);
+    grid->lattice = mw__lattice_of(plan->tiling, low, high, cells);
+    if (!look_at_cells(grid, plan)) return false;
+    judge(plan, mw__lattice_cells(&grid->lattice));
     return true;
 }
 
@@ -144,13 +151,25 @@ static bool is_outermost(const mw_lattice *lattice, uint32_t x, uint32_t y)
     return x == 0 || y == 0 || x + 1 == lattice->columns || y + 1 == lattice->rows;
 }
 
+/* Does tile t have p? In plain doubles. */
+static MW_INLINE bool has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
+{
+    const uint32_t *v = tiling->tri[t].v;
+    const mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
+    return (mw__orient2d_double(a, b, p) > 0) & (mw__orient2d_double(b, c, p) > 0) & (mw__orient2d_double(c, a, p) > 0);
+}
+
 /* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long, as far as the fuel goes. Where the walk
  * leaves the hull, and tiles are beside, one of these: the hull may cross the cell, and from a long tile along it walks into the
  * mesh are long. */
 static void fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t, uint32_t fuel)
 {
     uint32_t cell = y * grid->lattice.columns + x, beside = cell;
-    mw_point middle = mw__lattice_middle(&grid->lattice, cell);
+    mw_point middle = mw__lattice_middle(&grid->lattice, x, y);
+    if (has_point(plan->tiling, t, middle)) {
+        grid->tile[cell] = t;
+        return;
+    }
     mw_walk walk = mw__walk_begin(plan->tiling, middle, t, fuel, 0, NULL);
     bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_LEFT;
     if (left && !is_outermost(&grid->lattice, x, y)) beside = settled(grid, plan, x, y);
@@ -226,6 +245,24 @@ void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
     for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells; c++)
         grid->tile[c] = sparse && has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);
     free(plan->site);
+}
+
+bool mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
+{
+    mw_grid fine = {.lattice = mw__lattice_finer(&grid->lattice)};
+    mw_grid_plan plan = {.tiling = tiling, .stride = stride};
+    if (!look_at_cells(&fine, &plan)) {
+        mw__grid_release(&fine);
+        return false;
+    }
+    const uint32_t columns = fine.lattice.columns, *row = grid->tile;
+    for (uint32_t y = 0, cell = 0; y < fine.lattice.rows; y++, row += y % 2 == 0 ? grid->lattice.columns : 0)
+        for (uint32_t x = 0; x < columns; x++, cell++)
+            fine.tile[cell] = is_gap(&plan, cell) ? row[x / 2] : mw__tile_name(tiling, fine.tile[cell]);
+    free(plan.site);
+    mw__grid_release(grid);
+    *grid = fine;
+    return true;
 }
 
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)

@@ -19,10 +19,10 @@ mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells
     return lattice;
 }
 
-mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell)
+mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t column, uint32_t row)
 {
     const double *a = lattice->along[0], *b = lattice->along[1];
-    double u = cell % lattice->columns + 0.5 - lattice->half[0], v = cell / lattice->columns + 0.5 - lattice->half[1];
+    double u = column + 0.5 - lattice->half[0], v = row + 0.5 - lattice->half[1];
     double x = a[0] != 0 ? u / a[0] : 0, y = b[1] != 0 ? v / b[1] : 0;
     if (a[1] != 0 || b[0] != 0) { /* the axes are at right angles */
         double aa = a[0] * a[0] + a[1] * a[1], bb = b[0] * b[0] + b[1] * b[1];
@@ -106,6 +106,19 @@ mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const do
         lattice.half[k]++;
     }
     return lattice;
+}
+
+mw_lattice mw__lattice_finer(const mw_lattice *lattice)
+{
+    mw_lattice finer = *lattice;
+    for (int k = 0; k < 2; k++) {
+        finer.along[k][0] *= 2;
+        finer.along[k][1] *= 2;
+        finer.half[k] *= 2;
+    }
+    finer.columns *= 2;
+    finer.rows *= 2;
+    return finer;
 }
 
 /* --- what cells hold -------------------------------------------------------------------------------------------------- */

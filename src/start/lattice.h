@@ -17,6 +17,9 @@ mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells
  * than a few, a rim of further cells surrounds the extent, to which all points outside of it belong. */
 mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
 
+/* The same with cells half as wide and half as high. */
+mw_lattice mw__lattice_finer(const mw_lattice *lattice);
+
 /* As many as there may be tiles. */
 #define MW_MAX_CELLS (UINT32_C(1) << 30)
 
@@ -57,7 +60,7 @@ static MW_INLINE bool mw__lattice_covers(const mw_lattice *lattice, mw_point p)
 }
 
 /* The middle of a cell. */
-mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t cell);
+mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t column, uint32_t row);
 
 /* The cell of p, and the square of how far p is off its middle, in widths of a cell; NaN is as far as can be. */
 static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_point p, float *off)
