@@ -16,8 +16,8 @@
 
 /* --- meshes ------------------------------------------------------------------------------------------------------------ */
 
-enum { UNIFORM, GRID, CIRCLE, CLUSTERS, HOLES, MESHES };
-static const char *const mesh_name[] = {"uniform", "grid", "circle", "clusters", "holes"};
+enum { UNIFORM, GRID, CIRCLE, CLUSTERS, PATCHES, HOLES, MESHES };
+static const char *const mesh_name[] = {"uniform", "grid", "circle", "clusters", "patches", "holes"};
 
 /* A point as those of a mesh lie, all of them about within the square from 0 to 16; a few outside. */
 static void random_place(int kind, uint64_t *random, double p[2])
@@ -34,6 +34,8 @@ static void random_place(int kind, uint64_t *random, double p[2])
         uint32_t i = mw__random_below(random, 5);
         for (int k = 0; k < 2; k++) p[k] = 8 + 4 * cos(i * 1.3 + k) + (random_unit(random) - 0.5) * 0.01;
     }
+    if (kind == PATCHES) /* a twentieth of the square */
+        for (int k = 0; k < 2; k++) p[k] = 3.2 * mw__random_below(random, 5) + 0.7 * random_unit(random);
     if (kind != HOLES && mw__random_below(random, 40) == 0)
         for (int k = 0; k < 2; k++) p[k] = 40 * random_unit(random) - 12;
 }
@@ -564,11 +566,63 @@ static void test_kept_near(void **state)
     }
 }
 
+/* --- what the guide is ---------------------------------------------------------------------------------------------------- */
+
+/* None of whose vertices lies outside of the square. */
+static mw_mesh *make_square(int kind, uint32_t n, uint64_t *random)
+{
+    double *points = malloc(2 * n * sizeof *points);
+    for (uint32_t i = 0; i < n; i++) {
+        double *p = points + 2 * i;
+        do random_place(kind, random, p);
+        while (fabs(p[0] - 8) > 8 || fabs(p[1] - 8) > 8);
+    }
+    mw_mesh *mesh = delaunay_mesh(points, n);
+    free(points);
+    return mesh;
+}
+
+/* A grid, of finer cells where most of them would be empty; where vertices are more crowded than that one of two levels. Where memory fails while it is
+ * made there is no editor. */
+static void test_guides(void **state)
+{
+    (void)state;
+    uint64_t random = 706;
+    enum { VERTICES = 4000 };
+    static const struct {
+        int kind;
+        mw_start_kind start;
+    } expected[] = {{UNIFORM, MW_START_GRID}, {PATCHES, MW_START_GRID}, {CLUSTERS, MW_START_TWO_LEVEL_GRID}};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        mw_mesh *mesh = make_square(expected[i].kind, VERTICES, &random);
+        mw_editor *editor = NULL;
+        long failures = 0;
+        for (; !editor; failures++) {
+            mw_error error;
+            allocations_left = failures;
+            mw_status status = mw_editor_create(mesh, NULL, &editor, &error);
+            allocations_left = -1;
+            assert_int_equal(status, editor ? MW_OK : MW_ERROR_MEMORY);
+        }
+        assert_true(failures > 10);
+        const mw_index *guide = &editor->locator.guide;
+        assert_int_equal(guide->start, expected[i].start);
+        if (guide->start == MW_START_GRID) {
+            const uint32_t cells = mw__lattice_cells(&guide->grid.lattice);
+            assert_true(expected[i].kind == PATCHES ? cells > VERTICES : cells < VERTICES);
+            for (uint32_t c = 0; c < cells; c++)
+                assert_true(mw_editor_triangle(editor, guide->grid.tile[c], (uint32_t[3]){0}));
+        }
+        mw_editor_destroy(editor);
+        mw_mesh_destroy(mesh);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sessions),        cmocka_unit_test(test_layers_follow), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_cursors_recover), cmocka_unit_test(test_kept_near),
+        cmocka_unit_test(test_cursors_recover), cmocka_unit_test(test_kept_near),     cmocka_unit_test(test_guides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
