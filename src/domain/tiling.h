@@ -38,11 +38,18 @@ typedef struct mw_tiling {
     uint32_t
         *tile_of; /* of such a one, per number: its tile, or MW_GONE and the number of a triangle that took its place;
                               else NULL. Always owned */
+    bool at_home; /* of such a one: most tiles have their place as number (mw__locator_survey)          */
     uint32_t name_count; /* of such a one: numbers up to here, of edits that were undone, lead to a tile too */
     uint32_t threads;    /* that make what belongs to it; 0: as OpenMP gives                                   */
 } mw_tiling;
 
 #define MW_GONE (UINT32_C(1) << 31)
+
+/* Has tile t, if there is one, its place as number? Most have in a tiling that was triangulated here, and edited. */
+static MW_INLINE bool mw__is_at_home(const mw_tiling *tiling, uint32_t t)
+{
+    return t < tiling->tri_count && (tiling->tri[t].user & ~MW_FLIPPED) == t;
+}
 
 /* The tile that `name` leads to: in a tiling that is edited the triangle of that number, or one that took its place; else tile
  * `name`. Always a tile of this tiling: what names it may be older, or of another one. */

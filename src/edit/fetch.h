@@ -13,20 +13,20 @@ static MW_INLINE void mw__fetch_tile(const mw_tiling *tiling, uint32_t link)
 /* Tiles lie along a curve as a rule, numbered by their lowest vertices, so that most of what lies round about a tile, or comes next along the curve, lies
  * near it in memory, rather behind it than before. To ask for all of that at once beats waiting for one after the other, in a mesh that caches do not
  * hold. */
-enum { MW_LINE = 64, MW_TILES_BEFORE = 16, MW_TILES_AFTER = 64, MW_POINTS_BEFORE = 12, MW_POINTS_AFTER = 48 };
-
 static MW_INLINE void mw__fetch_tiles_round(const mw_tiling *tiling, uint32_t t)
 {
-    uint32_t from = t < MW_TILES_BEFORE ? 0 : t - MW_TILES_BEFORE, end = t + MW_TILES_AFTER;
+    enum { LINE = 64, BEFORE = 16, AFTER = 64 };
+    uint32_t from = t < BEFORE ? 0 : t - BEFORE, end = t + AFTER;
     if (end > tiling->tri_count) end = tiling->tri_count;
-    for (; from < end; from += MW_LINE / sizeof *tiling->tri) __builtin_prefetch(&tiling->tri[from]);
+    for (; from < end; from += LINE / sizeof *tiling->tri) __builtin_prefetch(&tiling->tri[from]);
 }
 
 static MW_INLINE void mw__fetch_points_round(const mw_tiling *tiling, uint32_t v)
 {
-    uint32_t from = v < MW_POINTS_BEFORE ? 0 : v - MW_POINTS_BEFORE, end = v + MW_POINTS_AFTER;
+    enum { LINE = 64, BEFORE = 12, AFTER = 48 };
+    uint32_t from = v < BEFORE ? 0 : v - BEFORE, end = v + AFTER;
     if (end > tiling->point_count) end = tiling->point_count;
-    for (; from < end; from += MW_LINE / sizeof *tiling->point) __builtin_prefetch(&tiling->point[from]);
+    for (; from < end; from += LINE / sizeof *tiling->point) __builtin_prefetch(&tiling->point[from]);
 }
 
 #endif

@@ -17,9 +17,9 @@ static bool is_built(const mw_upkeep *u, mw_start_kind start)
     return u->since[start].built;
 }
 
-/* The guide does not follow edits. Insertions lengthen the walks from it, by half when there are three times as many vertices; other edits wear its names
- * out, too. Built anew after two insertions for each vertex, or one other edit, it takes a tenth as long as these, if they come in an order of space; a
- * twentieth of insertions anywhere in a large mesh. */
+/* The guide does not follow edits. Insertions lengthen the walks from it, to twice as many tiles where there are three times as many vertices; other edits
+ * wear its names out, too. Built anew after two insertions for each vertex, or one other edit, it takes a seventh as long as these, if they come in an order of
+ * space; a twentieth of insertions anywhere in a large mesh. */
 static void begin_anew(mw_upkeep *u, mw_start_kind start)
 {
     enum { FEW = 64, EDITS_PER_VERTEX = 4, INSERTIONS_PER_VERTEX = 2, OUTSIDERS = 4 };
@@ -296,7 +296,8 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     note_tiles(u, step, first, count);
     follow_vertices(u, step);
     for (uint32_t i = 0; i < u->kept_count; i++) {
-        const uint32_t weight = step->edit.kind == MW_EDIT_INSERT ? 1 : u->since[u->kept[i]].weight;
+        const bool puts_in = (step->edit.kind == MW_EDIT_INSERT) != undone;
+        const uint32_t weight = puts_in ? 1 : u->since[u->kept[i]].weight;
         count_edits(u, u->kept[i], weight * step->edits);
     }
 }

@@ -10,7 +10,7 @@
  *
  * The guide is not told of edits. Grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built,
  * or half, or after four edits for each vertex there was; the guide when there are three times as many, or half, or after two insertions for each, other
- * edits counting twice; grids also when a quarter as many vertices were put
+ * edits counting twice; guide and grids also when a quarter as many vertices were put
  * beyond their rims; layers when one has half or twice as many vertices as its chance of them lets expect. That is O(1) for each edit.
  * Where memory is short the old ones stay, and layers that cannot follow are dropped: all of this is only a guide, no answer depends on it. */
 #ifndef MW_SRC_UPKEEP_H
@@ -62,7 +62,7 @@ void mw__upkeep_edit(mw_upkeep *upkeep, bool undone);
 /* The same after an insertion that was no step, as nobody asked: of vertex v, or MW_NONE where there was one. */
 void mw__upkeep_insertion(mw_upkeep *upkeep, uint32_t v);
 
-/* In the middle of an edit that puts in many vertices: the guide is built anew if it is due. */
+/* In the middle of an edit that puts in many vertices: the guide is built anew if there are three times as many as when it was. */
 void mw__upkeep_grow(mw_upkeep *upkeep);
 
 /* After an edit in which the guide was built anew failed, and was rolled back: it names tiles that are not there. */

@@ -125,13 +125,12 @@ uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw
     return index->start == MW_START_CURVE ? within(tiling, name) : mw__tile_named(tiling, name);
 }
 
-/* In a tiling that is edited, where it was triangulated here, most tiles have their place as number. To see that, nothing has to come from memory but
- * the tile, which is wanted next. */
+/* Where most tiles have their place as number, which is to be seen by the tile, wanted next, nothing else has to come from memory. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
     const uint32_t name = first_name(index, q);
     if (index->start == MW_START_CURVE) return within(tiling, name);
-    if (tiling->tile_of && name < tiling->tri_count && (tiling->tri[name].user & ~MW_FLIPPED) == name) return name;
+    if (tiling->at_home && mw__is_at_home(tiling, name)) return name;
     return mw__tile_named(tiling, name);
 }
 

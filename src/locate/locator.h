@@ -18,7 +18,7 @@ struct mw_locator {
     double low[2], high[2]; /* extent of the tiling                                                    */
     mw_index guide;         /* how queries begin where nothing is said; start MW_START_AUTO: there is none */
     double near2;           /* a tile within this squared distance beats a sample, by expectation      */
-    double cell2;           /* the same of a guide: the area of one of its cells, if it were a grid     */
+    double cell2;           /* the same of a guide: the area of one of its cells, if it were a grid, not refined */
     double pace;            /* tiles that a straight line crosses per unit of length, by expectation   */
     mw_walk_kind auto_walk; /* what MW_WALK_AUTO means here */
     mw_walk_kind finish;    /* what ends the cheap walks    */

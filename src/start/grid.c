@@ -247,22 +247,23 @@ void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
     free(plan->site);
 }
 
-bool mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
+void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
 {
     mw_grid fine = {.lattice = mw__lattice_finer(&grid->lattice)};
     mw_grid_plan plan = {.tiling = tiling, .stride = stride};
+    if (!mw__lattice_is_finite(&fine.lattice)) return;
     if (!look_at_cells(&fine, &plan)) {
         mw__grid_release(&fine);
-        return false;
+        return;
     }
-    const uint32_t columns = fine.lattice.columns, *row = grid->tile;
-    for (uint32_t y = 0, cell = 0; y < fine.lattice.rows; y++, row += y % 2 == 0 ? grid->lattice.columns : 0)
-        for (uint32_t x = 0; x < columns; x++, cell++)
-            fine.tile[cell] = is_gap(&plan, cell) ? row[x / 2] : mw__tile_name(tiling, fine.tile[cell]);
+    for (uint32_t y = 0, cell = 0; y < fine.lattice.rows; y++) {
+        const uint32_t *coarse = grid->tile + (size_t)(y / 2) * grid->lattice.columns;
+        for (uint32_t x = 0; x < fine.lattice.columns; x++, cell++)
+            fine.tile[cell] = is_gap(&plan, cell) ? coarse[x / 2] : mw__tile_name(tiling, fine.tile[cell]);
+    }
     free(plan.site);
     mw__grid_release(grid);
     *grid = fine;
-    return true;
 }
 
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)

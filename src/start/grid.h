@@ -34,9 +34,9 @@ typedef struct mw_grid_plan {
 bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells);
 /* With `sparse` crowded cells are left without a tile: MW_NONE. */
 void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
-/* Make of each cell of a grid that ended four. Those in which no tile is, of every stride-th, have the tile of that cell, which takes no walk. False when
- * out of memory; then it is as it was. */
-bool mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride);
+/* Make of each cell of a grid that ended four. Those in which no tile is, of every stride-th, have the tile of that cell, which takes no walk. Where memory
+ * is short, or cells would be too small for doubles, it stays as it was. For the time being it takes 16 bytes a cell more. */
+void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);
 

@@ -121,6 +121,13 @@ mw_lattice mw__lattice_finer(const mw_lattice *lattice)
     return finer;
 }
 
+bool mw__lattice_is_finite(const mw_lattice *lattice)
+{
+    double sum = 0;
+    for (int k = 0; k < 2; k++) sum += fabs(lattice->along[k][0]) + fabs(lattice->along[k][1]);
+    return isfinite(sum);
+}
+
 /* --- what cells hold -------------------------------------------------------------------------------------------------- */
 
 /* From the cells that have an entry outwards, ring by ring: each cell is reached first from one at the least distance in

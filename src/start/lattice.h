@@ -20,6 +20,9 @@ mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const do
 /* The same with cells half as wide and half as high. */
 mw_lattice mw__lattice_finer(const mw_lattice *lattice);
 
+/* Are its cells large enough for doubles? */
+bool mw__lattice_is_finite(const mw_lattice *lattice);
+
 /* As many as there may be tiles. */
 #define MW_MAX_CELLS (UINT32_C(1) << 30)
 
