@@ -156,7 +156,10 @@ static MW_INLINE bool has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
 {
     const uint32_t *v = tiling->tri[t].v;
     const mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
-    return (mw__orient2d_double(a, b, p) > 0) & (mw__orient2d_double(b, c, p) > 0) & (mw__orient2d_double(c, a, p) > 0);
+    const double ab = mw__orient2d_double(a, b, p), bc = mw__orient2d_double(b, c, p),
+                 ca = mw__orient2d_double(c, a, p);
+    const double one = ab < bc ? ab : bc, least = one < ca ? one : ca;
+    return least > 0;
 }
 
 /* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long, as far as the fuel goes. Where the walk
