@@ -197,7 +197,8 @@ MW_API const mw_locator *mw_editor_locator(const mw_editor *editor);
  * each edit at O(1) expected, and are built anew when there are twice as many vertices as when they were built, or half; for
  * layers [Devillers 2002] a new vertex rises with the same chance as at first, and one that goes leaves all layers.
  * MW_START_CURVE is built anew only here: after edits it leads less near. The locator's own guide is built anew when there are three times
- * as many vertices, or half, or a quarter as many outside the extent of that time, and after two insertions for every vertex, other edits counting twice. *index stays valid until the editor is destroyed; there is one for each start.
+ * as many vertices, or half, or a quarter as many outside the extent of that time, and after two insertions for every vertex, other edits
+ * counting twice. *index stays valid until the editor is destroyed; there is one for each start.
  * Options as for mw_index_create, NULL = all zero. Errors as there. */
 MW_API mw_status mw_editor_index(mw_editor *editor, mw_start_kind start, const mw_index_options *options,
                                  const mw_index **index, mw_error *error);
