@@ -1,10 +1,10 @@
 /* meshwalk - the program. Picks the sub-command; each has a file of its own. */
-#include "commands.h"
-#include "files.h"
-#include "message.h"
-#include "progress.h"
-#include "signals.h"
-#include "spelling.h"
+#include "cli/commands/commands.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
+#include "cli/frame/spelling.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -1,0 +1,317 @@
+#include "bench/data/polyhedra.h"
+#include "bench/data/datasets.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+const char *polyhedron_name(int kind)
+{
+    static const char *const names[POLYHEDRON_KINDS] = {
+        [POLYHEDRON_ICOSAHEDRON] = "icosahedron",
+        [POLYHEDRON_STAR] = "star",
+        [POLYHEDRON_BUMPS] = "bumps",
+        [POLYHEDRON_KNOT] = "knot",
+    };
+    return kind >= 0 && kind < POLYHEDRON_KINDS ? names[kind] : NULL;
+}
+
+void polyhedron_direction(double direction[3], uint64_t *random)
+{
+    double z = 2 * dataset_unit(random) - 1, angle = 2 * PI * dataset_unit(random), r = sqrt(1 - z * z);
+    direction[0] = r * cos(angle);
+    direction[1] = r * sin(angle);
+    direction[2] = z;
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void normalise(double a[3])
+{
+    double length = sqrt(dot(a, a));
+    for (size_t k = 0; k < 3; k++) a[k] /= length;
+}
+
+static bool make_room(polyhedron *p, size_t points, size_t triangles)
+{
+    p->points = malloc(3 * points * sizeof *p->points);
+    p->triangles = malloc(3 * triangles * sizeof *p->triangles);
+    p->point_count = points;
+    p->triangle_count = triangles;
+    return p->points && p->triangles;
+}
+
+/* --- subdivided icosahedron */
+
+static size_t level_vertices(unsigned level)
+{
+    return ((size_t)10 << 2 * level) + 2;
+}
+
+static unsigned level_below(size_t n)
+{
+    unsigned level = 0;
+    while (level_vertices(level + 1) <= n) level++;
+    return level;
+}
+
+int polyhedron_is_icosahedron(size_t n)
+{
+    return level_vertices(level_below(n)) == n;
+}
+
+static void begin_icosahedron(polyhedron *p)
+{
+    static const double g = 1.6180339887498949; /* the golden section */
+    static const double corners[12][3] = {
+        {-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+        {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1},
+    };
+    static const uint32_t facets[20][3] = {
+        {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1},
+    };
+    memcpy(p->points, corners, sizeof corners);
+    memcpy(p->triangles, facets, sizeof facets);
+    p->point_count = 12;
+    p->triangle_count = 20;
+    for (size_t i = 0; i < 12; i++) normalise(p->points + 3 * i);
+}
+
+/* The middles of edges, by the lower-numbered end of an edge, which at most six meet. */
+typedef struct middles {
+    uint32_t other, middle; /* other 0: free, since no edge ends there as the higher one */
+} middles[6];
+
+static uint32_t middle_of(polyhedron *p, middles *known, uint32_t a, uint32_t b)
+{
+    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    size_t i = 0;
+    while (known[low][i].other && known[low][i].other != high) i++;
+    if (known[low][i].other == 0) {
+        double *m = p->points + 3 * p->point_count;
+        for (size_t k = 0; k < 3; k++) m[k] = p->points[3 * (size_t)a + k] + p->points[3 * (size_t)b + k];
+        normalise(m);
+        known[low][i].other = high;
+        known[low][i].middle = (uint32_t)p->point_count++;
+    }
+    return known[low][i].middle;
+}
+
+/* From the last facet down, so that its four parts may take the places of facets done. */
+static void cut_in_four(polyhedron *p, middles *known)
+{
+    for (size_t i = p->triangle_count; i-- > 0;) {
+        uint32_t v[3], m[3];
+        memcpy(v, p->triangles + 3 * i, sizeof v);
+        for (size_t k = 0; k < 3; k++) m[k] = middle_of(p, known, v[k], v[(k + 1) % 3]);
+        const uint32_t parts[4][3] = {{v[0], m[0], m[2]}, {m[0], v[1], m[1]}, {m[2], m[1], v[2]}, {m[0], m[1], m[2]}};
+        memcpy(p->triangles + 12 * i, parts, sizeof parts);
+    }
+    p->triangle_count *= 4;
+}
+
+static bool make_icosahedron(polyhedron *p, unsigned level)
+{
+    middles *known = malloc(level_vertices(level) * sizeof *known);
+    bool room = make_room(p, level_vertices(level), (size_t)20 << 2 * level) && known;
+    if (room) begin_icosahedron(p);
+    for (unsigned i = 0; i < level && room; i++) {
+        memset(known, 0, p->point_count * sizeof *known);
+        cut_in_four(p, known);
+    }
+    free(known);
+    return room;
+}
+
+/* --- the hull of random points on the sphere */
+
+/* u, v, pole: a right-handed frame. */
+typedef struct frame {
+    double u[3], v[3], pole[3];
+} frame;
+
+static frame draw_frame(uint64_t *random)
+{
+    frame f;
+    double other[3];
+    polyhedron_direction(f.pole, random);
+    polyhedron_direction(other, random);
+    cross(other, f.pole, f.u);
+    normalise(f.u);
+    cross(f.pole, f.u, f.v);
+    return f;
+}
+
+/* The first four points are the corners of a regular tetrahedron, the pole one of them: so the origin is inside, however
+ * few points there are. */
+static void draw_points(polyhedron *p, const frame *f, uint64_t *random)
+{
+    memcpy(p->points, f->pole, sizeof f->pole);
+    for (size_t i = 1; i < 4; i++) {
+        double angle = 2 * PI * (double)i / 3;
+        for (size_t k = 0; k < 3; k++)
+            p->points[3 * i + k] = sqrt(8) / 3 * (cos(angle) * f->u[k] + sin(angle) * f->v[k]) - f->pole[k] / 3;
+    }
+    for (size_t i = 4; i < p->point_count; i++) polyhedron_direction(p->points + 3 * i, random);
+}
+
+/* Of the plane's triangles, seen from the pole and so from inside, each is turned over; beyond its border edges lie the
+ * facets at the pole. Vertex i of the plane is point i + 1. */
+static void take_facets(polyhedron *p, const mw_mesh *plane)
+{
+    uint32_t *next = p->triangles;
+    for (uint32_t i = 0; i < mw_mesh_triangle_count(plane); i++) {
+        uint32_t v[3];
+        mw_mesh_triangle(plane, i, v);
+        for (size_t k = 0; k < 3; k++) *next++ = v[2 - k] + 1;
+        for (unsigned k = 0; k < 3; k++) {
+            if (mw_mesh_neighbour(plane, i, k, NULL) != MW_NONE) continue;
+            *next++ = v[k] + 1;
+            *next++ = v[(k + 1) % 3] + 1;
+            *next++ = 0;
+        }
+    }
+    p->triangle_count = (size_t)(next - p->triangles) / 3;
+}
+
+/* Circles of the sphere are circles of the plane: the facets of the hull are the Delaunay triangles of the points seen
+ * from one of them, the pole, which is in the facets beyond the plane's hull [Brown 1979]. */
+static mw_status make_hull(polyhedron *p, size_t n, uint64_t *random, mw_error *error)
+{
+    mw_mesh *plane = NULL;
+    mw_status status = MW_ERROR_MEMORY;
+    double *seen = malloc(2 * n * sizeof *seen);
+    if (seen && make_room(p, n, 2 * n - 4)) {
+        frame f = draw_frame(random);
+        draw_points(p, &f, random);
+        for (size_t i = 1; i < n; i++) {
+            const double *q = p->points + 3 * i;
+            double height = 1 - dot(q, f.pole);
+            seen[2 * (i - 1)] = dot(q, f.u) / height;
+            seen[2 * (i - 1) + 1] = dot(q, f.v) / height;
+        }
+        status = mw_delaunay(seen, n - 1, 2, NULL, NULL, &plane, error);
+    }
+    if (plane) take_facets(p, plane);
+    mw_mesh_destroy(plane);
+    free(seen);
+    return status;
+}
+
+static void move(double point[3], double factor)
+{
+    for (size_t k = 0; k < 3; k++) point[k] *= factor;
+}
+
+static void roughen(polyhedron *p, uint64_t *random)
+{
+    for (size_t i = 0; i < p->point_count; i++) move(p->points + 3 * i, 0.8 + 0.4 * dataset_unit(random));
+}
+
+#define WAVES 12
+
+/* Plane waves of one to three periods over the sphere. */
+static void wave(polyhedron *p, uint64_t *random)
+{
+    double way[WAVES][3], phase[WAVES];
+    for (size_t w = 0; w < WAVES; w++) {
+        polyhedron_direction(way[w], random);
+        move(way[w], PI * (1 + 2 * dataset_unit(random)));
+        phase[w] = 2 * PI * dataset_unit(random);
+    }
+    for (size_t i = 0; i < p->point_count; i++) {
+        double sum = 0;
+        for (size_t w = 0; w < WAVES; w++) sum += cos(dot(way[w], p->points + 3 * i) + phase[w]);
+        move(p->points + 3 * i, exp(0.15 * sum));
+    }
+}
+
+/* --- a knotted tube */
+
+#define GIRTH 0.45 /* the tube's radius; parts of the knot are about two apart */
+
+/* The knot lies on a torus of the radii 2 and 1, whose normals are the knot's; they, its direction and their product
+ * span the tube. */
+static void knot_point(double t, double s, double point[3])
+{
+    double c = cos(3 * t), z = sin(3 * t), radius = 2 + c;
+    double out[3] = {c * cos(2 * t), c * sin(2 * t), z}, side[3];
+    double along[3] = {-3 * z * cos(2 * t) - 2 * radius * sin(2 * t), -3 * z * sin(2 * t) + 2 * radius * cos(2 * t),
+                       3 * c};
+    normalise(along);
+    cross(along, out, side);
+    double girth = GIRTH * (1 + 0.2 * sin(20 * t) * cos(3 * s));
+    const double centre[3] = {radius * cos(2 * t), radius * sin(2 * t), z};
+    for (size_t k = 0; k < 3; k++) point[k] = centre[k] + girth * (cos(s) * out[k] + sin(s) * side[k]);
+}
+
+/* The knot is about eleven times as long as the tube is round. */
+static bool make_knot(polyhedron *p, size_t n)
+{
+    size_t round = (size_t)lround(sqrt((double)n / 11));
+    if (round < 3) round = 3;
+    size_t length = n / round;
+    if (!make_room(p, length * round, 2 * length * round)) return false;
+    for (size_t i = 0; i < length; i++)
+        for (size_t k = 0; k < round; k++) {
+            size_t vertex = i * round + k, next = (i + 1) % length * round;
+            uint32_t a = (uint32_t)vertex, b = (uint32_t)(i * round + (k + 1) % round);
+            uint32_t c = (uint32_t)(next + (k + 1) % round), d = (uint32_t)(next + k);
+            const uint32_t pair[6] = {a, b, c, a, c, d};
+            knot_point(2 * PI * (double)i / (double)length, 2 * PI * (double)k / (double)round, p->points + 3 * vertex);
+            memcpy(p->triangles + 6 * vertex, pair, sizeof pair);
+        }
+    return true;
+}
+
+mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed, mw_error *error)
+{
+    uint64_t random = seed + n;
+    mw_status status = MW_ERROR_MEMORY;
+    *p = (polyhedron){0};
+    *error = (mw_error){.status = status, .message = "out of memory"};
+    if (kind == POLYHEDRON_ICOSAHEDRON) {
+        if (make_icosahedron(p, level_below(n))) status = MW_OK;
+    } else if (kind == POLYHEDRON_KNOT) {
+        if (make_knot(p, n)) status = MW_OK;
+    } else {
+        status = make_hull(p, n, &random, error);
+        if (status == MW_OK && kind == POLYHEDRON_STAR) roughen(p, &random);
+        if (status == MW_OK && kind == POLYHEDRON_BUMPS) wave(p, &random);
+    }
+    if (status != MW_OK) polyhedron_release(p);
+    return status;
+}
+
+void polyhedron_release(polyhedron *p)
+{
+    free(p->points);
+    free(p->triangles);
+    *p = (polyhedron){0};
+}
+
+mw_arrays polyhedron_arrays(const polyhedron *p)
+{
+    return (mw_arrays){
+        .points = p->points,
+        .point_count = p->point_count,
+        .point_stride = 3,
+        .triangles = p->triangles,
+        .triangle_count = p->triangle_count,
+    };
+}

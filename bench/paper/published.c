@@ -1,0 +1,76 @@
+#include "bench/paper/published.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct cell {
+    quantity quantity;
+    double value;
+} cell;
+
+#define MOST_CELLS 16
+
+typedef struct row {
+    const char *table, *dataset;
+    size_t vertices;
+    const char *algorithm;
+    size_t count;
+    cell cells[MOST_CELLS];
+} row;
+
+static const row rows[] = {
+#define PUBLISHED(table, dataset, vertices, algorithm, ...)                                                            \
+    {#table, dataset, vertices, algorithm, sizeof(cell[]){__VA_ARGS__} / sizeof(cell), {__VA_ARGS__}},
+#include "bench/paper/published.def"
+};
+#define ROWS (sizeof rows / sizeof *rows)
+
+static const double *cell_of(const row *r, quantity q)
+{
+    for (size_t i = 0; i < r->count; i++)
+        if (r->cells[i].quantity == q) return &r->cells[i].value;
+    return NULL;
+}
+
+static bool is_about(const row *r, const char *table, const char *walk)
+{
+    return strcmp(r->table, table) == 0 && strcmp(r->algorithm, walk) == 0;
+}
+
+double published_value(const char *table, const char *set, size_t vertices, const char *walk, quantity q)
+{
+    for (const row *r = rows; r < rows + ROWS; r++) {
+        if (!is_about(r, table, walk) || r->vertices != vertices || strcmp(r->dataset, set) != 0) continue;
+        const double *value = cell_of(r, q);
+        return value ? *value : NAN;
+    }
+    return NAN;
+}
+
+bool published_prints(const char *table, const char *walk, quantity q)
+{
+    for (const row *r = rows; r < rows + ROWS; r++)
+        if (is_about(r, table, walk) && cell_of(r, q)) return true;
+    return false;
+}
+
+static bool is_real(const row *r, const char *table)
+{
+    static const char *const real[] = {"cadastre", "lidar", "skull", "bunny"};
+    for (size_t i = 0; i < sizeof real / sizeof *real; i++)
+        if (strcmp(r->dataset, real[i]) == 0) return strcmp(r->table, table) == 0;
+    return false;
+}
+
+/* The rows of a set stand together. */
+bool published_real(const char *table, size_t i, const char **set, size_t *vertices)
+{
+    for (const row *r = rows; r < rows + ROWS; r++) {
+        bool again = r > rows && is_real(r - 1, table) && r[-1].vertices == r->vertices;
+        if (!is_real(r, table) || again || i-- > 0) continue;
+        *set = r->dataset;
+        *vertices = r->vertices;
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,167 @@
+/* Our engines. */
+#include "bench/peers/engines.h"
+#include "cli/frame/tally.h"
+
+#include <meshwalk/meshwalk.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct own {
+    mw_mesh *mesh;
+    mw_locator *locator;
+    mw_index *index; /* or NULL */
+    mw_location *found;
+    size_t room;
+} own;
+
+static const char *version(void)
+{
+    return "meshwalk " MW_VERSION_STRING;
+}
+
+static void destroy(void *self)
+{
+    own *o = self;
+    if (!o) return;
+    mw_index_destroy(o->index);
+    mw_locator_destroy(o->locator);
+    mw_mesh_destroy(o->mesh);
+    free(o->found);
+    free(o);
+}
+
+static bool make(own *o, const engine_mesh *m, unsigned threads, mw_start_kind start)
+{
+    mw_arrays arrays = {
+        .points = m->points,
+        .point_count = m->point_count,
+        .triangles = m->triangles,
+        .triangle_count = m->triangle_count,
+    };
+    mw_mesh_options options = {.threads = threads};
+    mw_locator_options prepare = {.threads = threads};
+    return mw_mesh_create(&arrays, &options, &o->mesh, NULL) == MW_OK &&
+           mw_locator_create(o->mesh, &prepare, &o->locator, NULL) == MW_OK &&
+           (!mw_start_has_index(start) || mw_index_create(o->locator, start, NULL, &o->index, NULL) == MW_OK);
+}
+
+static double build_own(const engine_mesh *m, unsigned threads, mw_start_kind start, void **self)
+{
+    own *o = calloc(1, sizeof *o);
+    *self = o;
+    double clock = tally_clock();
+    if (o && make(o, m, threads, start)) return tally_clock() - clock;
+    destroy(o);
+    *self = NULL;
+    return ENGINE_FAILED;
+}
+
+static double build(const engine_mesh *m, unsigned threads, void **self)
+{
+    return build_own(m, threads, MW_START_AUTO, self);
+}
+static double build_grid(const engine_mesh *m, unsigned threads, void **self)
+{
+    return build_own(m, threads, MW_START_GRID, self);
+}
+static double build_two_levels(const engine_mesh *m, unsigned threads, void **self)
+{
+    return build_own(m, threads, MW_START_TWO_LEVEL_GRID, self);
+}
+static double build_curve(const engine_mesh *m, unsigned threads, void **self)
+{
+    return build_own(m, threads, MW_START_CURVE, self);
+}
+
+static size_t bytes(const void *self)
+{
+    const own *o = self;
+    mw_locator_info locator;
+    mw_index_info index = {0};
+    mw_locator_describe(o->locator, &locator);
+    if (o->index) mw_index_describe(o->index, &index);
+    return mw_mesh_bytes(o->mesh) + locator.bytes + index.bytes;
+}
+
+/* Memory for the answers, touched: not the system's time is to be measured. */
+static bool make_room(own *o, size_t n)
+{
+    if (n <= o->room) return true;
+    free(o->found);
+    o->found = malloc(n * sizeof *o->found);
+    o->room = o->found ? n : 0;
+    if (o->found) memset(o->found, 0xff, n * sizeof *o->found);
+    return o->found;
+}
+
+static void take_answers(const own *o, size_t n, uint64_t *answers)
+{
+    for (size_t i = 0; i < n; i++) answers[i] = o->found[i].triangle == MW_NONE ? ENGINE_NONE : o->found[i].triangle;
+}
+
+static double locate_batch(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+{
+    own *o = self;
+    mw_query_options options = {.threads = threads, .index = o->index};
+    if (!make_room(o, n)) return ENGINE_FAILED;
+    double clock = tally_clock();
+    if (mw_locate_batch(o->locator, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK) return ENGINE_FAILED;
+    double seconds = tally_clock() - clock;
+    take_answers(o, n, answers);
+    return seconds;
+}
+
+static double locate_one_by_one(own *o, const double *queries, size_t n, mw_start_kind start, uint64_t *answers)
+{
+    mw_cursor cursor;
+    mw_query_options options = {.start = start, .index = o->index};
+    if (!make_room(o, n) || mw_cursor_init(&cursor, o->locator, &options, NULL) != MW_OK) return ENGINE_FAILED;
+    double clock = tally_clock();
+    for (size_t i = 0; i < n; i++) o->found[i] = mw_locate(o->locator, &cursor, queries[2 * i], queries[2 * i + 1]);
+    double seconds = tally_clock() - clock;
+    take_answers(o, n, answers);
+    return seconds;
+}
+
+static double locate_single(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+{
+    (void)threads;
+    return locate_one_by_one(self, queries, n, MW_START_AUTO, answers);
+}
+static double locate_last(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+{
+    (void)threads;
+    return locate_one_by_one(self, queries, n, MW_START_LAST, answers);
+}
+
+static double triangulate(const double *points, size_t n, unsigned threads, size_t *size)
+{
+    mw_mesh *mesh;
+    mw_delaunay_options options = {.threads = threads};
+    double clock = tally_clock();
+    if (mw_delaunay_with(&options, points, n, 2, NULL, NULL, &mesh, NULL) != MW_OK) return ENGINE_FAILED;
+    double seconds = tally_clock() - clock;
+    *size = mw_mesh_bytes(mesh);
+    mw_mesh_destroy(mesh);
+    return seconds;
+}
+
+const engine_code *engine_own(engine_id id)
+{
+    static const engine_structure plain = {version, build, bytes, NULL, destroy};
+    static const engine_structure grid = {version, build_grid, bytes, NULL, destroy};
+    static const engine_structure two_levels = {version, build_two_levels, bytes, NULL, destroy};
+    static const engine_structure curve = {version, build_curve, bytes, NULL, destroy};
+    static const engine_code codes[] = {
+        [ENGINE_OWN] = {&plain, locate_batch, triangulate},
+        [ENGINE_OWN_SINGLE] = {&plain, locate_single, NULL},
+        [ENGINE_OWN_GRID] = {&grid, locate_batch, NULL},
+        [ENGINE_OWN_GRID_SINGLE] = {&grid, locate_single, NULL},
+        [ENGINE_OWN_TWO_LEVELS] = {&two_levels, locate_batch, NULL},
+        [ENGINE_OWN_TWO_LEVELS_SINGLE] = {&two_levels, locate_single, NULL},
+        [ENGINE_OWN_CURVE] = {&curve, locate_batch, NULL},
+        [ENGINE_OWN_CURVE_SINGLE] = {&curve, locate_single, NULL},
+        [ENGINE_OWN_LAST] = {&plain, locate_last, NULL},
+    };
+    return engines[id].library == LIBRARY_MESHWALK ? &codes[id] : NULL;
+}

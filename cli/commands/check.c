@@ -1,0 +1,171 @@
+/* check - every defect of a mesh, with its place; of a mesh in the plane, a surface or a star-shaped polyhedron. */
+#include "cli/commands/commands.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/report.h"
+#include "cli/input/taken_as.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+static const option check_options[] = {
+    {"json", 0, OPTION_FLAG, offsetof(taken_as, json), NULL, "print the defects as JSON", NULL},
+    {0},
+};
+
+/* Names for scripts: they stay when the texts change. */
+static const char *const kind_names[MW_DEFECT_COUNT] = {
+    [MW_DEFECT_INDEX] = "index",
+    [MW_DEFECT_NOT_FINITE] = "not-finite",
+    [MW_DEFECT_REPEATED_VERTEX] = "repeated-vertex",
+    [MW_DEFECT_EDGE_SHARED] = "edge-shared",
+    [MW_DEFECT_FOLDED] = "folded",
+    [MW_DEFECT_TURN] = "turn",
+    [MW_DEFECT_CROSSING] = "crossing",
+    [MW_DEFECT_VERTEX_IN_EDGE] = "vertex-in-edge",
+    [MW_DEFECT_OVERLAP] = "overlap",
+    [MW_DEFECT_FLAT] = "flat",
+    [MW_DEFECT_CLASHING] = "clashing",
+    [MW_DEFECT_OPEN_EDGE] = "open-edge",
+    [MW_DEFECT_THROUGH_CENTRE] = "through-centre",
+    [MW_DEFECT_TURNED] = "turned",
+    [MW_DEFECT_COVERED] = "covered",
+};
+
+static void place(text *t, const char *name, uint32_t value, uint32_t none)
+{
+    if (value != none) text_printf(t, ", \"%s\": %" PRIu32, name, value);
+}
+
+static void defect_as_json(text *t, const mw_defect *d)
+{
+    char words[256];
+    mw_defect_describe(d, words, sizeof words);
+    text_printf(t, "  {\"kind\": \"%s\"", kind_names[d->kind]);
+    place(t, "triangle", d->triangle, MW_NONE);
+    place(t, "edge", d->edge, 255);
+    place(t, "other", d->other, MW_NONE);
+    place(t, "other_edge", d->other_edge, 255);
+    place(t, "vertex", d->vertex, MW_NONE);
+    text_string(t, ", \"text\": ");
+    report_quote(t, words);
+    text_string(t, "}");
+}
+
+/* How the verdict reads, by what the mesh is taken as. */
+static const struct verdict {
+    const char *key; /* in JSON */
+    const char *good, *bad, *empty;
+} verdicts[] = {
+    [AS_PLANE] = {"embedding", "an embedding", "no embedding", "nothing to locate in"},
+    [AS_SURFACE] = {"surface", "a sound surface", "no sound surface", "nothing to touch"},
+    [AS_STAR] = {"star_shaped", "star-shaped about the centre", "not star-shaped about the centre", "nothing to meet"},
+};
+
+/* What a check comes to. */
+typedef struct outcome {
+    const struct verdict *verdict;
+    char words[128];
+    bool sound; /* what the mesh is taken as, it is              */
+    bool good;  /* and there is something to find, so that every promise holds */
+} outcome;
+
+static outcome outcome_of(const taken_as *s, const mw_check *check, const mw_mesh_file *file)
+{
+    size_t flat = 0;
+    for (size_t i = 0; i < check->defect_count; i++) flat += check->defects[i].kind == MW_DEFECT_FLAT;
+    bool area = s->as == AS_PLANE ? files_has_area(file) : flat < file->triangle_count;
+    outcome o = {&verdicts[s->as], .sound = check->embedding, .good = check->embedding && area};
+    size_t defects = check->defect_count - flat;
+    char remark[48] = "";
+    if (flat) snprintf(remark, sizeof remark, "; %zu flat triangle%s", flat, flat == 1 ? "" : "s");
+    if (!o.sound)
+        snprintf(o.words, sizeof o.words, "%s: %zu defect%s%s", o.verdict->bad, defects, defects == 1 ? "" : "s",
+                 remark);
+    else if (!o.good)
+        snprintf(o.words, sizeof o.words, "no triangle with an area: %s%s", o.verdict->empty, remark);
+    else
+        snprintf(o.words, sizeof o.words, "%s: every promise holds%s", o.verdict->good, remark);
+    return o;
+}
+
+static void as_json(text *t, const char *path, const mw_check *check, const outcome *o)
+{
+    text_string(t, "{\n \"file\": ");
+    report_quote(t, path);
+    text_printf(t, ",\n \"%s\": %s,\n \"verdict\": ", o->verdict->key, o->sound ? "true" : "false");
+    report_quote(t, o->words);
+    text_string(t, ",\n \"defects\": [");
+    for (size_t i = 0; i < check->defect_count; i++) {
+        text_string(t, i ? ",\n" : "\n");
+        defect_as_json(t, &check->defects[i]);
+    }
+    text_string(t, check->defect_count ? "\n ]\n}\n" : "]\n}\n");
+}
+
+static void as_text(text *t, const char *path, const mw_check *check, const outcome *o)
+{
+    for (size_t i = 0; i < check->defect_count; i++) {
+        char words[256];
+        mw_defect_describe(&check->defects[i], words, sizeof words);
+        text_printf(t, "%s\n", words);
+    }
+    text_printf(t, "%s: %s\n", path, o->words);
+}
+
+static mw_status check_arrays(const taken_as *s, const mw_arrays *arrays, mw_check *check, mw_error *error)
+{
+    mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]}};
+    int weld = taken_as_welded(s);
+    if (s->as == AS_SURFACE) return mw_surface_check_arrays(arrays, weld, check, error);
+    if (s->as == AS_STAR) return mw_star_check_arrays(arrays, weld, &star, check, error);
+    return mw_check_arrays(arrays, check, error);
+}
+
+static int check_file(const taken_as *s, const char *path, const mw_mesh_file *file)
+{
+    mw_error error;
+    mw_check check;
+    text t = {0};
+    mw_arrays arrays = mw_mesh_file_arrays(file);
+    progress_phase("checking", path);
+    if (check_arrays(s, &arrays, &check, &error) != MW_OK) return fail_mesh(path, &error);
+    outcome o = outcome_of(s, &check, file);
+    if (s->json)
+        as_json(&t, path, &check, &o);
+    else
+        as_text(&t, path, &check, &o);
+    int end = files_write_text(s->common.output, &t);
+    if (end == 0 && !o.good) end = END_INPUT;
+    mw_check_release(&check);
+    return end;
+}
+
+static int run(const void *settings, const char *const *operands)
+{
+    const taken_as *s = settings;
+    mw_mesh_file file = {0};
+    int end = taken_as_read(s, operands, &file);
+    if (end == 0) end = check_file(s, operands[0], &file);
+    mw_mesh_file_release(&file);
+    return end;
+}
+
+static const option *const tables[] = {taken_as_options, check_options, common_options, NULL};
+
+const command check_command = {
+    .name = "check",
+    .operands = "MESH",
+    .operand_count = 1,
+    .summary = "list the defects of a mesh",
+    .description =
+        "Prints every defect of MESH with its place, one on a line, and then whether the mesh is an "
+        "embedding: whether its triangles cover the plane without folds and overlaps. Exits with 0 if it "
+        "is one and with 3 if not, or if no triangle has an area. Flat triangles beside others are listed, but do "
+        "no harm. With --as, MESH is checked as a surface or as a star-shaped polyhedron in the same way. '-' is "
+        "standard input.",
+    .options = tables,
+    .settings_size = sizeof(taken_as),
+    .run = run,
+};

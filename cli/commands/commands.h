@@ -1,0 +1,10 @@
+/* commands.h - the sub-commands, one file each. */
+#ifndef CLI_COMMANDS_H
+#define CLI_COMMANDS_H
+
+#include "cli/frame/options.h"
+
+extern const command info_command, check_command, triangulate_command, locate_command, sample_command, edit_command,
+    star_command, probe_command, walk_command, bench_command;
+
+#endif

@@ -1,0 +1,73 @@
+/* locate - which triangle contains each point. */
+#include "cli/commands/commands.h"
+#include "cli/frame/message.h"
+#include "cli/commands/query.h"
+#include "cli/frame/row.h"
+
+typedef struct locate_settings {
+    query_settings query;
+    bool details;
+} locate_settings;
+
+static const option locate_options[] = {
+    {"details", 0, OPTION_FLAG, offsetof(locate_settings, details), NULL,
+     "add the columns local (edge or vertex of the triangle), border_triangle, border_edge, distance (of points "
+     "outside) and hole",
+     NULL},
+    {0},
+};
+
+/* The nearest border edge is told of points that are not in a triangle. */
+static void details(const query *q, const double point[2], const mw_location *where, text *out)
+{
+    mw_border_hit hit = {0};
+    bool away = where->where == MW_OUTSIDE || where->where == MW_IN_HOLE || where->where == MW_NEAR;
+    if (away) away = mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) == MW_OK;
+    row_count(out, where->local != 255, where->local);
+    row_count(out, away, hit.triangle);
+    row_count(out, away, hit.edge);
+    row_double(out, away, hit.distance);
+    row_count(out, where->hole != MW_NONE, where->hole);
+}
+
+static bool locate_row(const query *q, const void *self, const double point[2], const mw_location *where, text *out)
+{
+    const locate_settings *s = self;
+    row_numbers(out, point, 2);
+    row_triangle(out, mw_where_name((mw_where)where->where), where->triangle);
+    row_weights(out, where->triangle, where->weight);
+    if (s->details) details(q, point, where, out);
+    row_end(out);
+    return where->triangle != MW_NONE;
+}
+
+static int run(const void *settings, const char *const *operands)
+{
+    const locate_settings *s = settings;
+    query q;
+    int end = query_open(&q, &s->query, operands, s->details, NULL, NULL);
+    if (end == 0)
+        end = query_run(&q, operands[1],
+                        s->details ? "x,y,status,triangle,w0,w1,w2,local,border_triangle,border_edge,distance,hole\n"
+                                   : "x,y,status,triangle,w0,w1,w2\n",
+                        locate_row, s);
+    query_release(&q);
+    return end;
+}
+
+static const option *const tables[] = {locate_options, query_options, stream_options, common_options, NULL};
+
+const command locate_command = {
+    .name = "locate",
+    .operands = "MESH POINTS",
+    .operand_count = 2,
+    .summary = "find the triangle that contains each point",
+    .description = "Writes one line for each point, in the order of POINTS: x,y,status,triangle,w0,w1,w2. The status "
+                   "is inside, edge, vertex, outside, hole, near or bad; the triangle is its number in MESH, from 0, "
+                   "or -1; w0, w1, w2 are the weights of its corners, empty where there is no triangle. A point on "
+                   "an edge or a corner belongs to the lowest-numbered triangle that contains it. '-' is standard "
+                   "input.",
+    .options = tables,
+    .settings_size = sizeof(locate_settings),
+    .run = run,
+};

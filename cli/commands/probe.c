@@ -1,0 +1,250 @@
+/* probe - which triangle of a surface each probe touches. */
+#include "cli/commands/commands.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/row.h"
+#include "cli/input/stream.h"
+
+typedef struct probe_settings {
+    stream_settings stream;
+    double max_distance;
+    uint32_t samples, iterations, race;
+    int start; /* mw_probe_start */
+    bool certain, weld, any;
+} probe_settings;
+
+static const char *start_name(int i)
+{
+    return mw_probe_start_name((mw_probe_start)i);
+}
+static const char *start_help(int i)
+{
+    static const char *const texts[MW_PROBE_START_COUNT] = {
+        [MW_PROBE_AUTO] = "last where that triangle is near, else sample",
+        [MW_PROBE_LAST] = "the triangle of the query before; else, and in further walks, as sample",
+        [MW_PROBE_SAMPLE] = "the nearest of a sample of triangles whose fronts the motion points at",
+        [MW_PROBE_RANDOM] = "a random triangle whose front the motion points at",
+    };
+    return texts[i];
+}
+static const choices starts = {"start", start_name, start_help};
+
+static const option probe_options[] = {
+    {"max-distance", 0, OPTION_REACH, offsetof(probe_settings, max_distance), "D",
+     "touch nothing that is farther than D from the point, either way; 0: only what lies at the point (default: no "
+     "limit)",
+     NULL},
+    {"certain", 0, OPTION_FLAG, offsetof(probe_settings, certain), NULL,
+     "miss nothing: the nearest of all triangles on the line, or 'none'; builds boxes over the triangles", NULL},
+    {"start", 0, OPTION_CHOICE, offsetof(probe_settings, start), "NAME",
+     "how to choose the first triangle (default: auto):", &starts},
+    {"samples", 0, OPTION_COUNT, offsetof(probe_settings, samples), "K",
+     "look at K triangles for a first one (default: 0, twice the cube root of the number of vertices)", NULL},
+    {"iterations", 0, OPTION_COUNT, offsetof(probe_settings, iterations), "N",
+     "at most N walks for a query, from different first triangles (default: 0, which means 10)", NULL},
+    {"race", 0, OPTION_COUNT, offsetof(probe_settings, race), "N",
+     "run N walks for a query at a time, in threads, until one finds a triangle; where the line touches several, it "
+     "may be another one each time, but not with --certain (default: 0, one walk)",
+     NULL},
+    {"weld", 0, OPTION_FLAG, offsetof(probe_settings, weld), NULL,
+     "vertices with equal coordinates are one, so that walks cross the seams between them", NULL},
+    {"any", 0, OPTION_FLAG, offsetof(probe_settings, any), NULL,
+     "take also a surface with defects that 'meshwalk check --as surface' calls repeated-vertex, not-finite or "
+     "edge-shared",
+     NULL},
+    {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.columns), "LIST",
+     "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: those that a header "
+     "calls x, y, z, mx, my, mz, else the first six)",
+     NULL},
+    {"strict", 0, OPTION_FLAG, offsetof(probe_settings, stream.strict), NULL,
+     "exit with 1 if a row is 'limit' or 'bad'; 'none' is an answer", NULL},
+    {0},
+};
+
+/* Other commands promise more of these than probes by walks can keep. */
+static const option random_options[] = {
+    {"threads", 0, OPTION_COUNT, offsetof(probe_settings, stream.common.threads), "N",
+     "use at most N threads, those of --race apart (default: 0, all); without --race results do not depend on it",
+     NULL},
+    {"seed", 0, OPTION_SEED, offsetof(probe_settings, stream.common.seed), "S",
+     "seed of everything random (default: 0); without --certain another seed may find another triangle, or one where "
+     "this one finds none",
+     NULL},
+    {0},
+};
+
+/* A surface ready to be probed, and what came of it. */
+typedef struct probing {
+    const probe_settings *settings;
+    double begin; /* tally_clock */
+    mw_surface *surface;
+    mw_prober *prober;
+    uint64_t states[MW_TOUCH_STATE_COUNT];
+    mw_probe_counters counters;
+} probing;
+
+/* --- the surface -------------------------------------------------------------------------------------------------- */
+
+static int fail_surface(const probing *p, const char *path, const mw_error *error)
+{
+    int end = fail_mesh(path, error);
+    if (end == END_INPUT && !p->settings->any)
+        complain("'meshwalk check --as surface%s %s' lists every defect; --any probes all the same",
+                 p->settings->weld ? " --weld" : "", path);
+    return end;
+}
+
+static int make_prober(probing *p, const char *path, const mw_mesh_file *file)
+{
+    const probe_settings *s = p->settings;
+    mw_error error;
+    mw_arrays arrays = mw_mesh_file_arrays(file);
+    mw_surface_options surface = {.tolerant = s->any, .weld = s->weld};
+    mw_prober_options prober = {.boxes = s->certain};
+    progress_phase("preparing", path);
+    if (mw_surface_create(&arrays, &surface, &p->surface, &error) != MW_OK) return fail_surface(p, path, &error);
+    if (mw_prober_create(p->surface, &prober, &p->prober, &error) != MW_OK) return fail_mesh(path, &error);
+    return 0;
+}
+
+static int open_surface(probing *p, const char *path)
+{
+    mw_mesh_file file;
+    int end = files_read_mesh(path, &file);
+    if (end) return end;
+    end = make_prober(p, path, &file);
+    mw_mesh_file_release(&file);
+    return end;
+}
+
+static void release(probing *p)
+{
+    mw_prober_destroy(p->prober);
+    mw_surface_destroy(p->surface);
+}
+
+/* --- the probes --------------------------------------------------------------------------------------------------- */
+
+static int answer_probes(void *self, const queries *block, void *answers)
+{
+    probing *p = self;
+    const probe_settings *s = p->settings;
+    const mw_touch *touches = answers;
+    mw_error error;
+    mw_probe_counters counters = {0};
+    mw_probe_options options = {
+        .max_distance = s->max_distance,
+        .certain = s->certain,
+        .start = (mw_probe_start)s->start,
+        .samples = s->samples,
+        .iterations = s->iterations,
+        .race = s->race,
+        .threads = s->stream.common.threads,
+        .seed = s->stream.common.seed + block->block, /* other random numbers in each block */
+        .count = s->stream.stats,
+    };
+    if (mw_probe_batch(p->prober, block->values, block->count, block->stride, &options, answers, &counters, &error) !=
+        MW_OK)
+        return fail_query(&error);
+    for (size_t i = 0; i < block->count; i++) p->states[touches[i].state]++;
+    mw_probe_counters_add(&p->counters, &counters);
+    return 0;
+}
+
+/* That nothing is touched is an answer, too. */
+static bool probe_row(const void *self, const double *query, const void *answer, text *out)
+{
+    (void)self;
+    const mw_touch *touch = answer;
+    row_numbers(out, query, 3);
+    row_triangle(out, mw_touch_state_name((mw_touch_state)touch->state), touch->triangle);
+    row_double(out, touch->triangle != MW_NONE, touch->distance);
+    row_weights(out, touch->triangle, touch->weight);
+    row_end(out);
+    return touch->state == MW_TOUCH_HIT || touch->state == MW_TOUCH_NONE;
+}
+
+static void report_counters(report *r, const mw_probe_counters *c)
+{
+    tally_report_mean(r, "samples", c->samples, c->queries);
+    tally_report_mean(r, "triangles_per_query", c->triangles, c->queries);
+    report_count(r, "triangles_max", c->triangles_max);
+    tally_report_mean(r, "tests_per_query", c->tests, c->queries);
+    report_count(r, "tests_max", c->tests_max);
+    tally_report_mean(r, "intersections", c->intersections, c->queries);
+    tally_report_mean(r, "iterations", c->iterations, c->queries);
+    report_count(r, "iterations_max", c->iterations_max);
+    tally_report_mean(r, "boxes", c->boxes, c->queries);
+    tally_report_mean(r, "box_triangles", c->box_triangles, c->queries);
+}
+
+static void report_probes(const void *self, report *r)
+{
+    const probing *p = self;
+    mw_prober_info info;
+    mw_prober_describe(p->prober, &info);
+    for (int i = 0; i < MW_TOUCH_STATE_COUNT; i++)
+        report_count(r, mw_touch_state_name((mw_touch_state)i), p->states[i]);
+    report_string(r, "start", start_name(p->settings->start));
+    report_flag(r, "certain", p->settings->certain);
+    tally_report_run(r, &p->settings->stream.common);
+    report_counters(r, &p->counters);
+    report_count(r, "surface_bytes", mw_surface_bytes(p->surface));
+    report_count(r, "prober_bytes", info.bytes);
+    report_count(r, "box_bytes", info.box_bytes);
+    tally_report_seconds(r, "box_seconds", info.fit_seconds);
+}
+
+static int run_probes(probing *p, const char *path)
+{
+    stream s = {
+        .settings = &p->settings->stream,
+        .begin = p->begin,
+        .doing = "probing",
+        .header = "x,y,z,status,triangle,distance,w0,w1,w2\n",
+        .columns = {.names = {"x", "y", "z", "mx", "my", "mz"}, .count = 6},
+        .answer_size = sizeof(mw_touch),
+        .answer = answer_probes,
+        .row = probe_row,
+        .report = report_probes,
+        .self = p,
+    };
+    return stream_run(&s, path);
+}
+
+#define MOST_RACERS 256 /* threads */
+
+static int run(const void *settings, const char *const *operands)
+{
+    const probe_settings *s = settings;
+    probing p = {.settings = s, .begin = tally_clock()};
+    int end = files_check(s->stream.common.output, operands, 2);
+    if (end == 0) end = options_limit("race", s->race, MOST_RACERS, NULL);
+    if (end == 0) end = open_surface(&p, operands[0]);
+    if (end == 0) end = run_probes(&p, operands[1]);
+    release(&p);
+    return end;
+}
+
+static const option *const tables[] = {probe_options, stream_options, random_options, common_options, NULL};
+
+const command probe_command = {
+    .name = "probe",
+    .operands = "SURFACE QUERIES",
+    .operand_count = 2,
+    .summary = "find the triangle of a surface that each probe touches",
+    .description =
+        "A row of QUERIES is x,y,z,mx,my,mz: where a probe is, and how it moves. It touches a triangle of SURFACE that "
+        "the line through the point along the motion meets, on either side of the point, if the motion points at the "
+        "triangle's front: the side from which its corners are seen counter-clockwise. Writes one line for each, in "
+        "order: x,y,z,status,triangle,distance,w0,w1,w2. The status is hit; none, where surely nothing is touched; "
+        "limit, where the walks found nothing, though there may be something; or bad, where the motion is zero or a "
+        "number is not finite. The distance is negative behind the point; w0, w1, w2 are the weights of the triangle's "
+        "corners. Of several triangles walks tell the first that they find, and with --certain the nearest is told. "
+        "'-' "
+        "is standard input.",
+    .options = tables,
+    .settings_size = sizeof(probe_settings),
+    .run = run,
+};

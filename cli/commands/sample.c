@@ -1,0 +1,167 @@
+/* sample - the value the mesh has at each point. */
+#include "cli/commands/commands.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/commands/query.h"
+#include "cli/frame/row.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OUTSIDE_EMPTY = 0, OUTSIDE_NEAREST, OUTSIDE_LINEAR };
+
+typedef struct sample_settings {
+    query_settings query;
+    const char *field;
+    int outside;
+} sample_settings;
+
+static const char *outside_name(int i)
+{
+    return (const char *[]){"empty", "nearest", "linear", NULL}[i];
+}
+static const char *outside_help(int i)
+{
+    return (const char *[]){"no value", "the value at the nearest point of the border",
+                            "the plane of the nearest border triangle, continued"}[i];
+}
+static const choices outsides = {"way of --outside", outside_name, outside_help};
+
+static const option sample_options[] = {
+    {"field", 0, OPTION_TEXT, offsetof(sample_settings, field), "NAME",
+     "the value to sample: z or a field of MESH (default: z)", NULL},
+    {"outside", 0, OPTION_CHOICE, offsetof(sample_settings, outside), "NAME",
+     "what a point outside the mesh gets (default: empty):", &outsides},
+    {0},
+};
+
+/* What the rows need. */
+typedef struct sampling {
+    const double *values; /* one per vertex */
+    int outside;
+} sampling;
+
+/* Value at the point of the border that is nearest. */
+static double border_value(const query *q, const double *values, const mw_border_hit *hit)
+{
+    mw_location at = {.weight = {hit->weight[0], hit->weight[1], hit->weight[2]}, .triangle = hit->triangle};
+    double value;
+    mw_interpolate(q->mesh, values, &at, 1, &value);
+    return value;
+}
+
+/* Value at p of the plane through the three corners; NaN where they span none. */
+static double plane_value(const query *q, const double *values, uint32_t triangle, const double p[2])
+{
+    uint32_t v[3];
+    double a[2], b[2], c[2];
+    mw_mesh_triangle(q->mesh, triangle, v);
+    mw_mesh_vertex(q->mesh, v[0], a);
+    mw_mesh_vertex(q->mesh, v[1], b);
+    mw_mesh_vertex(q->mesh, v[2], c);
+    double area = mw_orient2d(a, b, c);
+    double wb = mw_orient2d(a, p, c) / area, wc = mw_orient2d(a, b, p) / area;
+    return values[v[0]] + wb * (values[v[1]] - values[v[0]]) + wc * (values[v[2]] - values[v[0]]);
+}
+
+static double value_outside(const query *q, const sampling *s, const double point[2])
+{
+    mw_border_hit hit;
+    if (mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) != MW_OK) return NAN;
+    double value = s->outside == OUTSIDE_LINEAR ? plane_value(q, s->values, hit.triangle, point) : NAN;
+    return isfinite(value) ? value : border_value(q, s->values, &hit);
+}
+
+static bool sample_row(const query *q, const void *self, const double point[2], const mw_location *where, text *out)
+{
+    const sampling *s = self;
+    double value = NAN;
+    if (where->triangle != MW_NONE)
+        mw_interpolate(q->mesh, s->values, where, 1, &value);
+    else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
+        value = value_outside(q, s, point);
+    row_numbers(out, point, 2);
+    row_double(out, !isnan(value), value);
+    row_end(out);
+    return !isnan(value);
+}
+
+static int no_such_field(const char *path, const mw_mesh_file *file, const char *field)
+{
+    text names = {0};
+    if (file->has_z) text_string(&names, " z");
+    for (size_t i = 0; i < file->field_count; i++) text_printf(&names, " %s", file->field_names[i]);
+    int end = END_INPUT;
+    if (names.failed)
+        end = fail_memory();
+    else if (names.size == 0)
+        complain("%s: has neither heights nor fields: there is nothing to sample", path);
+    else
+        complain("%s: has no field '%s'; --field may be one of:%.*s", path, field, (int)names.size, names.bytes);
+    text_release(&names);
+    return end;
+}
+
+/* Give the mesh the field to sample. */
+static int keep_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
+{
+    mw_error error;
+    const char *field = self;
+    const double *values = NULL;
+    size_t stride = 1;
+    for (size_t i = 0; i < file->field_count && !values; i++)
+        if (strcmp(file->field_names[i], field) == 0) values = file->fields[i];
+    if (!values && file->has_z && strcmp(field, "z") == 0) {
+        values = file->points + 2;
+        stride = 3;
+    }
+    if (!values) return no_such_field(path, file, field);
+    return mw_mesh_set_field(mesh, field, values, stride, &error) == MW_OK ? 0 : fail_mesh(path, &error);
+}
+
+/* A name as one cell of CSV: quoted where it would be read as something else. */
+static void header_of(text *header, const char *field)
+{
+    text_string(header, "x,y,");
+    if (!field[strcspn(field, ",\"\r\n")]) {
+        text_string(header, field);
+    } else {
+        text_string(header, "\"");
+        for (; *field; field++) text_bytes(header, *field == '"' ? "\"\"" : field, *field == '"' ? 2 : 1);
+        text_string(header, "\"");
+    }
+    text_bytes(header, "\n", 2); /* with the final 0 */
+}
+
+static int run(const void *settings, const char *const *operands)
+{
+    const sample_settings *s = settings;
+    const char *field = s->field ? s->field : "z";
+    query q;
+    text header = {0};
+    sampling rows = {.outside = s->outside};
+    int end = query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, keep_field, field);
+    if (end == 0) {
+        rows.values = mw_mesh_field(q.mesh, field);
+        header_of(&header, field);
+        end = header.failed ? fail_memory() : query_run(&q, operands[1], header.bytes, sample_row, &rows);
+    }
+    text_release(&header);
+    query_release(&q);
+    return end;
+}
+
+static const option *const tables[] = {sample_options, query_options, stream_options, common_options, NULL};
+
+const command sample_command = {
+    .name = "sample",
+    .operands = "MESH POINTS",
+    .operand_count = 2,
+    .summary = "interpolate heights or other values at points",
+    .description = "Writes one line x,y,z for each point, in the order of POINTS: z is interpolated linearly in the "
+                   "triangle that contains the point, and empty where there is none. '-' is standard input.",
+    .options = tables,
+    .settings_size = sizeof(sample_settings),
+    .run = run,
+};

@@ -1,0 +1,307 @@
+/* triangulate - a mesh of points, of any kind, or with constraints. */
+#include "cli/commands/commands.h"
+#include "cli/input/constraints.h"
+#include "cli/frame/files.h"
+#include "cli/input/heights.h"
+#include "cli/frame/mesh_output.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/report.h"
+#include "cli/frame/tally.h"
+#include "cli/input/vertices.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct triangulate_settings {
+    common_settings common;
+    const char *columns, *classes, *constraints;
+    int kind, format, keep;
+    uint32_t limit;
+    bool json, split;
+} triangulate_settings;
+
+static const char *kind_name(int i)
+{
+    return mw_kind_name((mw_triangulation_kind)i);
+}
+static const char *kind_help(int i)
+{
+    return mw_kind_help((mw_triangulation_kind)i);
+}
+static const char *keep_name(int i)
+{
+    return (const char *[]){"auto", "hull", "inside", NULL}[i];
+}
+static const char *keep_help(int i)
+{
+    return (const char *[]){"inside, where there are polygons or holes, or FILE is a .poly; else hull",
+                            "all triangles of the convex hull",
+                            "those inside a polygon, or without polygons those that constraints part from the outside "
+                            "and from the places of holes"}[i];
+}
+static const choices kind_choices = {"kind of triangulation", kind_name, kind_help};
+static const choices keep_choices = {"part to keep", keep_name, keep_help};
+
+static const option triangulate_options[] = {
+    {"constraints", 0, OPTION_TEXT, offsetof(triangulate_settings, constraints), "FILE",
+     "make the points, lines and polygons of FILE vertices and edges of the mesh: GeoJSON, Triangle's .poly, or what "
+     "GDAL reads, where the program is built with it; POINTS may be missing then",
+     NULL},
+    {"keep", 0, OPTION_CHOICE, offsetof(triangulate_settings, keep), "NAME",
+     "with --constraints, the triangles to keep (default: auto):", &keep_choices},
+    {"split", 0, OPTION_FLAG, offsetof(triangulate_settings, split), NULL,
+     "with --constraints, put a vertex where some cross; without it that is an error", NULL},
+    {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
+     "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
+    {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
+     "--kind min-weight: fill faces of up to N corners optimally; min-max-angle: seek the optimum of up to N points; "
+     "beyond, a local optimum is made (default: 0, what half a minute finds)",
+     NULL},
+    {"format", 0, OPTION_CHOICE, offsetof(triangulate_settings, format), "NAME",
+     "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &mesh_formats},
+    {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
+     "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first two are x and y, the "
+     "third is z, further ones become fields (default: all, with x, y and z first where a header names them)",
+     NULL},
+    {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
+     "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(triangulate_settings, json), NULL, "print the report as JSON", NULL},
+    {0},
+};
+
+/* What is read and made. */
+typedef struct work {
+    vertices vertices;
+    mw_constraint_file constraints;
+    uint32_t *duplicate_of; /* with constraints: as mw_constrained_delaunay tells */
+    mw_pieces pieces;
+    mw_constrain_report constrained;
+    mw_kind_report kind;
+    double begin;
+} work;
+
+static void release(work *w)
+{
+    vertices_release(&w->vertices);
+    mw_constraint_file_release(&w->constraints);
+    mw_pieces_release(&w->pieces);
+    free(w->duplicate_of);
+}
+
+/* The library's choice, but for a .poly, whose segments bound a domain as they do for Triangle. */
+static mw_keep keep_of(const triangulate_settings *s, const work *w)
+{
+    if (s->keep == MW_KEEP_AUTO && constraints_are_poly(&w->constraints)) return MW_KEEP_INSIDE;
+    return (mw_keep)s->keep;
+}
+
+static int fail_constrained(const triangulate_settings *s, const char *points, const work *w, const mw_error *error)
+{
+    const uint32_t *cross = w->constrained.cross;
+    if (error->status == MW_ERROR_INPUT && cross[0] != MW_NONE)
+        return constraints_cross(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split);
+    if (error->status == MW_ERROR_INPUT && w->constrained.removed > 0) {
+        complain("%s: %s; --keep hull keeps them", s->constraints, error->message);
+        return END_INPUT;
+    }
+    bool given = points && error->vertex >= 0 && (size_t)error->vertex < w->vertices.points;
+    return fail_mesh(given ? points : s->constraints, error);
+}
+
+/* The triangulation of POINTS, if there are any, and the constraints. */
+static int constrain(const triangulate_settings *s, const char *points, work *w)
+{
+    mw_error error;
+    mw_mesh *mesh;
+    const mw_constraint_file *c = &w->constraints;
+    const mw_mesh_file *file = &w->vertices.file;
+    size_t count = file->point_count;
+    mw_constraints constraints = {.points = file->points,
+                                  .point_count = count,
+                                  .stride = 3,
+                                  .segments = c->segments,
+                                  .segment_count = c->segment_count,
+                                  .polygon = c->polygon,
+                                  .holes = c->holes,
+                                  .hole_count = c->hole_count};
+    mw_constrain_options options = {.keep = keep_of(s, w), .split = s->split, .threads = s->common.threads};
+    w->duplicate_of = malloc((count + 1) * sizeof *w->duplicate_of);
+    w->constrained.cross[0] = w->constrained.cross[1] = MW_NONE;
+    if (!w->duplicate_of) return fail_memory();
+    progress_phase("triangulating", s->constraints);
+    if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->pieces, &mesh, &error) !=
+        MW_OK)
+        return fail_constrained(s, points, w, &error);
+    int end = vertices_complete(&w->vertices, mesh);
+    mw_mesh_destroy(mesh);
+    bool flat = false;
+    if (end == 0) end = heights_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->pieces, &flat);
+    if (end == 0 && flat && !s->common.quiet)
+        complain("%s: warning: its points lie on one line, or are fewer than three, so vertices of constraints that "
+                 "have no values of their own get nan",
+                 points);
+    return end;
+}
+
+/* Of what is said to be optimal but is not: why. */
+static void warn_if_local(const triangulate_settings *s, const char *path, const mw_kind_report *kind)
+{
+    const char *name = kind_name(s->kind);
+    if (kind->optimal || s->common.quiet) return;
+    if (kind->local_faces > 0)
+        complain("%s: warning: this %s triangulation is a local optimum: of %zu faces, the largest of %zu corners, %zu "
+                 "are too large or hold points; --limit N takes larger ones",
+                 path, name, kind->faces, kind->largest_face, kind->local_faces);
+    else
+        complain(
+            "%s: warning: this %s triangulation is a local optimum: there are too many points to seek the best one; "
+            "--limit N seeks it for up to N points",
+            path, name);
+}
+
+static int triangulate(const triangulate_settings *s, const char *path, work *w)
+{
+    mw_error error;
+    mw_mesh *mesh;
+    const mw_mesh_file *file = &w->vertices.file;
+    mw_kind_options options = {.limit = s->limit, .threads = s->common.threads};
+    progress_phase("triangulating", path);
+    if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
+                       &mesh, &error) != MW_OK)
+        return fail_mesh(path, &error);
+    int end = vertices_complete(&w->vertices, mesh);
+    mw_mesh_destroy(mesh);
+    if (end == 0) warn_if_local(s, path, &w->kind);
+    return end;
+}
+
+/* To three decimals. */
+static void report_rounded(report *r, const char *name, double value)
+{
+    report_number(r, name, (double)(int64_t)(value * 1000 + 0.5) / 1000);
+}
+
+static void report_constrained(report *r, const work *w)
+{
+    report_count(r, "constraints", w->constraints.segment_count);
+    report_count(r, "pieces", w->constrained.pieces);
+    report_count(r, "added", w->constrained.added);
+    report_count(r, "removed", w->constrained.removed);
+    report_count(r, "crossed", w->constrained.crossed);
+}
+
+static void report_kind(report *r, const triangulate_settings *s, const mw_kind_report *kind)
+{
+    report_string(r, "kind", kind_name(s->kind));
+    report_number(r, "edge_length", kind->edge_length);
+    report_number(r, "largest_angle", kind->largest_angle * (180 / acos(-1)));
+    report_flag(r, "optimal", kind->optimal);
+    if (s->kind != MW_MIN_WEIGHT) return;
+    report_count(r, "faces", kind->faces);
+    report_count(r, "largest_face", kind->largest_face);
+    report_count(r, "local_faces", kind->local_faces);
+}
+
+/* The report goes to standard output, unless the mesh does. */
+static int print_report(const triangulate_settings *s, const work *w)
+{
+    report r;
+    if (s->common.quiet) return 0;
+    report_begin(&r, s->json);
+    const mw_triangulation_report *made = s->constraints ? &w->constrained.delaunay : &w->kind.delaunay;
+    report_count(&r, "points", made->points);
+    report_count(&r, "duplicates", made->duplicates);
+    report_count(&r, "triangles", w->vertices.file.triangle_count);
+    report_rounded(&r, "visited_per_point", made->points ? (double)made->triangles_visited / (double)made->points : 0);
+    if (s->constraints)
+        report_constrained(&r, w);
+    else
+        report_kind(&r, s, &w->kind);
+    report_rounded(&r, "seconds", tally_clock() - w->begin);
+    report_end(&r);
+    if (!files_is_stream(s->common.output)) return files_write_text(NULL, &r.text);
+    progress_end();
+    int end = r.text.failed ? fail_memory() : 0;
+    if (end == 0) fwrite(r.text.bytes, 1, r.text.size, stderr);
+    text_release(&r.text);
+    return end;
+}
+
+static int refuse(const char *why)
+{
+    complain("triangulate: %s", why);
+    return END_USAGE;
+}
+
+/* Options that do not go together. */
+static int check_combination(const triangulate_settings *s, const char *points)
+{
+    if (!points && !s->constraints) return refuse("wants POINTS, or --constraints FILE");
+    if (!points && (s->columns || s->classes))
+        return refuse("--columns and --class are about POINTS, which are missing");
+    if (!s->constraints && (s->keep || s->split)) return refuse("--keep and --split are about --constraints");
+    if (s->constraints && s->kind != MW_DELAUNAY) return refuse("--constraints are for --kind delaunay only");
+    if (s->limit && s->kind != MW_MIN_WEIGHT && s->kind != MW_MIN_MAX_ANGLE)
+        return refuse("--limit is about --kind min-weight and min-max-angle");
+    return 0;
+}
+
+/* What can be refused before the work begins. */
+static int check_settings(const triangulate_settings *s, const char *points)
+{
+    const char *output = s->common.output;
+    const char *inputs[2] = {points ? points : s->constraints, s->constraints};
+    int end = check_combination(s, points);
+    if (end) return end;
+    end = mesh_output_check("triangulate", output, s->format);
+    if (end) return end;
+    if (s->constraints && mesh_output_is_node(output, s->format)) end = constraints_check_node(s->constraints, output);
+    if (end) return end;
+    return files_check(output, inputs, points && s->constraints ? 2 : 1);
+}
+
+static int read_input(const triangulate_settings *s, const char *points, work *w)
+{
+    int end = points ? vertices_read(&w->vertices, points, s->columns, s->classes) : 0;
+    if (end || !s->constraints) return end;
+    end = constraints_read(s->constraints, &w->constraints);
+    return end ? end : vertices_append(&w->vertices, &w->constraints);
+}
+
+static int run(const void *settings, const char *const *operands)
+{
+    const triangulate_settings *s = settings;
+    const char *points = operands[0];
+    work w = {.begin = tally_clock()};
+    bool named = false;
+    int end = check_settings(s, points);
+    if (end == 0) end = files_try_output(s->common.output, &named);
+    if (end == 0) end = read_input(s, points, &w);
+    if (end == 0) end = s->constraints ? constrain(s, points, &w) : triangulate(s, points, &w);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, named);
+    if (end == 0) end = print_report(s, &w);
+    release(&w);
+    return end;
+}
+
+static const option *const tables[] = {triangulate_options, common_options, NULL};
+
+const command triangulate_command = {
+    .name = "triangulate",
+    .operands = "[POINTS] -o MESH",
+    .operand_count = 1,
+    .optional_operands = 1,
+    .summary = "make a triangulation of points, lines and polygons",
+    .description =
+        "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says otherwise. Vertex i of the mesh "
+        "is point i, from 0. A point equal to an earlier one is counted in the report, and belongs to no "
+        "triangle. A third column is the height, further columns become fields. With --constraints, "
+        "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
+        "fields interpolated where the file has none. '-' is standard input.",
+    .options = tables,
+    .settings_size = sizeof(triangulate_settings),
+    .run = run,
+};

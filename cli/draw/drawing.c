@@ -1,0 +1,235 @@
+/* drawing.c - a scene, painted from back to front with Cairo.
+ *
+ * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin veil: those of the
+ * walk that turn their back are painted first, and so shimmer through. Green and vermilion are those of Okabe and
+ * Ito (2008), which colour-blind people can tell apart. */
+#include "cli/draw/drawing.h"
+#include "cli/frame/message.h"
+#include "cli/draw/picture.h"
+
+#ifdef MW_CAIRO
+
+#include "cli/draw/scene.h"
+
+#include <cairo.h>
+#include <math.h>
+#include <string.h>
+
+/* Measures in points. */
+#define PAGE_SIDE 720.0 /* of the longer side of what is shown */
+#define PAGE_LEAST 300.0
+#define MARGIN 14.0
+#define CAPTION 26.0
+#define RING 8.0 /* radius */
+
+/* --- colours ------------------------------------------------------------------------------------------------------ */
+
+static const double green[3] = {0.00, 0.62, 0.45}, vermilion[3] = {0.84, 0.37, 0.00};
+
+static void mix(const double a[3], const double b[3], double part, double rgb[3])
+{
+    for (int k = 0; k < 3; k++) rgb[k] = a[k] + part * (b[k] - a[k]);
+}
+
+/* Each walk from light to dark: blue, purple, brown, and again. */
+static void shade(const scene *s, uint32_t visit, double rgb[3])
+{
+    static const double light[3][3] = {{0.80, 0.90, 0.98}, {0.93, 0.83, 0.95}, {0.98, 0.92, 0.75}};
+    static const double dark[3][3] = {{0.03, 0.25, 0.55}, {0.42, 0.13, 0.45}, {0.50, 0.33, 0.00}};
+    uint32_t hue = s->d->iteration[visit] % 3;
+    mix(light[hue], dark[hue], s->part[visit], rgb);
+}
+
+static void colour_of(const scene *s, const piece *p, double rgb[3])
+{
+    const drawing *d = s->d;
+    if (p->triangle == d->path[d->path_count - 1])
+        memcpy(rgb, vermilion, sizeof vermilion);
+    else if (p->triangle == d->path[0])
+        memcpy(rgb, green, sizeof green);
+    else
+        shade(s, s->visit[p->triangle], rgb);
+    if (p->back) mix(rgb, (const double[]){1, 1, 1}, 0.45, rgb);
+}
+
+/* --- painting ----------------------------------------------------------------------------------------------------- */
+
+/* Points of a unit. */
+static double scale_of(const scene *s)
+{
+    return PAGE_SIDE / box_side(&s->shown);
+}
+
+static double page_x(const scene *s, double x)
+{
+    return MARGIN + (x - s->shown.low[0]) * scale_of(s);
+}
+
+static double page_y(const scene *s, double y)
+{
+    return MARGIN + (s->shown.high[1] - y) * scale_of(s);
+}
+
+/* Thinner where triangles are small on the page. */
+static double line_width(const scene *s)
+{
+    double sum = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        box b = scene_box(s, s->pieces[i].triangle);
+        sum += box_side(&b);
+    }
+    double mean = s->count ? sum / (double)s->count * scale_of(s) : 10;
+    return fmin(0.6, fmax(0.08, 0.05 * mean));
+}
+
+static void trace(cairo_t *c, const scene *s, uint32_t triangle)
+{
+    for (size_t k = 0; k < 3; k++) {
+        const spot *at = scene_corner(s, triangle, k);
+        cairo_line_to(c, page_x(s, at->x), page_y(s, at->y));
+    }
+    cairo_close_path(c);
+}
+
+static void paint(cairo_t *c, const scene *s, const piece *p, double width)
+{
+    bool walk = s->visit[p->triangle] != UINT32_MAX;
+    double rgb[3];
+    trace(c, s, p->triangle);
+    if (walk) {
+        colour_of(s, p, rgb);
+        cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
+        cairo_fill_preserve(c);
+    } else if (s->d->view != VIEW_PLANE) {
+        cairo_set_source_rgba(c, 1, 1, 1, 0.7);
+        cairo_fill_preserve(c);
+    }
+    double grey = walk && !p->back ? 0.25 : 0.7;
+    cairo_set_source_rgb(c, grey, grey, grey);
+    cairo_set_line_width(c, walk ? 1.3 * width : width);
+    cairo_stroke(c);
+}
+
+/* A triangle that is too small or thin to show its colour gets a ring of it. */
+static void ring(cairo_t *c, const scene *s, uint32_t triangle, const double rgb[3])
+{
+    box b = scene_box(s, triangle);
+    if (!scene_is_finite(s, triangle) || fmin(b.high[0] - b.low[0], b.high[1] - b.low[1]) * scale_of(s) > 1.5 * RING)
+        return;
+    cairo_new_sub_path(c);
+    cairo_arc(c, page_x(s, b.low[0] / 2 + b.high[0] / 2), page_y(s, b.low[1] / 2 + b.high[1] / 2), RING, 0,
+              2 * acos(-1));
+    cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
+    cairo_set_line_width(c, 2);
+    cairo_stroke(c);
+}
+
+static void paint_line(cairo_t *c, const scene *s)
+{
+    const double *line = s->d->line;
+    cairo_set_line_width(c, 1.1);
+    for (size_t i = 0; i + 1 < s->d->line_count; i++) {
+        spot a = projection_at(&s->projection, line + 3 * i), b = projection_at(&s->projection, line + 3 * i + 3);
+        if (!spot_is_finite(&a) || !spot_is_finite(&b)) continue;
+        bool seen =
+            projection_shows(&s->projection, line + 3 * i) && projection_shows(&s->projection, line + 3 * i + 3);
+        double grey = seen ? 0 : 0.6;
+        cairo_set_source_rgb(c, grey, grey, grey);
+        cairo_move_to(c, page_x(s, a.x), page_y(s, a.y));
+        cairo_line_to(c, page_x(s, b.x), page_y(s, b.y));
+        cairo_stroke(c);
+    }
+}
+
+/* The beginning of the line is a ring, its end a disc. */
+static void paint_end(cairo_t *c, const scene *s, const double *point, bool last)
+{
+    spot at = projection_at(&s->projection, point);
+    if (!spot_is_finite(&at)) return;
+    double grey = projection_shows(&s->projection, point) ? 0 : 0.6, paper = last ? grey : 1;
+    cairo_new_sub_path(c);
+    cairo_arc(c, page_x(s, at.x), page_y(s, at.y), 2.5, 0, 2 * acos(-1));
+    cairo_set_source_rgb(c, paper, paper, paper);
+    cairo_fill_preserve(c);
+    cairo_set_source_rgb(c, grey, grey, grey);
+    cairo_set_line_width(c, 1.1);
+    cairo_stroke(c);
+}
+
+static double write_words(cairo_t *c, double x, double y, const char *words)
+{
+    cairo_text_extents_t e;
+    cairo_set_source_rgb(c, 0.1, 0.1, 0.1);
+    cairo_text_extents(c, words, &e);
+    cairo_move_to(c, x, y);
+    cairo_show_text(c, words);
+    return x + e.x_advance;
+}
+
+static double sample(cairo_t *c, double x, double y, const double rgb[3], const char *words)
+{
+    cairo_rectangle(c, x, y - 8, 9, 9);
+    cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
+    cairo_fill(c);
+    return write_words(c, x + 13, y, words) + 14;
+}
+
+static void paint_caption(cairo_t *c, const scene *s, double y)
+{
+    cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(c, 11);
+    double x = MARGIN;
+    if (s->d->path_count) {
+        x = sample(c, x, y, green, "first");
+        x = sample(c, x, y, vermilion, "last");
+    }
+    write_words(c, x, y, s->d->caption);
+}
+
+static double page_width(const scene *s)
+{
+    return 2 * MARGIN + fmax(PAGE_LEAST, (s->shown.high[0] - s->shown.low[0]) * scale_of(s));
+}
+
+static double page_height(const scene *s)
+{
+    return MARGIN + (s->shown.high[1] - s->shown.low[1]) * scale_of(s) + CAPTION;
+}
+
+static void draw(cairo_t *c, const void *self)
+{
+    const scene *s = self;
+    double width = line_width(s);
+    cairo_save(c);
+    cairo_rectangle(c, 0, 0, page_width(s), page_height(s) - CAPTION + 4);
+    cairo_clip(c);
+    cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
+    for (size_t i = 0; i < s->count; i++) paint(c, s, &s->pieces[i], width);
+    paint_line(c, s);
+    if (s->d->path_count) {
+        ring(c, s, s->d->path[0], green);
+        ring(c, s, s->d->path[s->d->path_count - 1], vermilion);
+    }
+    paint_end(c, s, s->d->line, false);
+    paint_end(c, s, s->d->line + 3 * (s->d->line_count - 1), true);
+    cairo_restore(c);
+    paint_caption(c, s, page_height(s) - 9);
+}
+
+int drawing_write(const drawing *d, const char *path)
+{
+    scene s;
+    int end = scene_make(&s, d) ? picture_write(path, page_width(&s), page_height(&s), draw, &s) : fail_memory();
+    scene_release(&s);
+    return end;
+}
+
+#else
+
+int drawing_write(const drawing *d, const char *path)
+{
+    (void)d;
+    return picture_check(path);
+}
+
+#endif

@@ -1,0 +1,183 @@
+/* projection.c - where the eye is: in front of the walk, on the mean of what its triangles face. */
+#include "cli/draw/projection.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- vectors ------------------------------------------------------------------------------------------------------ */
+
+static double inner(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void outer(const double a[3], const double b[3], double c[3])
+{
+    for (int k = 0; k < 3; k++) c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* False for one without length. */
+static bool normalise(double a[3])
+{
+    double length = sqrt(inner(a, a));
+    if (!(length > 1e-150) || !isfinite(length)) return false;
+    for (int k = 0; k < 3; k++) a[k] /= length;
+    return true;
+}
+
+/* --- the view ----------------------------------------------------------------------------------------------------- */
+
+static void measure(projection *p)
+{
+    const drawing *d = p->d;
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < 3 * d->triangle_count; i++)
+        for (size_t k = 0; k < 3; k++) {
+            double x = d->points[3 * (size_t)d->triangles[i] + k];
+            if (!isfinite(x)) continue;
+            low[k] = fmin(low[k], x);
+            high[k] = fmax(high[k], x);
+        }
+    p->size = 0;
+    for (int k = 0; k < 3; k++) {
+        p->middle[k] = low[k] <= high[k] ? low[k] / 2 + high[k] / 2 : 0;
+        if (d->view != VIEW_PLANE || k < 2) p->size = fmax(p->size, high[k] / 2 - low[k] / 2);
+    }
+    if (!(p->size > 0)) p->size = 1;
+}
+
+/* A point in the cube. */
+static void place(const projection *p, const double *point, double cube[3])
+{
+    for (int k = 0; k < 3; k++) cube[k] = (point[k] - p->middle[k]) / p->size;
+}
+
+static void corners(const projection *p, uint32_t triangle, double corner[3][3])
+{
+    const uint32_t *v = p->d->triangles + 3 * (size_t)triangle;
+    for (size_t k = 0; k < 3; k++) place(p, p->d->points + 3 * (size_t)v[k], corner[k]);
+}
+
+/* Of length 1, on the front; zero where there is no area. */
+static void normal_of(const projection *p, uint32_t triangle, double n[3])
+{
+    double corner[3][3], a[3], b[3], c[3];
+    corners(p, triangle, corner);
+    for (int k = 0; k < 3; k++) {
+        a[k] = corner[1][k] - corner[0][k];
+        b[k] = corner[2][k] - corner[0][k];
+    }
+    outer(a, b, n);
+    if (!normalise(n)) memset(n, 0, 3 * sizeof *n);
+    if (p->d->view != VIEW_STAR) return;
+    place(p, p->d->centre, c);
+    for (int k = 0; k < 3; k++) a[k] = corner[0][k] - c[k];
+    if (inner(a, n) < 0)
+        for (int k = 0; k < 3; k++) n[k] = -n[k];
+}
+
+/* From the centre to the middle of a facet, of length 1. */
+static void direction_of(const projection *p, uint32_t triangle, double n[3])
+{
+    double corner[3][3], c[3];
+    corners(p, triangle, corner);
+    place(p, p->d->centre, c);
+    for (int k = 0; k < 3; k++) n[k] = (corner[0][k] + corner[1][k] + corner[2][k]) / 3 - c[k];
+    if (!normalise(n)) memset(n, 0, 3 * sizeof *n);
+}
+
+static void look_of(const projection *p, size_t visit, double n[3])
+{
+    if (p->d->view == VIEW_STAR)
+        direction_of(p, p->d->path[visit], n);
+    else
+        normal_of(p, p->d->path[visit], n);
+}
+
+/* Where a walk goes all round a surface, the directions of its triangles cancel out: then that of the last one counts. */
+static void mean_look(const projection *p, double eye[3])
+{
+    double n[3], sum[3] = {0, 0, 0};
+    size_t count = p->d->path_count;
+    for (size_t i = 0; i < count; i++) {
+        look_of(p, i, n);
+        for (int k = 0; k < 3; k++) sum[k] += n[k];
+    }
+    memcpy(eye, sum, sizeof sum);
+    if (count && inner(sum, sum) < 0.09 * (double)count * (double)count) look_of(p, count - 1, eye);
+    if (!normalise(eye)) memcpy(eye, (const double[]){0, 0, 1}, sizeof sum);
+}
+
+/* What is up on the page: north on a globe; models have y up more often than z. */
+static void choose_up(const projection *p, const double eye[3], double up[3])
+{
+    double unit[3] = {0, 0, 0};
+    int first = p->d->view == VIEW_STAR ? 2 : 1, axis = fabs(eye[first]) < 0.9 ? first : 3 - first;
+    unit[axis] = 1;
+    for (int k = 0; k < 3; k++) up[k] = unit[k] - eye[k] * eye[axis];
+    normalise(up);
+}
+
+/* A probe's line should be seen as a line: where the eye looks along it, step aside. */
+static void step_aside(const projection *p, double eye[3])
+{
+    double from[3], to[3], line[3], up[3], side[3];
+    place(p, p->d->line, from);
+    place(p, p->d->line + 3 * (p->d->line_count - 1), to);
+    for (int k = 0; k < 3; k++) line[k] = to[k] - from[k];
+    if (!normalise(line) || fabs(inner(line, eye)) < 0.85) return;
+    choose_up(p, eye, up);
+    outer(up, eye, side);
+    for (int k = 0; k < 3; k++) eye[k] += 0.55 * side[k] + 0.25 * up[k];
+    normalise(eye);
+}
+
+static void choose_view(projection *p)
+{
+    double eye[3] = {0, 0, 1}, up[3] = {0, 1, 0}, right[3];
+    if (p->d->view != VIEW_PLANE) {
+        mean_look(p, eye);
+        if (p->d->view == VIEW_SURFACE) step_aside(p, eye);
+        choose_up(p, eye, up);
+    }
+    outer(up, eye, right);
+    memcpy(p->axis[0], right, sizeof right);
+    memcpy(p->axis[1], up, sizeof up);
+    memcpy(p->axis[2], eye, sizeof eye);
+}
+
+projection projection_make(const drawing *d)
+{
+    projection p = {.d = d};
+    measure(&p);
+    choose_view(&p);
+    return p;
+}
+
+/* --- what the eye sees -------------------------------------------------------------------------------------------- */
+
+spot projection_at(const projection *p, const double *point)
+{
+    double cube[3];
+    place(p, point, cube);
+    if (p->d->view == VIEW_PLANE) return (spot){cube[0], cube[1], 0};
+    return (spot){inner(p->axis[0], cube), inner(p->axis[1], cube), inner(p->axis[2], cube)};
+}
+
+bool projection_turns_back(const projection *p, uint32_t triangle)
+{
+    double n[3];
+    if (p->d->view == VIEW_PLANE) return false;
+    normal_of(p, triangle, n);
+    return inner(n, p->axis[2]) < 0;
+}
+
+bool projection_shows(const projection *p, const double *point)
+{
+    double c[3], at[3];
+    if (p->d->view != VIEW_STAR) return true;
+    place(p, p->d->centre, c);
+    place(p, point, at);
+    for (int k = 0; k < 3; k++) at[k] -= c[k];
+    return inner(at, p->axis[2]) >= 0;
+}

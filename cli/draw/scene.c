@@ -1,0 +1,272 @@
+/* scene.c - the page is cut to the walk and the ends of its line. Of a large mesh only what lies near the walk is
+ * painted. In space triangles that turn their back are left out, but for those of the walk. */
+#include "cli/draw/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_TRIANGLES 40000 /* that are painted, without the walk's */
+#define CELLS 256            /* a side of the grid that tells what is near the walk */
+
+/* --- what is shown ------------------------------------------------------------------------------------------------ */
+
+static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+
+bool spot_is_finite(const spot *at)
+{
+    return isfinite(at->x) && isfinite(at->y);
+}
+
+static void grow(box *b, const spot *at)
+{
+    if (!spot_is_finite(at)) return;
+    b->low[0] = fmin(b->low[0], at->x);
+    b->low[1] = fmin(b->low[1], at->y);
+    b->high[0] = fmax(b->high[0], at->x);
+    b->high[1] = fmax(b->high[1], at->y);
+}
+
+const spot *scene_corner(const scene *s, uint32_t triangle, size_t k)
+{
+    return &s->at[s->d->triangles[3 * (size_t)triangle + k]];
+}
+
+box scene_box(const scene *s, uint32_t triangle)
+{
+    box b = nothing;
+    for (size_t k = 0; k < 3; k++) grow(&b, scene_corner(s, triangle, k));
+    return b;
+}
+
+double box_side(const box *b)
+{
+    return fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]);
+}
+
+static box widen(box b, double margin)
+{
+    for (int k = 0; k < 2; k++) {
+        b.low[k] -= margin;
+        b.high[k] += margin;
+    }
+    return b;
+}
+
+static box join(box a, box b)
+{
+    for (int k = 0; k < 2; k++) {
+        a.low[k] = fmin(a.low[k], b.low[k]);
+        a.high[k] = fmax(a.high[k], b.high[k]);
+    }
+    return a;
+}
+
+static box meet(box a, box b)
+{
+    for (int k = 0; k < 2; k++) {
+        a.low[k] = fmax(a.low[k], b.low[k]);
+        a.high[k] = fmin(a.high[k], b.high[k]);
+    }
+    return a;
+}
+
+/* An end of the line should be seen, unless it lies far away: from a mesh in the plane, or from the walk of a probe. */
+static void grow_to_end(scene *s, const double *point)
+{
+    spot at = projection_at(&s->projection, point);
+    box near = s->d->view == VIEW_PLANE ? widen(s->all, 2) : widen(s->shown, box_side(&s->shown));
+    if (at.x >= near.low[0] && at.x <= near.high[0] && at.y >= near.low[1] && at.y <= near.high[1])
+        grow(&s->shown, &at);
+}
+
+/* The walk and the ends of its line, with a margin; the whole mesh where that is not much more. */
+static void choose_box(scene *s)
+{
+    const drawing *d = s->d;
+    double sides = 0;
+    s->all = s->shown = nothing;
+    for (size_t i = 0; i < 3 * d->triangle_count; i++) grow(&s->all, &s->at[d->triangles[i]]);
+    for (size_t i = 0; i < d->path_count; i++) {
+        box b = scene_box(s, d->path[i]);
+        sides += box_side(&b);
+        for (size_t k = 0; k < 3; k++) grow(&s->shown, scene_corner(s, d->path[i], k));
+    }
+    for (size_t i = 0; i < d->line_count; i += d->line_count - 1) grow_to_end(s, d->line + 3 * i);
+    double side = box_side(&s->shown), mean = d->path_count ? sides / (double)d->path_count : 0;
+    box near = widen(s->shown, fmax(0.12 * side, 1.5 * mean)), most = join(s->shown, s->all);
+    bool whole = !d->path_count || box_side(&near) > 0.6 * box_side(&s->all);
+    s->shown = whole ? most : meet(near, most);
+    s->shown = widen(s->shown, 0.02 * box_side(&s->shown));
+    if (!(box_side(&s->shown) > 0)) s->shown = (box){{-1, -1}, {1, 1}};
+}
+
+/* --- what is painted ---------------------------------------------------------------------------------------------- */
+
+static bool is_in_sight(const scene *s, const box *b)
+{
+    return b->low[0] <= s->shown.high[0] && b->high[0] >= s->shown.low[0] && b->low[1] <= s->shown.high[1] &&
+           b->high[1] >= s->shown.low[1];
+}
+
+bool scene_is_finite(const scene *s, uint32_t triangle)
+{
+    return spot_is_finite(scene_corner(s, triangle, 0)) && spot_is_finite(scene_corner(s, triangle, 1)) &&
+           spot_is_finite(scene_corner(s, triangle, 2));
+}
+
+static double depth_of(const scene *s, uint32_t triangle)
+{
+    return (scene_corner(s, triangle, 0)->z + scene_corner(s, triangle, 1)->z + scene_corner(s, triangle, 2)->z) / 3;
+}
+
+/* In the plane the walk lies on the mesh; in space what is nearer hides what is farther away. Depths are within 2. */
+static void add_piece(scene *s, uint32_t triangle)
+{
+    box b = scene_box(s, triangle);
+    bool walk = s->visit[triangle] != UINT32_MAX;
+    if (!scene_is_finite(s, triangle) || !is_in_sight(s, &b)) return;
+    bool back = projection_turns_back(&s->projection, triangle);
+    if (back && !walk) return;
+    double key =
+        s->d->view == VIEW_PLANE ? (walk ? s->visit[triangle] : -1.0) : depth_of(s, triangle) - (back ? 10 : 0);
+    s->pieces[s->count++] = (piece){key, triangle, back};
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const piece *p = a, *q = b;
+    if (p->key != q->key) return p->key < q->key ? -1 : 1;
+    return p->triangle < q->triangle ? -1 : 1;
+}
+
+/* How many cells of the page a triangle is away from the walk. */
+typedef struct nearness {
+    uint16_t cells[CELLS + 2][CELLS + 2]; /* with a rim that is far away */
+} nearness;
+
+#define FAR 0x7fff
+
+static int cell(double x, double low, double high)
+{
+    double c = 1 + floor((x - low) / (high - low) * CELLS);
+    return c < 1 ? 1 : c > CELLS ? CELLS : (int)c;
+}
+
+static void mark_walk(const scene *s, nearness *near)
+{
+    const box *v = &s->shown;
+    for (size_t i = 0; i < s->d->path_count; i++) {
+        if (!scene_is_finite(s, s->d->path[i])) continue;
+        box b = scene_box(s, s->d->path[i]);
+        int right = cell(b.high[0], v->low[0], v->high[0]), top = cell(b.high[1], v->low[1], v->high[1]);
+        for (int y = cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
+            for (int x = cell(b.low[0], v->low[0], v->high[0]); x <= right; x++) near->cells[y][x] = 0;
+    }
+}
+
+static uint16_t closer(uint16_t here, uint16_t there)
+{
+    return there + 1 < here ? (uint16_t)(there + 1) : here;
+}
+
+/* Steps of a king, in two sweeps. */
+static void spread(nearness *near)
+{
+    for (int y = 1; y <= CELLS; y++)
+        for (int x = 1; x <= CELLS; x++) {
+            uint16_t *c = &near->cells[y][x];
+            for (int k = -1; k <= 1; k++) *c = closer(*c, near->cells[y - 1][x + k]);
+            *c = closer(*c, near->cells[y][x - 1]);
+        }
+    for (int y = CELLS; y >= 1; y--)
+        for (int x = CELLS; x >= 1; x--) {
+            uint16_t *c = &near->cells[y][x];
+            for (int k = -1; k <= 1; k++) *c = closer(*c, near->cells[y + 1][x + k]);
+            *c = closer(*c, near->cells[y][x + 1]);
+        }
+}
+
+static uint32_t steps_away(const scene *s, const nearness *near, uint32_t triangle)
+{
+    const box *v = &s->shown;
+    box b = scene_box(s, triangle);
+    return near->cells[cell((b.low[1] + b.high[1]) / 2, v->low[1], v->high[1])]
+                      [cell((b.low[0] + b.high[0]) / 2, v->low[0], v->high[0])];
+}
+
+/* Keep those near the walk, as many as are to be painted. False: out of memory. */
+static bool keep_near(scene *s)
+{
+    size_t counts[CELLS + 1] = {0}, sum = 0, kept = 0;
+    uint32_t most = 0;
+    if (s->count <= MOST_TRIANGLES + s->d->path_count) return true;
+    nearness *near = malloc(sizeof *near);
+    if (!near) return false;
+    for (int y = 0; y < CELLS + 2; y++)
+        for (int x = 0; x < CELLS + 2; x++) near->cells[y][x] = FAR;
+    mark_walk(s, near);
+    spread(near);
+    for (size_t i = 0; i < s->count; i++) {
+        uint32_t away = steps_away(s, near, s->pieces[i].triangle);
+        if (away <= CELLS) counts[away]++;
+    }
+    while (most < CELLS && sum + counts[most] <= MOST_TRIANGLES) sum += counts[most++];
+    for (size_t i = 0; i < s->count; i++) {
+        uint32_t t = s->pieces[i].triangle;
+        if (s->visit[t] != UINT32_MAX || steps_away(s, near, t) < most) s->pieces[kept++] = s->pieces[i];
+    }
+    s->count = kept;
+    free(near);
+    return true;
+}
+
+static bool choose_pieces(scene *s)
+{
+    for (size_t t = 0; t < s->d->triangle_count; t++) add_piece(s, (uint32_t)t);
+    if (!keep_near(s)) return false;
+    qsort(s->pieces, s->count, sizeof *s->pieces, by_key);
+    return true;
+}
+
+/* --- the whole ---------------------------------------------------------------------------------------------------- */
+
+static bool make_room(scene *s)
+{
+    const drawing *d = s->d;
+    s->at = malloc((d->point_count + 1) * sizeof *s->at);
+    s->visit = malloc((d->triangle_count + 1) * sizeof *s->visit);
+    s->part = malloc((d->path_count + 1) * sizeof *s->part);
+    s->pieces = malloc((d->triangle_count + 1) * sizeof *s->pieces);
+    return s->at && s->visit && s->part && s->pieces;
+}
+
+static void number_visits(scene *s)
+{
+    const drawing *d = s->d;
+    memset(s->visit, 0xff, d->triangle_count * sizeof *s->visit);
+    for (size_t i = 0; i < d->path_count; i++)
+        if (s->visit[d->path[i]] == UINT32_MAX) s->visit[d->path[i]] = (uint32_t)i;
+    for (size_t begin = 0, end; begin < d->path_count; begin = end) {
+        for (end = begin; end < d->path_count && d->iteration[end] == d->iteration[begin];) end++;
+        for (size_t i = begin; i < end; i++) s->part[i] = (double)(i - begin + 1) / (double)(end - begin);
+    }
+}
+
+bool scene_make(scene *s, const drawing *d)
+{
+    *s = (scene){.d = d, .projection = projection_make(d)};
+    if (!make_room(s)) return false;
+    for (size_t v = 0; v < s->d->point_count; v++) s->at[v] = projection_at(&s->projection, s->d->points + 3 * v);
+    number_visits(s);
+    choose_box(s);
+    return choose_pieces(s);
+}
+
+void scene_release(scene *s)
+{
+    free(s->at);
+    free(s->visit);
+    free(s->part);
+    free(s->pieces);
+}

@@ -1,0 +1,58 @@
+#include "cli/frame/mesh_output.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
+
+#include <string.h>
+#include <strings.h>
+
+enum { FORMAT_BY_ENDING = 0 };
+
+static const char *format_name(int i)
+{
+    return i == FORMAT_BY_ENDING ? "auto" : mw_format_name((size_t)i - 1);
+}
+
+const choices mesh_formats = {"format", format_name, NULL};
+
+/* Does the name end in the name of a format, or in .ele, the other half of node? */
+static bool ending_is_known(const char *path)
+{
+    const char *ending = strrchr(path, '.');
+    if (!ending) return false;
+    const char *name;
+    for (size_t i = 0; (name = mw_format_name(i)); i++)
+        if (strcasecmp(ending + 1, name) == 0) return true;
+    return strcasecmp(ending, ".ele") == 0;
+}
+
+int mesh_output_check(const char *asking, const char *output, int format)
+{
+    if (!output)
+        complain("%s: -o MESH is missing: where should the mesh go?", asking);
+    else if (files_is_stream(output) && format == FORMAT_BY_ENDING)
+        complain("%s: a mesh on standard output wants --format", asking);
+    else if (format == FORMAT_BY_ENDING && !ending_is_known(output))
+        complain("%s: the name tells no format for meshes; --format does (off, ply, ...)", output);
+    else
+        return 0;
+    return END_USAGE;
+}
+
+bool mesh_output_is_node(const char *output, int format)
+{
+    if (format != FORMAT_BY_ENDING) return strcmp(format_name(format), "node") == 0;
+    const char *ending = strrchr(output, '.');
+    return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
+}
+
+int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool named)
+{
+    mw_error error;
+    progress_phase("writing", NULL);
+    if (named) signals_hold(true);
+    mw_status status = mw_write_mesh(output, format == FORMAT_BY_ENDING ? NULL : format_name(format), file, &error);
+    if (named) signals_hold(false);
+    return status == MW_OK ? 0 : fail_writing(&error);
+}

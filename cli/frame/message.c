@@ -1,0 +1,66 @@
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+void complain(const char *format, ...)
+{
+    char line[2048];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    progress_end();
+    fprintf(stderr, "meshwalk: %s\n", line);
+}
+
+static int end_of(mw_status status)
+{
+    switch (status) {
+    case MW_ERROR_ARGUMENT: return END_USAGE;
+    case MW_ERROR_MEMORY:
+    case MW_ERROR_LIMIT: return END_INTERNAL;
+    default: return END_INPUT;
+    }
+}
+
+int fail_reading(const mw_error *error)
+{
+    complain("%s", error->message);
+    return end_of(error->status);
+}
+
+int fail_mesh(const char *path, const mw_error *error)
+{
+    complain("%s: %s", path, error->message);
+    return end_of(error->status);
+}
+
+int fail_query(const mw_error *error)
+{
+    complain("%s", error->message);
+    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
+}
+
+/* The reader at the other end of a pipe has seen enough: nothing went wrong that a person should read about. */
+static int closed_pipe(const mw_error *error)
+{
+    const char *text = strerror(EPIPE);
+    size_t all = strlen(error->message), end = strlen(text);
+    return all >= end && strcmp(error->message + all - end, text) == 0;
+}
+
+int fail_writing(const mw_error *error)
+{
+    if (!closed_pipe(error)) complain("%s", error->message);
+    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
+}
+
+int fail_memory(void)
+{
+    complain("out of memory");
+    return END_INTERNAL;
+}

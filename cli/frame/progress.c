@@ -1,0 +1,124 @@
+/* The library works without calling back, so a thread of its own watches the clock: it sleeps for a second, then
+ * repaints the line a few times a second until it is told to stop. */
+#include "cli/frame/progress.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <threads.h>
+#include <time.h>
+#include <unistd.h>
+
+#define REPAINT_NANOSECONDS 250000000L
+
+static struct {
+    bool running, stop, shown;
+    thrd_t thread;
+    mtx_t lock;
+    cnd_t wake;
+    const char *doing, *what, *unit;
+    uint64_t done;
+    struct timespec begin;
+} watch;
+
+static double seconds_since(const struct timespec *begin)
+{
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)(now.tv_sec - begin->tv_sec) + 1e-9 * (double)(now.tv_nsec - begin->tv_nsec);
+}
+
+/* Sleep until told to stop or for the given time; the lock is held before and after. */
+static bool wait_for(time_t seconds, long nanoseconds)
+{
+    struct timespec until;
+    timespec_get(&until, TIME_UTC);
+    until.tv_sec += seconds;
+    until.tv_nsec += nanoseconds;
+    if (until.tv_nsec >= 1000000000L) {
+        until.tv_nsec -= 1000000000L;
+        until.tv_sec++;
+    }
+    while (!watch.stop)
+        if (cnd_timedwait(&watch.wake, &watch.lock, &until) == thrd_timedout) break;
+    return !watch.stop;
+}
+
+static void paint(void)
+{
+    if (!watch.doing) return;
+    fprintf(stderr, "\r\033[K%s", watch.doing);
+    if (watch.what) fprintf(stderr, " %s", strcmp(watch.what, "-") == 0 ? "standard input" : watch.what);
+    if (watch.done) fprintf(stderr, ": %" PRIu64 " %s", watch.done, watch.unit);
+    fprintf(stderr, ", %.0f s", seconds_since(&watch.begin));
+    fflush(stderr);
+    watch.shown = true;
+}
+
+static int run(void *unused)
+{
+    (void)unused;
+    mtx_lock(&watch.lock);
+    for (bool more = wait_for(1, 0); more; more = wait_for(0, REPAINT_NANOSECONDS)) paint();
+    mtx_unlock(&watch.lock);
+    return 0;
+}
+
+void progress_begin(bool quiet)
+{
+    if (quiet || watch.running || !isatty(STDERR_FILENO)) return;
+    timespec_get(&watch.begin, TIME_UTC);
+    watch.stop = watch.shown = false;
+    if (mtx_init(&watch.lock, mtx_plain) != thrd_success) return;
+    if (cnd_init(&watch.wake) == thrd_success) {
+        watch.running = thrd_create(&watch.thread, run, NULL) == thrd_success;
+        if (!watch.running) cnd_destroy(&watch.wake);
+    }
+    if (!watch.running) mtx_destroy(&watch.lock);
+}
+
+void progress_phase(const char *doing, const char *what)
+{
+    if (!watch.running) return;
+    mtx_lock(&watch.lock);
+    watch.doing = doing;
+    watch.what = what;
+    watch.done = 0;
+    mtx_unlock(&watch.lock);
+}
+
+static void count(uint64_t done, const char *unit)
+{
+    if (!watch.running) return;
+    mtx_lock(&watch.lock);
+    watch.done = done;
+    watch.unit = unit;
+    mtx_unlock(&watch.lock);
+}
+
+void progress_points(uint64_t done)
+{
+    count(done, "points");
+}
+
+void progress_lines(uint64_t done)
+{
+    count(done, "lines");
+}
+
+void progress_end(void)
+{
+    if (!watch.running) return;
+    mtx_lock(&watch.lock);
+    watch.stop = true;
+    cnd_signal(&watch.wake);
+    mtx_unlock(&watch.lock);
+    thrd_join(watch.thread, NULL);
+    cnd_destroy(&watch.wake);
+    mtx_destroy(&watch.lock);
+    watch.running = false;
+    if (watch.shown) {
+        fputs("\r\033[K", stderr);
+        fflush(stderr);
+    }
+}

@@ -1,0 +1,144 @@
+#include "cli/frame/report.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#define LABEL_WIDTH 22
+
+void report_begin(report *r, bool json)
+{
+    *r = (report){.json = json};
+    if (json) text_string(&r->text, "{");
+}
+
+static void name_of(report *r, const char *name)
+{
+    if (r->json) {
+        text_string(&r->text, r->values++ ? ",\n " : "\n ");
+        report_quote(&r->text, name);
+        text_string(&r->text, ": ");
+        return;
+    }
+    size_t length = strlen(name);
+    for (size_t i = 0; i < length; i++) text_bytes(&r->text, name[i] == '_' ? " " : name + i, 1);
+    for (size_t i = length; i < LABEL_WIDTH; i++) text_string(&r->text, " ");
+}
+
+static void end_of_value(report *r)
+{
+    if (!r->json) text_string(&r->text, "\n");
+}
+
+static void number(report *r, double value)
+{
+    if (r->json && !isfinite(value))
+        text_string(&r->text, "null");
+    else
+        text_double(&r->text, value);
+}
+
+void report_count(report *r, const char *name, uint64_t value)
+{
+    name_of(r, name);
+    text_printf(&r->text, "%" PRIu64, value);
+    end_of_value(r);
+}
+
+void report_number(report *r, const char *name, double value)
+{
+    name_of(r, name);
+    number(r, value);
+    end_of_value(r);
+}
+
+void report_numbers(report *r, const char *name, const double *values, size_t count)
+{
+    name_of(r, name);
+    if (r->json) text_string(&r->text, "[");
+    for (size_t i = 0; i < count; i++) {
+        if (i) text_string(&r->text, r->json ? ", " : " ");
+        number(r, values[i]);
+    }
+    if (r->json) text_string(&r->text, "]");
+    end_of_value(r);
+}
+
+void report_flag(report *r, const char *name, bool value)
+{
+    name_of(r, name);
+    text_string(&r->text, r->json ? (value ? "true" : "false") : value ? "yes" : "no");
+    end_of_value(r);
+}
+
+void report_string(report *r, const char *name, const char *value)
+{
+    name_of(r, name);
+    if (r->json)
+        report_quote(&r->text, value);
+    else
+        text_string(&r->text, value);
+    end_of_value(r);
+}
+
+void report_strings(report *r, const char *name, char *const *values, size_t count)
+{
+    name_of(r, name);
+    if (r->json) text_string(&r->text, "[");
+    for (size_t i = 0; i < count; i++) {
+        if (i) text_string(&r->text, ", ");
+        if (r->json)
+            report_quote(&r->text, values[i]);
+        else
+            text_string(&r->text, values[i]);
+    }
+    if (r->json) text_string(&r->text, "]");
+    if (!r->json && count == 0) text_string(&r->text, "none");
+    end_of_value(r);
+}
+
+void report_missing(report *r, const char *name, const char *why)
+{
+    name_of(r, name);
+    text_string(&r->text, r->json ? "null" : why);
+    end_of_value(r);
+}
+
+void report_end(report *r)
+{
+    if (r->json) text_string(&r->text, "\n}\n");
+}
+
+/* Length of the UTF-8 sequence at s, 0 if there is none: no overlong forms, no surrogates, nothing above U+10FFFF. */
+static size_t utf8_length(const unsigned char *s)
+{
+    if (s[0] < 0x80) return 1;
+    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
+    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((s[i] & 0xc0) != 0x80) return 0;
+    if (s[0] == 0xe0 && s[1] < 0xa0) return 0;
+    if (s[0] == 0xed && s[1] >= 0xa0) return 0;
+    if (s[0] == 0xf0 && s[1] < 0x90) return 0;
+    if (s[0] == 0xf4 && s[1] >= 0x90) return 0;
+    return length;
+}
+
+void report_quote(text *t, const char *value)
+{
+    const unsigned char *s = (const unsigned char *)value;
+    text_string(t, "\"");
+    while (*s) {
+        size_t length = utf8_length(s);
+        if (length == 0)
+            text_string(t, "\\ufffd");
+        else if (*s == '"' || *s == '\\')
+            text_printf(t, "\\%c", *s);
+        else if (*s < 0x20)
+            text_printf(t, "\\u%04x", *s);
+        else
+            text_bytes(t, (const char *)s, length);
+        s += length ? length : 1;
+    }
+    text_string(t, "\"");
+}

@@ -1,0 +1,71 @@
+#include "cli/frame/text.h"
+
+#include <meshwalk/meshwalk.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Room for `size` more bytes; NULL when out of memory. */
+static char *text_room(text *t, size_t size)
+{
+    if (t->failed) return NULL;
+    if (t->capacity - t->size >= size) return t->bytes + t->size;
+    size_t capacity = t->capacity < 256 ? 256 : t->capacity;
+    while (capacity - t->size < size && capacity <= SIZE_MAX / 2) capacity *= 2;
+    char *bytes = capacity - t->size >= size ? realloc(t->bytes, capacity) : NULL;
+    if (!bytes) {
+        t->failed = true;
+        return NULL;
+    }
+    t->bytes = bytes;
+    t->capacity = capacity;
+    return bytes + t->size;
+}
+
+void text_bytes(text *t, const char *bytes, size_t size)
+{
+    char *room = text_room(t, size);
+    if (!room) return;
+    memcpy(room, bytes, size);
+    t->size += size;
+}
+
+void text_string(text *t, const char *string)
+{
+    text_bytes(t, string, strlen(string));
+}
+
+void text_printf(text *t, const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    char *room = length < 0 ? NULL : text_room(t, (size_t)length + 1);
+    if (room) {
+        vsnprintf(room, (size_t)length + 1, format, again);
+        t->size += (size_t)length;
+    } else {
+        t->failed = true;
+    }
+    va_end(again);
+    va_end(arguments);
+}
+
+void text_double(text *t, double value)
+{
+    char *room = text_room(t, 32);
+    if (room) t->size += mw_format_double(room, value);
+}
+
+void text_clear(text *t)
+{
+    t->size = 0;
+}
+
+void text_release(text *t)
+{
+    free(t->bytes);
+    *t = (text){0};
+}
