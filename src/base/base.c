@@ -27,8 +27,8 @@ const char *mw_version(void)
     return MW_VERSION_STRING;
 }
 
-static mw_status fill(mw_error *error, mw_status status, int64_t triangle, int64_t vertex, const char *format,
-                      va_list arguments)
+static mw_status error_fill(mw_error *error, mw_status status, int64_t triangle, int64_t vertex, const char *format,
+                            va_list arguments)
 {
     if (error) {
         *error = (mw_error){.status = status, .triangle = triangle, .vertex = vertex, .line = -1};
@@ -41,7 +41,7 @@ mw_status mw__fail(mw_error *error, mw_status status, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    fill(error, status, -1, -1, format, arguments);
+    error_fill(error, status, -1, -1, format, arguments);
     va_end(arguments);
     return status;
 }
@@ -50,7 +50,7 @@ mw_status mw__fail_at(mw_error *error, int64_t triangle, int64_t vertex, const c
 {
     va_list arguments;
     va_start(arguments, format);
-    fill(error, MW_ERROR_INPUT, triangle, vertex, format, arguments);
+    error_fill(error, MW_ERROR_INPUT, triangle, vertex, format, arguments);
     va_end(arguments);
     return MW_ERROR_INPUT;
 }

@@ -28,4 +28,11 @@ void *mw__calloc(size_t count, size_t size);
 void *mw__alloc_lines(size_t count, size_t size);
 void *mw__realloc(void *old, size_t count, size_t size);
 
+static inline void mw__swap(uint32_t *a, uint32_t *b)
+{
+    uint32_t old = *a;
+    *a = *b;
+    *b = old;
+}
+
 #endif

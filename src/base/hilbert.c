@@ -15,7 +15,7 @@ static const uint8_t step[4][4] = {
 };
 
 /* Four steps of the curve for four bits of x and y. */
-static uint16_t leap(uint32_t state, uint32_t x, uint32_t y)
+static uint16_t hilbert_leap(uint32_t state, uint32_t x, uint32_t y)
 {
     uint32_t rank = 0;
     for (int bit = 3; bit >= 0; bit--) {
@@ -34,7 +34,8 @@ mw_hilbert mw__hilbert(const double low[2], const double high[2])
     double scale = half > 0 ? MW_HILBERT_CELLS / 2 / half : 0;
     mw_hilbert hilbert = {.x0 = low[0], .y0 = low[1], .scale = scale < 1e300 ? scale : 0};
     for (uint32_t state = 0; state < 4; state++)
-        for (uint32_t cell = 0; cell < 256; cell++) hilbert.leap[state][cell] = leap(state, cell >> 4, cell & 15);
+        for (uint32_t cell = 0; cell < 256; cell++)
+            hilbert.leap[state][cell] = hilbert_leap(state, cell >> 4, cell & 15);
     return hilbert;
 }
 

@@ -58,6 +58,20 @@ static MW_INLINE uint32_t mw__half_prev(uint32_t half)
     return mw__link(mw__link_triangle(half), mw__prev(mw__link_edge(half)));
 }
 
+/* Of a half-edge: the vertices where it starts and ends, and what it is linked to. */
+static MW_INLINE uint32_t mw__half_start(const mw_triangle *tri, uint32_t half)
+{
+    return tri[mw__link_triangle(half)].v[mw__link_edge(half)];
+}
+static MW_INLINE uint32_t mw__half_end(const mw_triangle *tri, uint32_t half)
+{
+    return tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1];
+}
+static MW_INLINE uint32_t mw__half_link(const mw_triangle *tri, uint32_t half)
+{
+    return tri[mw__link_triangle(half)].link[mw__link_edge(half)];
+}
+
 /* Edge k of a stored triangle as the user numbers it, and vertex k. */
 static MW_INLINE uint32_t mw__user_edge(uint32_t user, uint32_t k)
 {
@@ -163,6 +177,11 @@ static MW_INLINE uint32_t mw__middle_of(uint32_t a, uint32_t b, uint32_t c)
 static MW_INLINE bool mw__is_finite(mw_point p)
 {
     return isfinite(p.x) && isfinite(p.y);
+}
+
+static MW_INLINE bool mw__points_equal(mw_point a, mw_point b)
+{
+    return a.x == b.x && a.y == b.y;
 }
 
 /* One that names a vertex twice has no edges to speak of. */

@@ -1,7 +1,7 @@
 /* angle.c - which of two angles is larger, exactly.
  *
  * An angle t between two vectors has cos t and sin t >= 0 as their dot product and the magnitude of their cross product, each over
- * the product of their lengths. So cross(s) dot(t) - dot(s) cross(t) has the sign of sin(s - t); and that is the sign of
+ * the product of their lengths. So arms_cross(s) arms_dot(t) - arms_dot(s) arms_cross(t) has the sign of sin(s - t); and that is the sign of
  * s - t, which lies between -pi and pi, but where one of the angles is 0 and the other pi. */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
@@ -54,7 +54,7 @@ static double largest_part(const arms *r)
     return largest;
 }
 
-static bool on_grid(const arms *r, const arms *s, int *sign)
+static bool angle_on_grid(const arms *r, const arms *s, int *sign)
 {
     double largest = fmax(largest_part(r), largest_part(s));
     double scale = largest > 0 ? ldexp(1, 29 - ilogb(largest)) : 1;
@@ -66,27 +66,27 @@ static bool on_grid(const arms *r, const arms *s, int *sign)
     return true;
 }
 
-static mw_expansion cross(mw_arena *arena, const arms *r)
+static mw_expansion arms_cross(mw_arena *arena, const arms *r)
 {
     return mw__expansion_cross(arena, r->x[0], r->y[0], r->x[1], r->y[1]);
 }
 
-static mw_expansion dot(mw_arena *arena, const arms *r)
+static mw_expansion arms_dot(mw_arena *arena, const arms *r)
 {
     mw_expansion left = mw__expansion_multiply(arena, r->x[0], r->x[1]);
     mw_expansion right = mw__expansion_multiply(arena, r->y[0], r->y[1]);
     return mw__expansion_add(arena, left, right);
 }
 
-static int with_expansions(const mw_point p[6])
+static int angle_with_expansions(const mw_point p[6])
 {
     double room[ROOM];
     mw_arena arena = {room};
     arms r = make_arms(&arena, p[0], p[1], p[2]), s = make_arms(&arena, p[3], p[4], p[5]);
     int sign;
-    if (on_grid(&r, &s, &sign)) return sign;
-    mw_expansion r_cross = cross(&arena, &r), r_dot = dot(&arena, &r);
-    mw_expansion s_cross = cross(&arena, &s), s_dot = dot(&arena, &s);
+    if (angle_on_grid(&r, &s, &sign)) return sign;
+    mw_expansion r_cross = arms_cross(&arena, &r), r_dot = arms_dot(&arena, &r);
+    mw_expansion s_cross = arms_cross(&arena, &s), s_dot = arms_dot(&arena, &s);
     mw_expansion left = mw__expansion_multiply(&arena, r_cross, s_dot);
     mw_expansion right = mw__expansion_multiply(&arena, r_dot, s_cross);
     mw_expansion difference = mw__expansion_subtract(&arena, left, right);
@@ -106,7 +106,7 @@ static void big_products(mw_point a, mw_point b, mw_point c, int base, mw_big *c
     mw__big_cross(dot, &x[0], &y[0], &y[1], &x[1]);
 }
 
-static int with_integers(const mw_point p[6])
+static int angle_with_integers(const mw_point p[6])
 {
     int base = mw__big_base(&p[0].x, 12);
     mw_big cross[2], dot[2], difference;
@@ -134,5 +134,5 @@ int mw__compare_angles_exact(const mw_angle *s, const mw_angle *t)
     }
     if (turn[0] == 0 && turn[1] == 0)
         return sign_of(sign_of(mw__dot2d(p[4], p[3], p[5])) - sign_of(mw__dot2d(p[1], p[0], p[2])));
-    return mw__within(&p[0].x, 12, LOW, HIGH) ? with_expansions(p) : with_integers(p);
+    return mw__within(&p[0].x, 12, LOW, HIGH) ? angle_with_expansions(p) : angle_with_integers(p);
 }

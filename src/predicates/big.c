@@ -7,7 +7,7 @@
 __extension__ typedef unsigned __int128 wide;
 
 /* |v| = mantissa * 2^exponent. v is finite. */
-static uint64_t mantissa(double v, int *exponent)
+static uint64_t mantissa_of(double v, int *exponent)
 {
     uint64_t bits;
     memcpy(&bits, &v, sizeof bits);
@@ -23,7 +23,7 @@ int mw__big_base(const double *v, int n)
     int base = 0;
     for (int i = 0; i < n; i++) {
         int exponent;
-        uint64_t m = mantissa(v[i], &exponent);
+        uint64_t m = mantissa_of(v[i], &exponent);
         if (m == 0) continue;
         exponent += __builtin_ctzll(m);
         if (!found || exponent < base) base = exponent;
@@ -32,16 +32,16 @@ int mw__big_base(const double *v, int n)
     return base;
 }
 
-static void trim(mw_big *r)
+static void big_trim(mw_big *r)
 {
     while (r->n > 0 && r->limb[r->n - 1] == 0) r->n--;
     if (r->n == 0) r->sign = 0;
 }
 
-static void set(mw_big *r, double v, int base)
+static void big_set(mw_big *r, double v, int base)
 {
     int exponent;
-    uint64_t m = mantissa(v, &exponent);
+    uint64_t m = mantissa_of(v, &exponent);
     int shift = exponent - base;
     if (m == 0) {
         r->sign = r->n = 0;
@@ -58,14 +58,14 @@ static void set(mw_big *r, double v, int base)
     r->limb[first + 1] = (uint64_t)(shifted >> 64);
     r->n = first + 2;
     r->sign = signbit(v) ? -1 : 1;
-    trim(r);
+    big_trim(r);
 }
 
 void mw__big_difference(mw_big *r, double a, double b, int base)
 {
     mw_big subtrahend;
-    set(r, a, base);
-    set(&subtrahend, b, base);
+    big_set(r, a, base);
+    big_set(&subtrahend, b, base);
     mw__big_subtract(r, r, &subtrahend);
 }
 
@@ -121,7 +121,7 @@ static void add_signed(mw_big *r, const mw_big *a, const mw_big *b, int b_sign)
     else
         add_magnitude(r, larger, smaller);
     r->sign = sign;
-    trim(r);
+    big_trim(r);
 }
 
 void mw__big_add(mw_big *r, const mw_big *a, const mw_big *b)
@@ -148,7 +148,7 @@ void mw__big_multiply(mw_big *r, const mw_big *a, const mw_big *b)
         }
         r->limb[i + b->n] = carry;
     }
-    trim(r);
+    big_trim(r);
 }
 
 void mw__big_cross(mw_big *r, const mw_big *a, const mw_big *b, const mw_big *c, const mw_big *d)

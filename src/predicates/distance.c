@@ -41,7 +41,7 @@ static feature nearest_feature(mw_point q, mw_point a, mw_point b)
 #define SHORT 0x1p-200
 
 /* low..high made wider, so that it holds the true value; unbounded where something has overflowed. */
-static interval widened(double low, double high)
+static interval interval_widened(double low, double high)
 {
     interval wide = {low * (1 - WIDEN), high * (1 + WIDEN) + FLOOR};
     if (!(wide.high <= DBL_MAX)) wide = (interval){0, INFINITY};
@@ -54,17 +54,17 @@ static double square_length(mw_point p, mw_point q)
     return x * x + y * y;
 }
 
-static interval estimate(mw_point q, const feature *f)
+static interval distance_estimate(mw_point q, const feature *f)
 {
     if (!f->line) {
         double square = square_length(q, f->a);
-        return widened(square, square);
+        return interval_widened(square, square);
     }
     double length = square_length(f->a, f->b);
     if (!(length >= SHORT && length <= DBL_MAX)) return (interval){0, INFINITY};
     double bound, area = fabs(mw__orient2d_rounded(f->a, f->b, q, &bound));
     double low = fmax(area - bound, 0), high = area + bound;
-    return widened(low * low / length, high * high / length);
+    return interval_widened(low * low / length, high * high / length);
 }
 
 static void square_sum(mw_big *r, const mw_big *x, const mw_big *y)
@@ -75,7 +75,7 @@ static void square_sum(mw_big *r, const mw_big *x, const mw_big *y)
     mw__big_add(r, r, &square);
 }
 
-static void exact(ratio *r, mw_point q, const feature *f, int base)
+static void distance_exact(ratio *r, mw_point q, const feature *f, int base)
 {
     mw_big ax, ay, bx, by, area;
     mw__big_difference(&ax, f->a.x, q.x, base);
@@ -94,7 +94,7 @@ static void exact(ratio *r, mw_point q, const feature *f, int base)
     square_sum(&r->denominator, &ax, &ay);
 }
 
-static int compare(const ratio *r, const ratio *s)
+static int ratio_compare(const ratio *r, const ratio *s)
 {
     mw_big difference;
     mw__big_cross(&difference, &r->numerator, &s->numerator, &r->denominator, &s->denominator);
@@ -113,16 +113,16 @@ static int compare_features(mw_point q, const feature *f, const feature *g)
     if (!mw__all_finite(v, 10)) return 0;
     int base = mw__big_base(v, 10);
     ratio r, s;
-    exact(&r, q, f, base);
-    exact(&s, q, g, base);
-    return compare(&r, &s);
+    distance_exact(&r, q, f, base);
+    distance_exact(&s, q, g, base);
+    return ratio_compare(&r, &s);
 }
 
 int mw__compare_distance(mw_point q, mw_point a, mw_point b, mw_point c, mw_point d)
 {
     feature f = nearest_feature(q, a, b), g = nearest_feature(q, c, d);
     if (same_vertex(&f, &g)) return 0;
-    interval s = estimate(q, &f), t = estimate(q, &g);
+    interval s = distance_estimate(q, &f), t = distance_estimate(q, &g);
     if (s.high < t.low) return -1;
     if (s.low > t.high) return 1;
     return compare_features(q, &f, &g);
@@ -135,18 +135,18 @@ static int compare_with_length(mw_point q, const feature *f, double d)
     int base = mw__big_base(v, 7);
     ratio r, s;
     mw_big length;
-    exact(&r, q, f, base);
+    distance_exact(&r, q, f, base);
     mw__big_difference(&length, d, 0, base);
     mw__big_multiply(&s.numerator, &length, &length);
     mw__big_unit(&s.denominator);
-    return compare(&r, &s);
+    return ratio_compare(&r, &s);
 }
 
 int mw__compare_distance_to(mw_point q, mw_point a, mw_point b, double d)
 {
     if (isinf(d)) return -1;
     feature f = nearest_feature(q, a, b);
-    interval s = estimate(q, &f), t = widened(d * d, d * d);
+    interval s = distance_estimate(q, &f), t = interval_widened(d * d, d * d);
     if (s.high < t.low) return -1;
     if (s.low > t.high) return 1;
     return compare_with_length(q, &f, d);

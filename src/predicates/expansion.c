@@ -1,7 +1,7 @@
 #include "predicates/expansion.h"
 
 /* a + b = the returned double + *tail [Knuth]. */
-static MW_INLINE double two_sum(double a, double b, double *tail)
+static MW_INLINE double expansion_two_sum(double a, double b, double *tail)
 {
     double sum = a + b, b_part = sum - a, a_part = sum - b_part;
     *tail = (a - a_part) + (b - b_part);
@@ -17,7 +17,7 @@ static MW_INLINE double fast_two_sum(double a, double b, double *tail)
 }
 
 /* a = high + low, each of at most 26 bits, so that products of halves are exact [Dekker]. */
-static MW_INLINE void split(double a, double *high, double *low)
+static MW_INLINE void double_split(double a, double *high, double *low)
 {
     double c = 0x1.0000002p27 * a; /* 2^27 + 1 */
     *high = c - (c - a);
@@ -25,11 +25,11 @@ static MW_INLINE void split(double a, double *high, double *low)
 }
 
 /* a * b = the returned double + *tail [Dekker, Veltkamp]. */
-static MW_INLINE double two_product(double a, double b, double *tail)
+static MW_INLINE double expansion_two_product(double a, double b, double *tail)
 {
     double product = a * b, a_high, a_low, b_high, b_low;
-    split(a, &a_high, &a_low);
-    split(b, &b_high, &b_low);
+    double_split(a, &a_high, &a_low);
+    double_split(b, &b_high, &b_low);
     double rest = ((product - a_high * b_high) - a_low * b_high) - a_high * b_low;
     *tail = a_low * b_low - rest;
     return product;
@@ -37,7 +37,7 @@ static MW_INLINE double two_product(double a, double b, double *tail)
 
 mw_expansion mw__expansion_difference(mw_arena *arena, double a, double b)
 {
-    double *h = arena->next, tail, sum = two_sum(a, -b, &tail);
+    double *h = arena->next, tail, sum = expansion_two_sum(a, -b, &tail);
     int n = 0;
     if (tail != 0) h[n++] = tail;
     if (sum != 0) h[n++] = sum;
@@ -47,14 +47,14 @@ mw_expansion mw__expansion_difference(mw_arena *arena, double a, double b)
 
 /* h = e + sign * f, returns the number of parts. Merges the parts by magnitude and sums them up, smallest first
  * [Shewchuk's FAST-EXPANSION-SUM: keeps expansions "strongly nonoverlapping"]. */
-static int add(const double *e, int m, const double *f, int n, double sign, double *h)
+static int expansion_add(const double *e, int m, const double *f, int n, double sign, double *h)
 {
     int i = 0, j = 0, k = 0;
     double sum = 0, tail;
     while (i < m || j < n) {
         bool take_e = j == n || (i < m && fabs(e[i]) < fabs(f[j]));
         double part = take_e ? e[i++] : sign * f[j++];
-        sum = two_sum(sum, part, &tail);
+        sum = expansion_two_sum(sum, part, &tail);
         if (tail != 0) h[k++] = tail;
     }
     if (sum != 0) h[k++] = sum;
@@ -62,14 +62,14 @@ static int add(const double *e, int m, const double *f, int n, double sign, doub
 }
 
 /* h = b * e [SCALE-EXPANSION]; m > 0 and b is not 0. */
-static int scale(const double *e, int m, double b, double *h)
+static int expansion_scale(const double *e, int m, double b, double *h)
 {
     int k = 0;
-    double tail, sum = two_product(e[0], b, &tail);
+    double tail, sum = expansion_two_product(e[0], b, &tail);
     if (tail != 0) h[k++] = tail;
     for (int i = 1; i < m; i++) {
-        double low, high = two_product(e[i], b, &low);
-        sum = two_sum(sum, low, &tail);
+        double low, high = expansion_two_product(e[i], b, &low);
+        sum = expansion_two_sum(sum, low, &tail);
         if (tail != 0) h[k++] = tail;
         sum = fast_two_sum(high, sum, &tail);
         if (tail != 0) h[k++] = tail;
@@ -80,19 +80,19 @@ static int scale(const double *e, int m, double b, double *h)
 
 /* h = e * f, m and n > 0: by halves of f, so that every part takes part in log2(n) sums only. h and scratch have room
  * for 2 * m * n; each half is made in the other's array. */
-static int multiply(const double *e, int m, const double *f, int n, double *h, double *scratch)
+static int expansion_multiply(const double *e, int m, const double *f, int n, double *h, double *scratch)
 {
-    if (n == 1) return scale(e, m, f[0], h);
+    if (n == 1) return expansion_scale(e, m, f[0], h);
     int half = n / 2, cut = 2 * m * half;
-    int low = multiply(e, m, f, half, scratch, h);
-    int high = multiply(e, m, f + half, n - half, scratch + cut, h + cut);
-    return add(scratch, low, scratch + cut, high, 1, h);
+    int low = expansion_multiply(e, m, f, half, scratch, h);
+    int high = expansion_multiply(e, m, f + half, n - half, scratch + cut, h + cut);
+    return expansion_add(scratch, low, scratch + cut, high, 1, h);
 }
 
 mw_expansion mw__expansion_add(mw_arena *arena, mw_expansion e, mw_expansion f)
 {
     double *h = arena->next;
-    int n = add(e.part, e.n, f.part, f.n, 1, h);
+    int n = expansion_add(e.part, e.n, f.part, f.n, 1, h);
     arena->next += n;
     return (mw_expansion){h, n};
 }
@@ -100,7 +100,7 @@ mw_expansion mw__expansion_add(mw_arena *arena, mw_expansion e, mw_expansion f)
 mw_expansion mw__expansion_subtract(mw_arena *arena, mw_expansion e, mw_expansion f)
 {
     double *h = arena->next;
-    int n = add(e.part, e.n, f.part, f.n, -1, h);
+    int n = expansion_add(e.part, e.n, f.part, f.n, -1, h);
     arena->next += n;
     return (mw_expansion){h, n};
 }
@@ -110,7 +110,7 @@ mw_expansion mw__expansion_multiply(mw_arena *arena, mw_expansion e, mw_expansio
     double *h = arena->next;
     int n = 0;
     if (e.n < f.n) return mw__expansion_multiply(arena, f, e);
-    if (f.n > 0) n = multiply(e.part, e.n, f.part, f.n, h, h + 2 * e.n * f.n);
+    if (f.n > 0) n = expansion_multiply(e.part, e.n, f.part, f.n, h, h + 2 * e.n * f.n);
     arena->next += n;
     return (mw_expansion){h, n};
 }

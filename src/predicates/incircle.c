@@ -31,7 +31,7 @@ static bool to_integer(mw_expansion x, double scale, int64_t *n)
  * the origin: all differences are integers below 2^41 times one power of two. Then lifts and minors are below 2^83;
  * each lift is cut into high * 2^42 + low, and the sums of high * minor and of low * minor stay below 3 * 2^125. Two
  * (grid) to eight times as fast as expansions. False for other points. */
-static bool on_grid(const row p[3], double *det)
+static bool incircle_on_grid(const row p[3], double *det)
 {
     double largest = 0;
     int64_t x[3], y[3];
@@ -65,7 +65,7 @@ static mw_expansion expansion_term(mw_arena *arena, const row *p, const row *q, 
 }
 
 /* v: a, b, c, d, two coordinates each. */
-static double with_expansions(const double v[8])
+static double incircle_with_expansions(const double v[8])
 {
     double room[12 + 3 * TERM_ROOM + 5 * TERM_PARTS], det;
     mw_arena arena = {room};
@@ -75,13 +75,13 @@ static double with_expansions(const double v[8])
         p[i].x = mw__expansion_difference(&arena, v[2 * i], v[6]);
         p[i].y = mw__expansion_difference(&arena, v[2 * i + 1], v[7]);
     }
-    if (on_grid(p, &det)) return det;
+    if (incircle_on_grid(p, &det)) return det;
     for (int i = 0; i < 3; i++) term[i] = expansion_term(&arena, &p[i], &p[(i + 1) % 3], &p[(i + 2) % 3]);
     mw_expansion sum = mw__expansion_add(&arena, term[0], term[1]);
     return mw__expansion_estimate(mw__expansion_add(&arena, sum, term[2]));
 }
 
-static double with_integers(const double v[8])
+static double incircle_with_integers(const double v[8])
 {
     mw_big x[3], y[3], square, lift, minor, term, sum = {0};
     int base = mw__big_base(v, 8);
@@ -104,8 +104,8 @@ static double with_integers(const double v[8])
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d)
 {
     const double v[8] = {a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y};
-    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return with_expansions(v);
-    return mw__all_finite(v, 8) ? with_integers(v) : 0;
+    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return incircle_with_expansions(v);
+    return mw__all_finite(v, 8) ? incircle_with_integers(v) : 0;
 }
 
 double mw_incircle(const double a[2], const double b[2], const double c[2], const double d[2])

@@ -18,7 +18,7 @@ static mw_expansion expansion_square(mw_arena *arena, const double v[4])
     return mw__expansion_add(arena, mw__expansion_multiply(arena, x, x), mw__expansion_multiply(arena, y, y));
 }
 
-static double with_expansions(const double v[8])
+static double length_with_expansions(const double v[8])
 {
     double room[2 * LENGTH_ROOM + 32];
     mw_arena arena = {room};
@@ -37,7 +37,7 @@ static void big_square(mw_big *r, const double v[4], int base)
     mw__big_add(r, r, &square);
 }
 
-static int with_integers(const double v[8])
+static int length_with_integers(const double v[8])
 {
     mw_big ab, cd;
     int base = mw__big_base(v, 8);
@@ -51,8 +51,8 @@ int mw__compare_length_exact(mw_point a, mw_point b, mw_point c, mw_point d)
 {
     const double v[8] = {b.x, a.x, b.y, a.y, d.x, c.x, d.y, c.y};
     if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) {
-        double difference = with_expansions(v);
+        double difference = length_with_expansions(v);
         return (difference > 0) - (difference < 0);
     }
-    return mw__all_finite(v, 8) ? with_integers(v) : 0;
+    return mw__all_finite(v, 8) ? length_with_integers(v) : 0;
 }

@@ -126,7 +126,7 @@ static double rounded_m(const mw_line *line, const mw_corners s, double *bound)
     return mw__side_rounded(&through, s[1], s[2], bound);
 }
 
-static estimate estimated(const mw_line *line, const mw_corners s)
+static estimate line_estimated(const mw_line *line, const mw_corners s)
 {
     double n_bound, m_bound, n = rounded_n(line, s, &n_bound), m = rounded_m(line, s, &m_bound);
     return (estimate){range_of(n, n_bound), range_of(m, m_bound)};
@@ -190,7 +190,7 @@ static int compare_hits_exact(const mw_line *line, const mw_corners s, const mw_
 
 int mw__compare_hits(const mw_line *line, const mw_corners s, const mw_corners t)
 {
-    estimate p = estimated(line, s), r = estimated(line, t);
+    estimate p = line_estimated(line, s), r = line_estimated(line, t);
     if (surely_less(p.n.high, r.m.high, r.n.low, p.m.low)) return -1;
     if (surely_less(r.n.high, p.m.high, p.n.low, r.m.low)) return 1;
     return compare_hits_exact(line, s, t);
@@ -237,7 +237,7 @@ static range length_of(const double m[3])
 int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d)
 {
     if (isinf(d)) return -1;
-    estimate p = estimated(line, s);
+    estimate p = line_estimated(line, s);
     range length = length_of(line->m);
     if (surely_less(p.n.high, length.high, d, p.m.low)) return -1;
     if (surely_less(d, p.m.high, p.n.low, length.low)) return 1;
@@ -251,7 +251,7 @@ int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d)
 #define FINE 0x1p-45
 
 /* x * 2^exponent, not 0 unless x is, and then without a sign. */
-static double scaled(double x, int exponent)
+static double line_scaled(double x, int exponent)
 {
     if (x == 0) return 0;
     double value = ldexp(x, exponent);
@@ -295,7 +295,7 @@ static double distance_by_fractions(const mw_line *line, const mw_corners s, dou
         exact_quotient(line, s, fraction, exponent);
     }
     double length = length_fraction(line->m, &exponent[2]);
-    return scaled(fraction[0] * length / fraction[1], exponent[0] - exponent[1] + exponent[2]);
+    return line_scaled(fraction[0] * length / fraction[1], exponent[0] - exponent[1] + exponent[2]);
 }
 
 /* Powers of two change no digit: ordinary numbers need none. */
@@ -320,7 +320,7 @@ static void exact_sides(const mw_line *line, const mw_corners s, double side[3])
         exponent[k] += base;
         if (side[k] != 0 && exponent[k] > largest) largest = exponent[k];
     }
-    for (int k = 0; k < 3; k++) side[k] = scaled(side[k], exponent[k] - largest);
+    for (int k = 0; k < 3; k++) side[k] = line_scaled(side[k], exponent[k] - largest);
 }
 
 /* A side whose sign is sure is good enough for weights where its bound is no more than this part of their sum. */

@@ -9,7 +9,7 @@
 #define HIGH 0x1p509
 
 /* (v0 - v1)(v2 - v3) - (v4 - v5)(v6 - v7) */
-static double with_expansions(const double v[8])
+static double orient2d_with_expansions(const double v[8])
 {
     double room[8 + MW_CROSS_ROOM];
     mw_arena arena = {room};
@@ -20,7 +20,7 @@ static double with_expansions(const double v[8])
 }
 
 /* The same over 2^(2 base), returned. */
-static int with_integers(const double v[8], mw_big *result)
+static int orient2d_with_integers(const double v[8], mw_big *result)
 {
     mw_big difference[4];
     int base = mw__big_base(v, 8);
@@ -29,24 +29,24 @@ static int with_integers(const double v[8], mw_big *result)
     return base;
 }
 
-static double exact(const double v[8])
+static double orient2d_exact(const double v[8])
 {
-    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return with_expansions(v);
+    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return orient2d_with_expansions(v);
     if (!mw__all_finite(v, 8)) return 0;
     mw_big result;
-    int base = with_integers(v, &result);
+    int base = orient2d_with_integers(v, &result);
     return mw__big_double(&result, 2 * base);
 }
 
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c)
 {
-    return exact((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x});
+    return orient2d_exact((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x});
 }
 
 double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent)
 {
     mw_big result;
-    int base = with_integers((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x}, &result);
+    int base = orient2d_with_integers((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x}, &result);
     double fraction = mw__big_fraction(&result, exponent);
     *exponent += 2 * base;
     return fraction;
@@ -54,7 +54,7 @@ double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent)
 
 double mw__dot2d_exact(mw_point a, mw_point b, mw_point c)
 {
-    return exact((const double[8]){b.x, a.x, c.x, a.x, a.y, b.y, c.y, a.y});
+    return orient2d_exact((const double[8]){b.x, a.x, c.x, a.x, a.y, b.y, c.y, a.y});
 }
 
 double mw_orient2d(const double a[2], const double b[2], const double c[2])

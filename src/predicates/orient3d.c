@@ -12,7 +12,7 @@
 #define TERM_ROOM (MW_CROSS_ROOM + 2 * TERM_PARTS)
 
 /* v: a, b, c, d, three coordinates each. */
-static double with_expansions(const double v[12])
+static double orient3d_with_expansions(const double v[12])
 {
     double room[18 + 3 * TERM_ROOM + 5 * TERM_PARTS];
     mw_arena arena = {room};
@@ -29,7 +29,7 @@ static double with_expansions(const double v[12])
     return mw__expansion_estimate(mw__expansion_add(&arena, sum, term[2]));
 }
 
-static double with_integers(const double v[12])
+static double orient3d_with_integers(const double v[12])
 {
     mw_big row[3][3], minor, term, sum = {0};
     int base = mw__big_base(v, 12);
@@ -48,8 +48,8 @@ static double with_integers(const double v[12])
 double mw__orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3])
 {
     const double v[12] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]};
-    if (MW_LIKELY(mw__within(v, 12, LOW, HIGH))) return with_expansions(v);
-    return mw__all_finite(v, 12) ? with_integers(v) : 0;
+    if (MW_LIKELY(mw__within(v, 12, LOW, HIGH))) return orient3d_with_expansions(v);
+    return mw__all_finite(v, 12) ? orient3d_with_integers(v) : 0;
 }
 
 double mw_orient3d(const double a[3], const double b[3], const double c[3], const double d[3])

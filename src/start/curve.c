@@ -20,12 +20,12 @@ static uint32_t key_of(const mw_curve *curve, const mw_tiling *tiling, uint32_t 
     return mw__hilbert_key(&curve->hilbert, p.x, p.y);
 }
 
-static bool follows(const mw_curve *curve, uint32_t tile, uint32_t before)
+static bool curve_follows(const mw_curve *curve, uint32_t tile, uint32_t before)
 {
     return (tile > before ? tile - before : before - tile) <= curve->near;
 }
 
-static uint32_t buckets(const mw_curve *curve)
+static uint32_t curve_buckets(const mw_curve *curve)
 {
     return UINT32_C(1) << (32 - curve->shift);
 }
@@ -39,13 +39,13 @@ static void take_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t strid
     mw__sort_keys(sample, scratch, n);
     sample[-1] = (mw_key){0, sample[0].item};
     sample[n] = (mw_key){UINT32_MAX, sample[n - 1].item};
-    for (uint32_t i = 1; i < n; i++) follow += follows(curve, sample[i].item, sample[i - 1].item);
+    for (uint32_t i = 1; i < n; i++) follow += curve_follows(curve, sample[i].item, sample[i - 1].item);
     curve->regular = follow >= n - n / 8 - 1;
 }
 
 static void fill_buckets(mw_curve *curve)
 {
-    for (uint32_t b = 0, i = 0; b <= buckets(curve); b++) {
+    for (uint32_t b = 0, i = 0; b <= curve_buckets(curve); b++) {
         while (i < curve->count - 1 && curve->sample[i].key < (uint64_t)b << curve->shift) i++;
         curve->from[b] = i > 0 ? i : 1;
     }
@@ -59,7 +59,7 @@ bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low
     while (UINT32_C(1) << bits < n) bits++;
     *curve = (mw_curve){.hilbert = mw__hilbert(low, high), .count = n + 2, .shift = 32 - bits, .near = 4 * stride};
     curve->sample = mw__alloc_lines(curve->count, sizeof *curve->sample);
-    curve->from = mw__alloc_lines((size_t)buckets(curve) + 1, sizeof *curve->from);
+    curve->from = mw__alloc_lines((size_t)curve_buckets(curve) + 1, sizeof *curve->from);
     mw_key *scratch = mw__alloc_lines(n, sizeof *scratch);
     bool done = curve->sample && curve->from && scratch;
     if (done) {
@@ -80,5 +80,5 @@ void mw__curve_release(mw_curve *curve)
 size_t mw__curve_bytes(const mw_curve *curve)
 {
     size_t grid = curve->sparse.tile ? mw__grid_bytes(&curve->sparse) : 0;
-    return grid + curve->count * sizeof *curve->sample + ((size_t)buckets(curve) + 1) * sizeof *curve->from;
+    return grid + curve->count * sizeof *curve->sample + ((size_t)curve_buckets(curve) + 1) * sizeof *curve->from;
 }

@@ -38,7 +38,7 @@ enum {
 };
 
 /* Of every few tiles, put the one nearest to the middle of a cell into it, and count them: share i, with sites of its own. */
-static void look(const mw_grid *grid, const mw_grid_plan *plan, int i, int shares)
+static void shares_look(const mw_grid *grid, const mw_grid_plan *plan, int i, int shares)
 {
     uint32_t cells = mw__lattice_cells(&grid->lattice);
     uint64_t looks = ((uint64_t)plan->tiling->tri_count + plan->stride - 1) / plan->stride;
@@ -57,7 +57,7 @@ static void look(const mw_grid *grid, const mw_grid_plan *plan, int i, int share
 }
 
 /* Of a cell: what all shares have seen, in the order of the tiles. */
-static void join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, int shares)
+static void cell_join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, int shares)
 {
     mw_grid_site *site = &plan->site[cell];
     for (int i = 1; i < shares; i++) {
@@ -79,32 +79,32 @@ static void look_together(mw_grid *grid, const mw_grid_plan *plan, int shares)
 #ifdef _OPENMP
 #pragma omp for schedule(static)
 #endif
-        for (int i = 0; i < shares; i++) look(grid, plan, i, shares);
+        for (int i = 0; i < shares; i++) shares_look(grid, plan, i, shares);
 #ifdef _OPENMP
 #pragma omp for schedule(static)
 #endif
-        for (uint32_t c = 0; c < mw__lattice_cells(&grid->lattice); c++) join(grid, plan, c, shares);
+        for (uint32_t c = 0; c < mw__lattice_cells(&grid->lattice); c++) cell_join(grid, plan, c, shares);
     }
 }
 
-static bool has(const mw_grid_plan *plan, uint32_t cell, uint32_t tiles)
+static bool cell_has(const mw_grid_plan *plan, uint32_t cell, uint32_t tiles)
 {
     return plan->site[cell].count >= tiles / plan->stride;
 }
 
-static bool is_gap(const mw_grid_plan *plan, uint32_t cell)
+static bool cell_is_gap(const mw_grid_plan *plan, uint32_t cell)
 {
     return !(plan->site[cell].off < INFINITY);
 }
 
-static void judge(mw_grid_plan *plan, uint32_t cells)
+static void plan_choose(mw_grid_plan *plan, uint32_t cells)
 {
     uint32_t taken = 0, seen = 0, crowd = 0;
     for (uint32_t c = 0; c < cells; c++) {
         uint32_t count = plan->site[c].count;
-        taken += !is_gap(plan, c);
+        taken += !cell_is_gap(plan, c);
         seen += count;
-        crowd += has(plan, c, CROWD) ? count : 0;
+        crowd += cell_has(plan, c, CROWD) ? count : 0;
     }
     plan->taken = taken;
     plan->crowded = crowd > seen / SHARE;
@@ -131,18 +131,18 @@ bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], cons
     if (cells == 0) cells = mw__lattice_choose(plan->tiling);
     grid->lattice = mw__lattice_of(plan->tiling, low, high, cells);
     if (!look_at_cells(grid, plan)) return false;
-    judge(plan, mw__lattice_cells(&grid->lattice));
+    plan_choose(plan, mw__lattice_cells(&grid->lattice));
     return true;
 }
 
 /* A cell beside this one that has a tile in it, or this one. */
-static uint32_t settled(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y)
+static uint32_t cell_settled(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y)
 {
     uint32_t columns = grid->lattice.columns, cell = y * columns + x;
-    if (x > 0 && !is_gap(plan, cell - 1)) return cell - 1;
-    if (x + 1 < columns && !is_gap(plan, cell + 1)) return cell + 1;
-    if (y > 0 && !is_gap(plan, cell - columns)) return cell - columns;
-    if (y + 1 < grid->lattice.rows && !is_gap(plan, cell + columns)) return cell + columns;
+    if (x > 0 && !cell_is_gap(plan, cell - 1)) return cell - 1;
+    if (x + 1 < columns && !cell_is_gap(plan, cell + 1)) return cell + 1;
+    if (y > 0 && !cell_is_gap(plan, cell - columns)) return cell - columns;
+    if (y + 1 < grid->lattice.rows && !cell_is_gap(plan, cell + columns)) return cell + columns;
     return cell;
 }
 
@@ -175,7 +175,7 @@ static void fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32
     }
     mw_walk walk = mw__walk_begin(plan->tiling, middle, t, fuel, 0, NULL);
     bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_LEFT;
-    if (left && !is_outermost(&grid->lattice, x, y)) beside = settled(grid, plan, x, y);
+    if (left && !is_outermost(&grid->lattice, x, y)) beside = cell_settled(grid, plan, x, y);
     grid->tile[cell] = beside != cell ? grid->tile[beside] : walk.t;
 }
 
@@ -187,11 +187,12 @@ enum {
 
 /* A tile of the cell to the left or below, rather of one that was a gap too, where tiles are large. Gaps below the band from line
  * `first` on are not known, so that it does not matter which band is filled first. MW_NONE: there is no such cell. */
-static uint32_t tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t first)
+static uint32_t cell_tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t first)
 {
     uint32_t columns = grid->lattice.columns, cell = y * columns + x;
-    bool left = x > 1, below = y > first || (y > 1 && !is_gap(plan, cell - columns));
-    if (left && (is_gap(plan, cell - 1) || !below || !is_gap(plan, cell - columns))) return grid->tile[cell - 1];
+    bool left = x > 1, below = y > first || (y > 1 && !cell_is_gap(plan, cell - columns));
+    if (left && (cell_is_gap(plan, cell - 1) || !below || !cell_is_gap(plan, cell - columns)))
+        return grid->tile[cell - 1];
     return below ? grid->tile[cell - columns] : MW_NONE;
 }
 
@@ -199,9 +200,9 @@ static uint32_t tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint3
 static uint32_t tile_after(const mw_grid *grid, const mw_grid_plan *plan, uint32_t cell)
 {
     uint32_t cells = mw__lattice_cells(&grid->lattice), c = cell;
-    while (c < cells && is_gap(plan, c)) c++;
-    for (c = c < cells ? c : 0; c < cell && is_gap(plan, c);) c++;
-    return is_gap(plan, c) ? 0 : grid->tile[c];
+    while (c < cells && cell_is_gap(plan, c)) c++;
+    for (c = c < cells ? c : 0; c < cell && cell_is_gap(plan, c);) c++;
+    return cell_is_gap(plan, c) ? 0 : grid->tile[c];
 }
 
 /* The cells within the outermost ones. */
@@ -210,14 +211,14 @@ static void fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
     uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows;
     for (uint32_t y = first; y < first + BAND && y + 1 < rows; y++)
         for (uint32_t x = 1; x + 1 < columns; x++) {
-            if (!is_gap(plan, y * columns + x)) continue;
-            uint32_t t = tile_beside(grid, plan, x, y, first);
+            if (!cell_is_gap(plan, y * columns + x)) continue;
+            uint32_t t = cell_tile_beside(grid, plan, x, y, first);
             bool near = t != MW_NONE;
             fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x), near ? FUEL : FAR);
         }
 }
 
-static uint32_t inwards(uint32_t line, uint32_t lines)
+static uint32_t line_inwards(uint32_t line, uint32_t lines)
 {
     if (line == 0) return lines > 2 ? 1 : 0;
     return line + 1 == lines && line > 1 ? line - 1 : line;
@@ -236,8 +237,8 @@ static void fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
     for (uint32_t b = 0; b < bands; b++) fill_band(grid, plan, 1 + b * BAND);
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < columns; x++) {
-            if (!is_outermost(&grid->lattice, x, y) || !is_gap(plan, y * columns + x)) continue;
-            uint32_t t = grid->tile[inwards(y, rows) * columns + inwards(x, columns)];
+            if (!is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x)) continue;
+            uint32_t t = grid->tile[line_inwards(y, rows) * columns + line_inwards(x, columns)];
             fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
         }
 }
@@ -246,7 +247,7 @@ void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
 {
     fill_gaps(grid, plan);
     for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells; c++)
-        grid->tile[c] = sparse && has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);
+        grid->tile[c] = sparse && cell_has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);
     free(plan->site);
 }
 
@@ -262,7 +263,7 @@ void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
     for (uint32_t y = 0, cell = 0; y < fine.lattice.rows; y++) {
         const uint32_t *coarse = grid->tile + (size_t)(y / 2) * grid->lattice.columns;
         for (uint32_t x = 0; x < fine.lattice.columns; x++, cell++)
-            fine.tile[cell] = is_gap(&plan, cell) ? coarse[x / 2] : mw__tile_name(tiling, fine.tile[cell]);
+            fine.tile[cell] = cell_is_gap(&plan, cell) ? coarse[x / 2] : mw__tile_name(tiling, fine.tile[cell]);
     }
     free(plan.site);
     mw__grid_release(grid);

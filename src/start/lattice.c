@@ -70,7 +70,7 @@ static double find_shape(const mw_tiling *tiling, double direction[2])
     return least > 0 ? sqrt((sum / 2 + root) / least) : INFINITY;
 }
 
-static mw_lattice shape(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
+static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
 {
     static const double common = 4, most = 0x1p20; /* tiles that are less long than the first are common */
     mw_lattice lattice = mw__lattice(low, high, cells);
@@ -98,7 +98,7 @@ static mw_lattice shape(const mw_tiling *tiling, const double low[2], const doub
 mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
 {
     enum { FEW = 8 };
-    mw_lattice lattice = shape(tiling, low, high, cells);
+    mw_lattice lattice = lattice_shape(tiling, low, high, cells);
     for (int k = 0; k < 2; k++) {
         uint32_t *lines = k == 0 ? &lattice.columns : &lattice.rows;
         if (*lines < FEW) continue;

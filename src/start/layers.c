@@ -33,8 +33,8 @@ static uint32_t size_above(uint32_t vertices, double ratio)
 
 /* Fill point and below of *layer with `size` of the `vertices` vertices that have a tile, every set of them with the same
  * chance [Fan, Muller, Rezucha 1962]. Returns false when out of memory. */
-static bool choose(const mw_tiling *tiling, const uint32_t *at, uint32_t vertices, uint32_t size, uint64_t random,
-                   mw_layer *layer)
+static bool layer_choose(const mw_tiling *tiling, const uint32_t *at, uint32_t vertices, uint32_t size, uint64_t random,
+                         mw_layer *layer)
 {
     layer->tiling.point = mw__alloc_lines(size, sizeof *layer->tiling.point);
     layer->below = mw__alloc(size, sizeof *layer->below);
@@ -82,7 +82,7 @@ static mw_status order_vertices(mw_layer *layer, mw_error *error)
 }
 
 /* Triangulate the points of a layer. MW_ERROR_INPUT where they lie on one line. */
-static mw_status triangulate(mw_layer *layer, mw_error *error)
+static mw_status layer_triangulate(mw_layer *layer, mw_error *error)
 {
     mw_tiling *tiling = &layer->tiling;
     mw_status status =
@@ -106,14 +106,14 @@ static uint32_t vertex_count(const mw_layers *layers, uint32_t i)
 }
 
 /* Put a layer of `size` vertices above the highest, `tiling`, of which `at` has the tiles. */
-static mw_status add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at, uint32_t size, uint64_t seed,
-                     mw_error *error)
+static mw_status layers_add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at, uint32_t size,
+                            uint64_t seed, mw_error *error)
 {
     mw_layer *layer = &layers->layer[layers->count - 1];
     uint32_t vertices = vertex_count(layers, layers->count - 1);
     layer->tiling.embedding = true;
-    bool chosen = choose(tiling, at, vertices, size, mw__random_seed(seed, layers->count), layer);
-    mw_status status = chosen ? triangulate(layer, error) : mw__fail_memory(error);
+    bool chosen = layer_choose(tiling, at, vertices, size, mw__random_seed(seed, layers->count), layer);
+    mw_status status = chosen ? layer_triangulate(layer, error) : mw__fail_memory(error);
     if (status)
         release_layer(layer);
     else
@@ -138,7 +138,7 @@ static uint32_t count_used(const uint32_t *at, uint32_t n)
     return used;
 }
 
-static mw_status check(const mw_layers_options *options, mw_error *error)
+static mw_status layers_check(const mw_layers_options *options, mw_error *error)
 {
     if (options->layers > MW_MAX_LAYERS)
         return mw__fail(error, MW_ERROR_ARGUMENT, "%u layers, at most %d are possible", options->layers, MW_MAX_LAYERS);
@@ -152,7 +152,7 @@ static mw_status check(const mw_layers_options *options, mw_error *error)
 mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_layers *out, mw_error *error)
 {
     *out = (mw_layers){.count = 1, .tiles = tiling->tri_count, .descent = options->descent};
-    mw_status status = check(options, error);
+    mw_status status = layers_check(options, error);
     if (status) return status;
     double ratio = options->ratio > 0 ? options->ratio : MW_LAYER_RATIO;
     uint32_t *at = mw__tile_of_vertices(tiling), size = at ? count_used(at, tiling->point_count) : 0;
@@ -160,7 +160,7 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
     out->vertices = size;
     mw_error reason;
     while (at && !status && out->count < wanted && size_above(size, ratio) < size) {
-        status = add(out, tiling, at, size_above(size, ratio), options->seed, &reason);
+        status = layers_add(out, tiling, at, size_above(size, ratio), options->seed, &reason);
         if (status) break;
         tiling = &out->layer[out->count - 2].tiling;
         size = tiling->point_count;
@@ -209,7 +209,7 @@ static bool has_coordinates(mw_walk_kind walk)
 }
 
 /* The tile of q in a layer, from the tile where *walk begins; in *walk. */
-static void find(const mw_tiling *tiling, const mw_layer_walk *how, mw_walk *walk)
+static void layer_find(const mw_tiling *tiling, const mw_layer_walk *how, mw_walk *walk)
 {
     const mw_kernels *kernels = mw__walk_kernels(how->walk, tiling);
     mw_verdict verdict = kernels->run[how->exact][how->count](walk);
@@ -218,7 +218,7 @@ static void find(const mw_tiling *tiling, const mw_layer_walk *how, mw_walk *wal
     mw__walk_finish(walk, how->finish, fuel, tiling, how->exact, how->count);
 }
 
-static uint32_t nearest(const mw_walk *walk)
+static uint32_t layer_nearest(const mw_walk *walk)
 {
     const uint32_t *v = walk->tri[walk->t].v;
     uint32_t best = v[0];
@@ -261,9 +261,9 @@ uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_
         const mw_tiling *beneath = i > 0 ? &layers->layer[i - 1].tiling : how->mesh;
         uint32_t fuel = mw__walk_fuel(how->walk, arithmetic, &layer->tiling);
         mw_walk walk = mw__walk_begin(&layer->tiling, q, t, fuel, mw__random(random), how->count ? work : NULL);
-        find(&layer->tiling, how, &walk);
+        layer_find(&layer->tiling, how, &walk);
         if (tile) tile[i] = walk.t;
-        t = name_below(layers, beneath, layer->below[by_weight ? most_weight(&walk, how) : nearest(&walk)]);
+        t = name_below(layers, beneath, layer->below[by_weight ? most_weight(&walk, how) : layer_nearest(&walk)]);
         if (i > 0) t = mw__tile_named(beneath, t);
     }
     return t;

@@ -66,7 +66,7 @@ static bool find_extents(const mw_two_level_grid *grid, yard *y)
 }
 
 /* Lay out a fine grid for each crowded cell. */
-static bool lay_out(mw_two_level_grid *grid, const yard *y)
+static bool two_level_lay_out(mw_two_level_grid *grid, const yard *y)
 {
     grid->grid = mw__alloc(grid->grid_count, sizeof *grid->grid);
     if (!grid->grid) return false;
@@ -82,7 +82,7 @@ static bool lay_out(mw_two_level_grid *grid, const yard *y)
 }
 
 /* Give every cell its tile. */
-static bool fill(mw_two_level_grid *grid, yard *y)
+static bool two_level_fill(mw_two_level_grid *grid, yard *y)
 {
     uint32_t cells = mw__lattice_cells(&grid->lattice);
     y->queue = mw__alloc(cells > grid->fine_count ? cells : grid->fine_count, sizeof *y->queue);
@@ -109,7 +109,8 @@ bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
     yard y = {.tiling = tiling};
     *grid =
         (mw_two_level_grid){.lattice = mw__lattice_of(tiling, low, high, cells ? cells : mw__lattice_choose(tiling))};
-    bool done = find_crowded(grid, &y) && find_extents(grid, &y) && lay_out(grid, &y) && fill(grid, &y);
+    bool done =
+        find_crowded(grid, &y) && find_extents(grid, &y) && two_level_lay_out(grid, &y) && two_level_fill(grid, &y);
     free(y.tile);
     free(y.vertices);
     free(y.extent);

@@ -87,22 +87,12 @@ static uint32_t *piece_of(const mw_constrained *c, uint32_t half)
     return &c->piece[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
 }
 
-static uint32_t *link_of(const mw_constrained *c, uint32_t half)
+static uint32_t *link_field(const mw_constrained *c, uint32_t half)
 {
     return &c->tri[mw__link_triangle(half)].link[mw__link_edge(half)];
 }
 
-static uint32_t start_of(const mw_constrained *c, uint32_t half)
-{
-    return c->tri[mw__link_triangle(half)].v[mw__link_edge(half)];
-}
-
-static uint32_t end_of(const mw_constrained *c, uint32_t half)
-{
-    return c->tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1];
-}
-
-static double side(const mw_constrained *c, uint32_t a, uint32_t b, uint32_t p)
+static double vertex_side(const mw_constrained *c, uint32_t a, uint32_t b, uint32_t p)
 {
     return mw__orient2d(c->point[a], c->point[b], c->point[p]);
 }
@@ -118,38 +108,38 @@ typedef struct rotor {
 } rotor;
 
 /* On which side of v->p the target lies. Where p is the target no test is made: it would be decided exactly, slowly. */
-static double side_of(const mw_constrained *c, uint32_t v, uint32_t p, uint32_t target)
+static double target_side(const mw_constrained *c, uint32_t v, uint32_t p, uint32_t target)
 {
-    return p == target ? 0 : side(c, v, p, target);
+    return p == target ? 0 : vertex_side(c, v, p, target);
 }
 
-static rotor rotor_at(const mw_constrained *c, uint32_t vertex, uint32_t target)
+static rotor segment_rotor(const mw_constrained *c, uint32_t vertex, uint32_t target)
 {
     uint32_t t = c->at[vertex], k = 0;
     while (c->tri[t].v[k] != vertex) k++;
     rotor r = {.half = mw__link(t, k), .first = mw__link(t, k)};
-    r.right = r.first_right = side_of(c, vertex, c->tri[t].v[k + 1], target);
-    r.left = side_of(c, vertex, c->tri[t].v[mw__prev(k)], target);
+    r.right = r.first_right = target_side(c, vertex, c->tri[t].v[k + 1], target);
+    r.left = target_side(c, vertex, c->tri[t].v[mw__prev(k)], target);
     return r;
 }
 
-static void turn(const mw_constrained *c, rotor *r, uint32_t vertex, uint32_t target)
+static void segment_rotor_turn(const mw_constrained *c, rotor *r, uint32_t vertex, uint32_t target)
 {
     if (!r->clockwise) {
-        uint32_t half = *link_of(c, mw__half_prev(r->half));
+        uint32_t half = *link_field(c, mw__half_prev(r->half));
         if (half != MW_NONE) {
             r->half = half;
             r->right = r->left;
-            r->left = side_of(c, vertex, start_of(c, mw__half_prev(half)), target);
+            r->left = target_side(c, vertex, mw__half_start(c->tri, mw__half_prev(half)), target);
             return;
         }
         r->clockwise = true;
         r->half = r->first;
         r->right = r->first_right;
     }
-    r->half = mw__half_next(*link_of(c, r->half));
+    r->half = mw__half_next(*link_field(c, r->half));
     r->left = r->right;
-    r->right = side_of(c, vertex, end_of(c, r->half), target);
+    r->right = target_side(c, vertex, mw__half_end(c->tri, r->half), target);
 }
 
 /* Does the segment to the target leave through the triangle of the rotor? Then *half is the edge that it runs along, as
@@ -163,7 +153,7 @@ static bool leaves_here(const rotor *r, uint32_t *half, bool *along)
 
 /* --- the channel --- */
 
-static bool reserve(mw_constrained *c, size_t count)
+static bool channel_reserve(mw_constrained *c, size_t count)
 {
     if (count <= c->rim_capacity) return true;
     size_t capacity = count + count / 2 + 64;
@@ -188,10 +178,10 @@ typedef struct channel {
 
 static void add_rim(const mw_constrained *c, mw_rim *rim, size_t *count, uint32_t half)
 {
-    rim[(*count)++] = (mw_rim){.from = start_of(c, half),
-                               .to = end_of(c, half),
+    rim[(*count)++] = (mw_rim){.from = mw__half_start(c->tri, half),
+                               .to = mw__half_end(c->tri, half),
                                .half = half,
-                               .outer = *link_of(c, half),
+                               .outer = *link_field(c, half),
                                .piece = *piece_of(c, half),
                                .slot = mw__link_triangle(half)};
 }
@@ -201,7 +191,7 @@ static mw_constrain_result open_channel(mw_constrained *c, uint32_t a, uint32_t 
                                         uint32_t *crossed)
 {
     *ch = (channel){.a = a};
-    if (!reserve(c, 2)) return MW_CONSTRAIN_MEMORY;
+    if (!channel_reserve(c, 2)) return MW_CONSTRAIN_MEMORY;
     add_rim(c, c->right, &ch->right_count, mw__half_prev(half));
     add_rim(c, c->left, &ch->left_count, mw__half_next(half));
     c->channel[ch->triangle_count++] = mw__link_triangle(half);
@@ -209,11 +199,11 @@ static mw_constrain_result open_channel(mw_constrained *c, uint32_t a, uint32_t 
         *crossed = *piece_of(c, half);
         if (*crossed != MW_NONE) return MW_CONSTRAIN_CROSSES;
         if (ch->triangle_count >= c->reach) return MW_CONSTRAIN_FAR;
-        if (!reserve(c, ch->triangle_count + 2)) return MW_CONSTRAIN_MEMORY;
-        half = *link_of(c, half); /* its end is on the right now, its start on the left */
+        if (!channel_reserve(c, ch->triangle_count + 2)) return MW_CONSTRAIN_MEMORY;
+        half = *link_field(c, half); /* its end is on the right now, its start on the left */
         c->channel[ch->triangle_count++] = mw__link_triangle(half);
-        uint32_t w = start_of(c, mw__half_prev(half));
-        double s = w == b ? 0 : side(c, a, b, w);
+        uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
+        double s = w == b ? 0 : vertex_side(c, a, b, w);
         if (s <= 0) add_rim(c, c->right, &ch->right_count, mw__half_next(half));
         if (s >= 0) add_rim(c, c->left, &ch->left_count, mw__half_prev(half));
         if (s == 0) {
@@ -225,7 +215,7 @@ static mw_constrain_result open_channel(mw_constrained *c, uint32_t a, uint32_t 
 }
 
 /* Steps of the rim whose outer half-edge lies in the channel too: find it. Overwrites the vertices of the triangles. */
-static void find_mates(mw_constrained *c, const channel *ch)
+static void channel_find_mates(mw_constrained *c, const channel *ch)
 {
     mw_rim *rims[2] = {c->right, c->left};
     size_t counts[2] = {ch->right_count, ch->left_count};
@@ -237,7 +227,7 @@ static void find_mates(mw_constrained *c, const channel *ch)
         for (size_t i = 0; i < counts[r]; i++) {
             uint32_t outer = rims[r][i].outer;
             if (outer == MW_NONE || c->tri[mw__link_triangle(outer)].user != IN_CHANNEL) continue;
-            rims[r][i].mate = &rims[r][start_of(c, outer)]; /* no edge lies on both sides of the segment */
+            rims[r][i].mate = &rims[r][mw__half_start(c->tri, outer)]; /* no edge lies on both sides of the segment */
             rims[r][i].half = MW_NONE;
         }
     for (size_t i = 0; i < ch->triangle_count; i++) c->tri[c->channel[i]].user = 0;
@@ -246,7 +236,7 @@ static void find_mates(mw_constrained *c, const channel *ch)
 /* --- filling the channel --- */
 
 /* Link half-edge `half` of a new triangle to what lies beyond step s of the rim. */
-static void join(mw_constrained *c, uint32_t half, const mw_rim *s)
+static void step_join(mw_constrained *c, uint32_t half, const mw_rim *s)
 {
     *piece_of(c, half) = s->piece;
     uint32_t outer = s->outer;
@@ -254,8 +244,8 @@ static void join(mw_constrained *c, uint32_t half, const mw_rim *s)
         s->origin->half = half;
         outer = s->mate->half; /* MW_NONE where the mate is not placed yet: it will link both */
     }
-    *link_of(c, half) = outer;
-    if (outer != MW_NONE) *link_of(c, outer) = half;
+    *link_field(c, half) = outer;
+    if (outer != MW_NONE) *link_field(c, outer) = half;
 }
 
 /* Make triangle t the ear of steps s0 and s1 of the rim; its base becomes a step instead of them. */
@@ -266,8 +256,8 @@ static mw_rim cut_ear(mw_constrained *c, uint32_t t, const mw_rim *s0, const mw_
     tri->v[1] = s0->to;
     tri->v[2] = s1->to;
     for (int k = 0; k < 3; k++) c->at[tri->v[k]] = t;
-    join(c, mw__link(t, 0), s0);
-    join(c, mw__link(t, 1), s1);
+    step_join(c, mw__link(t, 0), s0);
+    step_join(c, mw__link(t, 1), s1);
     *piece_of(c, mw__link(t, 2)) = MW_NONE;
     return (mw_rim){.from = s0->from, .to = s1->to, .outer = mw__link(t, 2), .piece = MW_NONE, .slot = s1->slot};
 }
@@ -332,13 +322,13 @@ static void note_ear(mw_constrained *c, uint32_t i)
     drop_ear(c, i);
     if (step->after == MW_NONE) return;
     uint32_t to = c->ring[step->after].to;
-    if (side(c, step->from, step->to, to) <= 0) return;
+    if (vertex_side(c, step->from, step->to, to) <= 0) return;
     double dx = c->point[to].x - c->point[step->from].x, dy = c->point[to].y - c->point[step->from].y;
     add_ear(c, i, dx * dx + dy * dy);
 }
 
 /* Lay out a rim of n steps, taken in order or backwards, for cutting. */
-static void lay_out(mw_constrained *c, mw_rim *rim, uint32_t n, bool backwards)
+static void ring_lay_out(mw_constrained *c, mw_rim *rim, uint32_t n, bool backwards)
 {
     for (uint32_t i = 0; i < n; i++) {
         mw_rim *step = &rim[backwards ? n - 1 - i : i];
@@ -358,9 +348,9 @@ static void lay_out(mw_constrained *c, mw_rim *rim, uint32_t n, bool backwards)
  * in memory. That number is then free, and none is taken twice: only the triangles at either end of the channel were at
  * two steps, and the last step's number is never taken; that is the triangle at w on the right rim, the one at a on the
  * left rim, which runs the other way. */
-static uint32_t fill(mw_constrained *c, mw_rim *rim, size_t n, bool backwards, size_t *next)
+static uint32_t side_fill(mw_constrained *c, mw_rim *rim, size_t n, bool backwards, size_t *next)
 {
-    lay_out(c, rim, (uint32_t)n, backwards);
+    ring_lay_out(c, rim, (uint32_t)n, backwards);
     for (uint32_t i; (i = first_ear(c)) != MW_NONE;) {
         mw_rim *s0 = &c->ring[i], *s1 = &c->ring[s0->after];
         drop_ear(c, i);
@@ -396,10 +386,10 @@ static bool push_half(mw_constrained *c, size_t *count, uint32_t half)
 
 static bool is_illegal(const mw_constrained *c, uint32_t half)
 {
-    uint32_t twin = *link_of(c, half);
+    uint32_t twin = *link_field(c, half);
     if (twin == MW_NONE || *piece_of(c, half) != MW_NONE || c->tri[mw__link_triangle(twin)].user == AWAY) return false;
     const mw_triangle *t = &c->tri[mw__link_triangle(half)];
-    uint32_t apex = start_of(c, mw__half_prev(twin));
+    uint32_t apex = mw__half_start(c->tri, mw__half_prev(twin));
     return mw__incircle(c->point[t->v[0]], c->point[t->v[1]], c->point[t->v[2]], c->point[apex]) > 0;
 }
 
@@ -417,23 +407,23 @@ static void set_triangle(mw_constrained *c, uint32_t t, uint32_t v0, uint32_t v1
  *     p --- q    -->   p t|n q    Replace edge p->q, which is `half`, by s->r.
  *      \ n /            \ | /
  *        s                s       */
-static void flip(mw_constrained *c, uint32_t half)
+static void channel_flip(mw_constrained *c, uint32_t half)
 {
-    uint32_t twin = *link_of(c, half), t = mw__link_triangle(half), n = mw__link_triangle(twin);
-    uint32_t p = start_of(c, half), q = end_of(c, half);
-    uint32_t r = start_of(c, mw__half_prev(half)), s = start_of(c, mw__half_prev(twin));
+    uint32_t twin = *link_field(c, half), t = mw__link_triangle(half), n = mw__link_triangle(twin);
+    uint32_t p = mw__half_start(c->tri, half), q = mw__half_end(c->tri, half);
+    uint32_t r = mw__half_start(c->tri, mw__half_prev(half)), s = mw__half_start(c->tri, mw__half_prev(twin));
     uint32_t sides[4] = {mw__half_next(twin), mw__half_prev(half), mw__half_prev(twin),
                          mw__half_next(half)}; /* ps, rp, sq, qr */
     mw_rim step[4];
-    for (int i = 0; i < 4; i++) step[i] = (mw_rim){.outer = *link_of(c, sides[i]), .piece = *piece_of(c, sides[i])};
+    for (int i = 0; i < 4; i++) step[i] = (mw_rim){.outer = *link_field(c, sides[i]), .piece = *piece_of(c, sides[i])};
     set_triangle(c, t, p, s, r);
     set_triangle(c, n, s, q, r);
-    join(c, mw__link(t, 0), &step[0]);
-    join(c, mw__link(t, 2), &step[1]);
-    join(c, mw__link(n, 0), &step[2]);
-    join(c, mw__link(n, 1), &step[3]);
-    *link_of(c, mw__link(t, 1)) = mw__link(n, 2);
-    *link_of(c, mw__link(n, 2)) = mw__link(t, 1);
+    step_join(c, mw__link(t, 0), &step[0]);
+    step_join(c, mw__link(t, 2), &step[1]);
+    step_join(c, mw__link(n, 0), &step[2]);
+    step_join(c, mw__link(n, 1), &step[3]);
+    *link_field(c, mw__link(t, 1)) = mw__link(n, 2);
+    *link_field(c, mw__link(n, 2)) = mw__link(t, 1);
     *piece_of(c, mw__link(t, 1)) = *piece_of(c, mw__link(n, 2)) = MW_NONE;
 }
 
@@ -444,9 +434,9 @@ static bool put_back(mw_constrained *c, uint32_t t)
     size_t count = 0;
     if (!push_half(c, &count, mw__link(t, 2))) return false;
     while (count > 0) {
-        uint32_t half = c->flip[--count], twin = *link_of(c, half);
+        uint32_t half = c->flip[--count], twin = *link_field(c, half);
         if (!is_illegal(c, half)) continue;
-        flip(c, half);
+        channel_flip(c, half);
         if (!push_half(c, &count, mw__link(mw__link_triangle(half), 0)) ||
             !push_half(c, &count, mw__link(mw__link_triangle(twin), 0)))
             return false;
@@ -455,7 +445,7 @@ static bool put_back(mw_constrained *c, uint32_t t)
 }
 
 /* Make the filled channel Delaunay: put the ears back one by one, the last that was cut off first. */
-static bool legalize(mw_constrained *c, size_t triangle_count)
+static bool channel_legalize(mw_constrained *c, size_t triangle_count)
 {
     for (size_t i = 0; i < triangle_count; i++) c->tri[c->channel[i]].user = AWAY;
     for (size_t i = triangle_count; i-- > 0;) {
@@ -467,11 +457,11 @@ static bool legalize(mw_constrained *c, size_t triangle_count)
 
 /* --- pieces --- */
 
-static void mark(mw_constrained *c, uint32_t half, uint32_t *number)
+static void half_mark(mw_constrained *c, uint32_t half, uint32_t *number)
 {
     if (*piece_of(c, half) == MW_NONE) {
         *piece_of(c, half) = c->piece_count++;
-        if (*link_of(c, half) != MW_NONE) *piece_of(c, *link_of(c, half)) = *piece_of(c, half);
+        if (*link_field(c, half) != MW_NONE) *piece_of(c, *link_field(c, half)) = *piece_of(c, half);
     }
     *number = *piece_of(c, half);
 }
@@ -481,10 +471,10 @@ static void mark(mw_constrained *c, uint32_t half, uint32_t *number)
 static bool cut_through_one(mw_constrained *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w, uint32_t *number)
 {
     if (*piece_of(c, half) != MW_NONE) return false;
-    *w = start_of(c, mw__half_prev(*link_of(c, half)));
-    if (*w != b && side(c, a, b, *w) != 0) return false;
-    flip(c, half);
-    mark(c, mw__link(mw__link_triangle(half), 1), number);
+    *w = mw__half_start(c->tri, mw__half_prev(*link_field(c, half)));
+    if (*w != b && vertex_side(c, a, b, *w) != 0) return false;
+    channel_flip(c, half);
+    half_mark(c, mw__link(mw__link_triangle(half), 1), number);
     c->crossed += 2;
     return true;
 }
@@ -501,33 +491,33 @@ static mw_constrain_result cut_through(mw_constrained *c, uint32_t a, uint32_t b
         return result;
     }
     c->crossed += ch.triangle_count;
-    find_mates(c, &ch);
+    channel_find_mates(c, &ch);
     size_t next = 0;
-    uint32_t right = fill(c, c->right, ch.right_count, false, &next);
-    uint32_t left = fill(c, c->left, ch.left_count, true, &next);
-    *link_of(c, right) = left;
-    *link_of(c, left) = right;
-    mark(c, left, number);
+    uint32_t right = side_fill(c, c->right, ch.right_count, false, &next);
+    uint32_t left = side_fill(c, c->left, ch.left_count, true, &next);
+    *link_field(c, right) = left;
+    *link_field(c, left) = right;
+    half_mark(c, left, number);
     *w = ch.w;
-    return legalize(c, ch.triangle_count) ? MW_CONSTRAIN_DONE : MW_CONSTRAIN_MEMORY;
+    return channel_legalize(c, ch.triangle_count) ? MW_CONSTRAIN_DONE : MW_CONSTRAIN_MEMORY;
 }
 
 mw_constrain_result mw__constrain(mw_constrained *c, uint32_t *from, uint32_t *to, mw_piece *piece)
 {
     /* Turn round both ends at once: at a vertex of high degree this takes as long as its segments' other ends allow. */
-    rotor rotors[2] = {rotor_at(c, *from, *to), rotor_at(c, *to, *from)};
+    rotor rotors[2] = {segment_rotor(c, *from, *to), segment_rotor(c, *to, *from)};
     uint32_t *ends[2] = {from, to}, half;
     unsigned i = 0;
     bool along;
     while (!leaves_here(&rotors[i], &half, &along)) {
-        turn(c, &rotors[i], *ends[i], *ends[1 - i]);
+        segment_rotor_turn(c, &rotors[i], *ends[i], *ends[1 - i]);
         i = 1 - i;
     }
     uint32_t w;
     mw_constrain_result result = MW_CONSTRAIN_DONE;
     if (along) {
-        w = start_of(c, half) == *ends[i] ? end_of(c, half) : start_of(c, half);
-        mark(c, half, &piece->number);
+        w = mw__half_start(c->tri, half) == *ends[i] ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
+        half_mark(c, half, &piece->number);
     } else {
         result = cut_through(c, *ends[i], *ends[1 - i], half, &w, &piece->number);
         if (result != MW_CONSTRAIN_DONE) return result;
@@ -545,9 +535,9 @@ static uint32_t follow_through(const mw_constrained *c, uint32_t from, uint32_t 
     for (;;) {
         uint32_t piece = *piece_of(c, half);
         if (piece != MW_NONE && !meet(context, piece, MW_NONE)) return MW_NONE;
-        half = *link_of(c, half);
-        uint32_t w = start_of(c, mw__half_prev(half));
-        double s = w == to ? 0 : side(c, from, to, w);
+        half = *link_field(c, half);
+        uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
+        double s = w == to ? 0 : vertex_side(c, from, to, w);
         if (s == 0) return w;
         half = s > 0 ? mw__half_next(half) : mw__half_prev(half);
     }
@@ -558,10 +548,10 @@ bool mw__constrained_follow(const mw_constrained *c, uint32_t from, uint32_t to,
     while (from != to) {
         uint32_t half;
         bool along;
-        rotor r = rotor_at(c, from, to);
-        while (!leaves_here(&r, &half, &along)) turn(c, &r, from, to);
+        rotor r = segment_rotor(c, from, to);
+        while (!leaves_here(&r, &half, &along)) segment_rotor_turn(c, &r, from, to);
         if (along)
-            from = start_of(c, half) == from ? end_of(c, half) : start_of(c, half);
+            from = mw__half_start(c->tri, half) == from ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
         else
             from = follow_through(c, from, to, half, meet, context);
         if (from == MW_NONE || (from != to && !meet(context, MW_NONE, from))) return false;

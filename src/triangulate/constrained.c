@@ -26,7 +26,7 @@ static mw_status check_segments(const mw_constraints *given, mw_error *error)
     return MW_OK;
 }
 
-static mw_status check_arguments(const mw_constraints *given, mw_keep keep, mw_error *error)
+static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, mw_error *error)
 {
     if (!given) return mw__fail(error, MW_ERROR_ARGUMENT, "constraints are NULL");
     if ((unsigned)keep > MW_KEEP_INSIDE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
@@ -41,7 +41,7 @@ static mw_status check_arguments(const mw_constraints *given, mw_keep keep, mw_e
     return check_segments(given, error);
 }
 
-static void release(mw_constrained_making *m)
+static void cdt_release(mw_constrained_making *m)
 {
     mw__constrained_release(&m->net);
     free(m->point);
@@ -57,7 +57,7 @@ static void release(mw_constrained_making *m)
 /* --- lists --- */
 
 /* Room for one more record: the list, perhaps elsewhere now, or NULL when out of memory. */
-static void *grow(void *list, size_t count, size_t *capacity, size_t size)
+static void *list_grow(void *list, size_t count, size_t *capacity, size_t size)
 {
     if (count < *capacity) return list;
     size_t more = 2 * *capacity + 64;
@@ -68,7 +68,7 @@ static void *grow(void *list, size_t count, size_t *capacity, size_t size)
 
 bool mw__stretches_add(mw_stretches *list, mw_stretch stretch)
 {
-    mw_stretch *item = grow(list->item, list->count, &list->capacity, sizeof *item);
+    mw_stretch *item = list_grow(list->item, list->count, &list->capacity, sizeof *item);
     if (!item) return false;
     list->item = item;
     item[list->count++] = stretch;
@@ -77,7 +77,7 @@ bool mw__stretches_add(mw_stretches *list, mw_stretch stretch)
 
 static bool add_run(mw_constrained_making *m, mw_run run)
 {
-    mw_run *list = grow(m->run, m->run_count, &m->run_capacity, sizeof *list);
+    mw_run *list = list_grow(m->run, m->run_count, &m->run_capacity, sizeof *list);
     if (!list) return false;
     m->run = list;
     list[m->run_count++] = run;
@@ -121,7 +121,7 @@ static bool note_piece(mw_constrained_making *m, const mw_piece *piece, uint32_t
 }
 
 /* Force in a stretch, or as much of it as lies before what it crosses. Returns false when out of memory. */
-static bool force(mw_constrained_making *m, mw_stretch s)
+static bool stretch_force(mw_constrained_making *m, mw_stretch s)
 {
     while (s.from != s.to) {
         mw_piece piece;
@@ -153,7 +153,7 @@ static uint32_t *order_stretches(const mw_constrained_making *m)
 }
 
 /* Triangulate the points and force the stretches in, as far as nothing crosses, or, if `all`, all that do not cross. */
-static mw_status make(mw_constrained_making *m, bool all, mw_triangulation_report *report, mw_error *error)
+static mw_status cdt_make(mw_constrained_making *m, bool all, mw_triangulation_report *report, mw_error *error)
 {
     uint32_t n = (uint32_t)m->point_count;
     if (m->stretches.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
@@ -170,14 +170,14 @@ static mw_status make(mw_constrained_making *m, bool all, mw_triangulation_repor
     uint32_t *order = order_stretches(m);
     bool done = order;
     for (size_t i = 0; i < m->stretches.count && done && (all || !m->crossing.count); i++)
-        done = force(m, m->stretches.item[order[i]]);
+        done = stretch_force(m, m->stretches.item[order[i]]);
     m->crossed += m->net.crossed + m->net.wasted;
     free(order);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
 /* Forget what was made, but not the points and stretches. */
-static void unmake(mw_constrained_making *m)
+static void cdt_unmake(mw_constrained_making *m)
 {
     mw__constrained_release(&m->net);
     free(m->twin);
@@ -294,7 +294,7 @@ static mw_status split_apart(mw_constrained_making *m, mw_constrain_report *repo
         m->crossed += ends.crossed;
         if (status == MW_OK && !take_back(m, number, count, &ends)) status = mw__fail_memory(error);
     }
-    release(&ends);
+    cdt_release(&ends);
     free(number);
     return status;
 }
@@ -305,14 +305,14 @@ static mw_status make_all(mw_constrained_making *m, bool split, mw_triangulation
                           mw_constrain_report *report, mw_error *error)
 {
     enum { MOST_ROUNDS = 200 };
-    mw_status status = make(m, split, delaunay, error);
+    mw_status status = cdt_make(m, split, delaunay, error);
     for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS; round++) {
         status = mw__split_crossings(m, round, error);
         if (status == MW_OK) {
-            unmake(m);
+            cdt_unmake(m);
             status = split_apart(m, report, error);
         }
-        if (status == MW_OK) status = make(m, true, NULL, error);
+        if (status == MW_OK) status = cdt_make(m, true, NULL, error);
     }
     if (status == MW_OK && m->crossing.count)
         status =
@@ -322,7 +322,7 @@ static mw_status make_all(mw_constrained_making *m, bool split, mw_triangulation
 
 /* --- all together --- */
 
-static mw_status take(mw_constrained_making *m, mw_error *error)
+static mw_status cdt_take(mw_constrained_making *m, mw_error *error)
 {
     const mw_constraints *given = m->given;
     size_t stride = given->stride ? given->stride : 2;
@@ -338,10 +338,10 @@ static mw_status take(mw_constrained_making *m, mw_error *error)
     return MW_OK;
 }
 
-static mw_status build(mw_constrained_making *m, const mw_constrain_options *options, uint32_t *duplicate_of,
-                       mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error)
+static mw_status cdt_build(mw_constrained_making *m, const mw_constrain_options *options, uint32_t *duplicate_of,
+                           mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error)
 {
-    mw_status status = take(m, error);
+    mw_status status = cdt_take(m, error);
     if (status == MW_OK) status = make_all(m, options->split, &report->delaunay, report, error);
     report->crossed = m->crossed;
     if (status == MW_OK) status = mw__keep_triangles(m, options->keep, error);
@@ -363,11 +363,11 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_co
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
     if (!options) options = &defaults;
-    mw_status status = check_arguments(constraints, options->keep, error);
+    mw_status status = cdt_check_arguments(constraints, options->keep, error);
     if (status) return status;
     mw_constrained_making m = {.given = constraints, .threads = options->threads};
-    status = build(&m, options, duplicate_of, report, pieces, out, error);
-    release(&m);
+    status = cdt_build(&m, options, duplicate_of, report, pieces, out, error);
+    cdt_release(&m);
     if (status && pieces) mw_pieces_release(pieces);
     return status;
 }

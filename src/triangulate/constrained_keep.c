@@ -24,7 +24,7 @@ typedef struct parity {
     uint32_t odd_count;
 } parity;
 
-static void release(parity *p)
+static void parity_release(parity *p)
 {
     mw__runs_release(&p->runs);
     free(p->rank);
@@ -82,7 +82,7 @@ static mw_status check_closed(const mw_constrained_making *m, const mw_key *key,
     return status;
 }
 
-static mw_status prepare(parity *p, mw_error *error)
+static mw_status parity_prepare(parity *p, mw_error *error)
 {
     size_t count;
     mw_key *key = sort_by_polygon(p->m->given, &count);
@@ -94,7 +94,7 @@ static mw_status prepare(parity *p, mw_error *error)
 }
 
 /* Cross a half-edge, either way. */
-static void cross(parity *p, uint32_t half)
+static void parity_cross(parity *p, uint32_t half)
 {
     uint32_t piece = piece_at(p->m, half);
     if (piece == MW_NONE) return;
@@ -125,7 +125,7 @@ static void keep_odd(parity *p, uint8_t *entry)
     const mw_constrained_making *m = p->m;
     for (uint32_t t = 0; t < m->tri_count; t++) entry[t] = UNSEEN;
     uint32_t half = hull_half(m);
-    cross(p, half);
+    parity_cross(p, half);
     for (;;) {
         uint32_t t = mw__link_triangle(half);
         if (entry[t] == UNSEEN) {
@@ -138,7 +138,7 @@ static void keep_odd(parity *p, uint8_t *entry)
         if (back && beyond == MW_NONE)
             return; /* to where it began: the hull half-edge is the entry of one triangle only */
         if (!back && (beyond == MW_NONE || entry[mw__link_triangle(beyond)] != UNSEEN)) continue;
-        cross(p, half);
+        parity_cross(p, half);
         half = beyond;
     }
 }
@@ -147,10 +147,10 @@ static mw_status keep_polygons(mw_constrained_making *m, mw_error *error)
 {
     parity p = {.m = m};
     uint8_t *entry = mw__alloc(m->tri_count, sizeof *entry);
-    mw_status status = entry ? prepare(&p, error) : mw__fail_memory(error);
+    mw_status status = entry ? parity_prepare(&p, error) : mw__fail_memory(error);
     if (status == MW_OK) keep_odd(&p, entry);
     free(entry);
-    release(&p);
+    parity_release(&p);
     return status;
 }
 
@@ -170,7 +170,7 @@ static void remove_triangle(flood *f, uint32_t t)
 }
 
 /* Remove what hangs together with the triangles on the stack, and no piece parts from them. */
-static void spread(flood *f)
+static void flood_spread(flood *f)
 {
     while (f->top > 0) {
         uint32_t t = f->stack[--f->top];
@@ -187,12 +187,12 @@ static void remove_outside(flood *f)
     for (uint32_t t = 0; t < f->m->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++)
             if (f->m->tri[t].link[k] == MW_NONE && piece_at(f->m, mw__link(t, k)) == MW_NONE) remove_triangle(f, t);
-    spread(f);
+    flood_spread(f);
 }
 
 /* --- the places of holes --- */
 
-static double side_of(const mw_constrained_making *m, uint32_t half, mw_point q)
+static double half_side(const mw_constrained_making *m, uint32_t half, mw_point q)
 {
     const mw_triangle *t = &m->tri[mw__link_triangle(half)];
     return mw__orient2d(m->point[t->v[mw__link_edge(half)]], m->point[t->v[mw__link_edge(half) + 1]], q);
@@ -200,11 +200,11 @@ static double side_of(const mw_constrained_making *m, uint32_t half, mw_point q)
 
 /* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried from a random one on:
  * the walk ends with probability 1 [Devillers, Pion, Teillaud 2002]. */
-static bool walk(const mw_constrained_making *m, mw_point q, uint64_t *random, uint32_t *t)
+static bool keep_walk(const mw_constrained_making *m, mw_point q, uint64_t *random, uint32_t *t)
 {
     for (;;) {
         uint32_t first = mw__random_below(random, 3), k = first;
-        while (side_of(m, mw__link(*t, k), q) >= 0) {
+        while (half_side(m, mw__link(*t, k), q) >= 0) {
             k = mw__next(k);
             if (k == first) return true;
         }
@@ -234,7 +234,7 @@ static void remove_round(flood *f, uint32_t first)
 static void remove_touched(flood *f, uint32_t t, mw_point q)
 {
     bool on[3];
-    for (uint32_t k = 0; k < 3; k++) on[k] = side_of(f->m, mw__link(t, k), q) == 0;
+    for (uint32_t k = 0; k < 3; k++) on[k] = half_side(f->m, mw__link(t, k), q) == 0;
     remove_triangle(f, t);
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t link = f->m->tri[t].link[k];
@@ -250,9 +250,9 @@ static void remove_holes(flood *f)
     uint32_t t = 0;
     for (size_t i = 0; i < given->hole_count; i++) {
         mw_point q = {given->holes[2 * i], given->holes[2 * i + 1]};
-        if (!walk(f->m, q, &random, &t)) continue;
+        if (!keep_walk(f->m, q, &random, &t)) continue;
         remove_touched(f, t, q);
-        spread(f);
+        flood_spread(f);
     }
 }
 

@@ -36,8 +36,8 @@ static uint32_t *number_triangles(const mw_constrained_making *m, uint32_t *coun
 }
 
 /* The triangles kept, with their new numbers, and those of their vertices. */
-static void copy_triangles(const mw_constrained_making *m, const uint32_t *number, const uint32_t *vertex,
-                           mw_triangle *out)
+static void cdt_copy_triangles(const mw_constrained_making *m, const uint32_t *number, const uint32_t *vertex,
+                               mw_triangle *out)
 {
     for (uint32_t t = 0; t < m->tri_count; t++) {
         if (!m->kept[t]) continue;
@@ -62,7 +62,7 @@ static void move_triangles(mw_constrained_making *m, mw_mesh *mesh)
 }
 
 /* Pieces of the triangles kept, each once, in the order of the triangles. With out NULL they are only counted. */
-static size_t list_pieces(const mw_constrained_making *m, const uint32_t *vertex, mw_pieces *out)
+static size_t list_subsegments(const mw_constrained_making *m, const uint32_t *vertex, mw_pieces *out)
 {
     size_t made = 0;
     for (uint32_t t = 0; t < m->tri_count; t++)
@@ -88,7 +88,7 @@ static bool give_pieces(const mw_constrained_making *m, const uint32_t *vertex, 
     out->segment = mw__alloc(count, sizeof *out->segment);
     out->count = count;
     if (!out->edge || !out->segment) return false;
-    list_pieces(m, vertex, out);
+    list_subsegments(m, vertex, out);
     return true;
 }
 
@@ -100,7 +100,7 @@ static bool give_triangles(mw_constrained_making *m, const uint32_t *number, con
     }
     mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
     if (!mesh->tri) return false;
-    copy_triangles(m, number, vertex, mesh->tri);
+    cdt_copy_triangles(m, number, vertex, mesh->tri);
     return true;
 }
 
@@ -120,7 +120,7 @@ static bool give_mesh(mw_constrained_making *m, mw_constrain_report *report, mw_
     if (done) {
         report->removed = m->tri_count - mesh->tri_count;
         report->added = mesh->point_count - m->given->point_count;
-        report->pieces = list_pieces(m, vertex, NULL);
+        report->pieces = list_subsegments(m, vertex, NULL);
         done = give_pieces(m, vertex, report->pieces, pieces) && give_triangles(m, number, vertex, mesh);
     }
     if (done) give_points(m, vertex, mesh);

@@ -17,7 +17,7 @@
 
 /* --- where two segments cross --- */
 
-static double clamp(double x, double low, double high)
+static double value_clamp(double x, double low, double high)
 {
     return x < low ? low : x > high ? high : x;
 }
@@ -25,17 +25,17 @@ static double clamp(double x, double low, double high)
 /* In the boxes of both, which have a place in common. */
 static double clamp_both(double x, double a, double b, double c, double d)
 {
-    return clamp(x, fmax(fmin(a, b), fmin(c, d)), fmin(fmax(a, b), fmax(c, d)));
+    return value_clamp(x, fmax(fmin(a, b), fmin(c, d)), fmin(fmax(a, b), fmax(c, d)));
 }
 
 /* A share of the way from a to b. */
-static double between(double a, double b, double share)
+static double value_between(double a, double b, double share)
 {
     double way = b - a;
     return isfinite(way) ? a + share * way : a * (1 - share) + b * share;
 }
 
-static double extent(mw_point a, mw_point b)
+static double segment_extent(mw_point a, mw_point b)
 {
     return fmax(fabs(b.x - a.x), fabs(b.y - a.y));
 }
@@ -43,7 +43,7 @@ static double extent(mw_point a, mw_point b)
 mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 {
     mw_point e[4] = {a, b, c, d}; /* the place is reckoned on the shorter of the two, from its nearer end */
-    if (extent(a, b) > extent(c, d)) e[0] = c, e[1] = d, e[2] = a, e[3] = b;
+    if (segment_extent(a, b) > segment_extent(c, d)) e[0] = c, e[1] = d, e[2] = a, e[3] = b;
     int exponent[2];
     double area[2];
     for (int i = 0; i < 2; i++) area[i] = fabs(mw__orient2d_fraction(e[2], e[3], e[i], &exponent[i]));
@@ -51,7 +51,7 @@ mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
     area[less] = ldexp(area[less], exponent[less] - exponent[1 - less]);
     int near = area[0] <= area[1] ? 0 : 1;
     double share = area[near] / (area[0] + area[1]);
-    mw_point p = {between(e[near].x, e[1 - near].x, share), between(e[near].y, e[1 - near].y, share)};
+    mw_point p = {value_between(e[near].x, e[1 - near].x, share), value_between(e[near].y, e[1 - near].y, share)};
     return (mw_point){clamp_both(p.x, a.x, b.x, c.x, d.x), clamp_both(p.y, a.y, b.y, c.y, d.y)};
 }
 
@@ -88,24 +88,19 @@ static mw_point point_at(const splitter *s, uint32_t p)
 
 /* How far p is along a link: the coordinate in which the link is longer, then the other, both growing from the link's
  * beginning to its end. */
-static mw_point along(const splitter *s, const mw_stretch *link, mw_point p)
+static mw_point point_along(const splitter *s, const mw_stretch *link, mw_point p)
 {
     mw_point a = s->m->point[link->from], b = s->m->point[link->to];
     double x = b.x > a.x ? p.x : -p.x, y = b.y > a.y ? p.y : -p.y;
     return fabs(b.x - a.x) >= fabs(b.y - a.y) ? (mw_point){x, y} : (mw_point){y, x};
 }
 
-static bool equal(mw_point a, mw_point b)
-{
-    return a.x == b.x && a.y == b.y;
-}
-
 /* Note that a link is to be cut at a point, unless it ends there. */
-static bool add_cut(splitter *s, size_t link, uint32_t point, bool exact)
+static bool splitter_add_cut(splitter *s, size_t link, uint32_t point, bool exact)
 {
     const mw_stretch *l = link_at(s->m, link);
     mw_point p = point_at(s, point);
-    if (equal(p, s->m->point[l->from]) || equal(p, s->m->point[l->to])) return true;
+    if (mw__points_equal(p, s->m->point[l->from]) || mw__points_equal(p, s->m->point[l->to])) return true;
     if (s->cut_count == s->cut_capacity) {
         size_t capacity = 2 * s->cut_capacity + 64;
         cut *list = mw__realloc(s->cut, capacity, sizeof *list);
@@ -113,7 +108,7 @@ static bool add_cut(splitter *s, size_t link, uint32_t point, bool exact)
         s->cut = list;
         s->cut_capacity = capacity;
     }
-    s->cut[s->cut_count++] = (cut){link, point, exact, along(s, l, p)};
+    s->cut[s->cut_count++] = (cut){link, point, exact, point_along(s, l, p)};
     return true;
 }
 
@@ -124,7 +119,7 @@ static uint32_t make_point(splitter *s, const mw_stretch *a, const mw_stretch *b
     uint32_t ends[4] = {a->from, a->to, b->from, b->to};
     mw_point p = mw__crossing_point(point[a->from], point[a->to], point[b->from], point[b->to]);
     for (int i = 0; i < 4; i++)
-        if (equal(p, point[ends[i]])) return ends[i];
+        if (mw__points_equal(p, point[ends[i]])) return ends[i];
     s->too_many = s->m->point_count + s->made_count >= MW_MAX_TRIANGLES / 2;
     if (s->too_many) return MW_NONE;
     if (s->made_count == s->made_capacity) {
@@ -139,7 +134,7 @@ static uint32_t make_point(splitter *s, const mw_stretch *a, const mw_stretch *b
 }
 
 /* Scale three coordinates by a power of two, to at most 1. Returns the distance of doubles at the largest then. */
-static double scale(double c[3])
+static double rescale_line(double c[3])
 {
     int exponent;
     frexp(fmax(fmax(fabs(c[0]), fabs(c[1])), fabs(c[2])), &exponent);
@@ -147,7 +142,7 @@ static double scale(double c[3])
     return fmax(DBL_EPSILON / 2, ldexp(DBL_TRUE_MIN, -exponent));
 }
 
-static bool is_between(double a, double b, double x)
+static bool value_is_between(double a, double b, double x)
 {
     return x >= fmin(a, b) && x <= fmax(a, b);
 }
@@ -156,9 +151,9 @@ static bool is_between(double a, double b, double x)
  * times the distance of doubles? */
 static bool passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
 {
-    if (!is_between(a.x, b.x, p.x) || !is_between(a.y, b.y, p.y)) return false;
+    if (!value_is_between(a.x, b.x, p.x) || !value_is_between(a.y, b.y, p.y)) return false;
     double x[3] = {a.x, b.x, p.x}, y[3] = {a.y, b.y, p.y};
-    double off_x = scale(x), off_y = scale(y);
+    double off_x = rescale_line(x), off_y = rescale_line(y);
     double dx = x[1] - x[0], dy = y[1] - y[0];
     double area = dx * (y[2] - y[0]) - dy * (x[2] - x[0]);
     return fabs(area) <= tolerance * (fabs(dx) * off_y + fabs(dy) * off_x);
@@ -171,22 +166,22 @@ static bool cut_at_ends(splitter *s, size_t link, size_t other)
     const mw_stretch *l = link_at(s->m, link), *o = link_at(s->m, other);
     for (int i = 0; i < 2; i++) {
         uint32_t end = i == 0 ? o->from : o->to;
-        if (passes_by(point[l->from], point[l->to], point[end], s->tolerance) && !add_cut(s, link, end, false))
+        if (passes_by(point[l->from], point[l->to], point[end], s->tolerance) && !splitter_add_cut(s, link, end, false))
             return false;
     }
     return true;
 }
 
-static bool meet(void *context, uint32_t piece, uint32_t vertex)
+static bool splitter_meet(void *context, uint32_t piece, uint32_t vertex)
 {
     splitter *s = context;
     size_t link = s->m->pieces.count + s->remainder;
-    if (piece == MW_NONE) return add_cut(s, link, vertex, true);
+    if (piece == MW_NONE) return splitter_add_cut(s, link, vertex, true);
     size_t before = s->cut_count;
     if (s->tolerance > 0 && !(cut_at_ends(s, link, piece) && cut_at_ends(s, piece, link))) return false;
     if (s->cut_count > before) return true;
     uint32_t point = make_point(s, link_at(s->m, link), &s->m->pieces.item[piece]);
-    return point != MW_NONE && add_cut(s, link, point, false) && add_cut(s, piece, point, false);
+    return point != MW_NONE && splitter_add_cut(s, link, point, false) && splitter_add_cut(s, piece, point, false);
 }
 
 static bool find_cuts(splitter *s)
@@ -194,12 +189,12 @@ static bool find_cuts(splitter *s)
     const mw_stretches *crossing = &s->m->crossing;
     for (s->remainder = 0; s->remainder < crossing->count; s->remainder++) {
         const mw_stretch *r = &crossing->item[s->remainder];
-        if (!mw__constrained_follow(&s->m->net, r->from, r->to, meet, s)) return false;
+        if (!mw__constrained_follow(&s->m->net, r->from, r->to, splitter_meet, s)) return false;
     }
     return true;
 }
 
-static int compare(const void *left, const void *right)
+static int cut_compare(const void *left, const void *right)
 {
     const cut *a = left, *b = right;
     if (a->link != b->link) return a->link < b->link ? -1 : 1;
@@ -216,12 +211,12 @@ static bool add_parts(splitter *s, const mw_stretch *link, const cut *cuts, size
                       mw_stretches *parts)
 {
     uint32_t from = link->from;
-    double reached = along(s, link, point_at(s, from)).y;
+    double reached = point_along(s, link, point_at(s, from)).y;
     for (size_t i = 0; i <= count; i++) {
         uint32_t to = i < count ? cuts[i].point : link->to;
         if (i < count && cuts[i].along.y < reached && !cuts[i].exact) continue;
         if (i < count) reached = cuts[i].along.y;
-        if (equal(point_at(s, from), point_at(s, to))) continue;
+        if (mw__points_equal(point_at(s, from), point_at(s, to))) continue;
         if (!mw__stretches_add(parts, (mw_stretch){from, to, segment})) return false;
         from = to;
     }
@@ -247,7 +242,7 @@ static bool cut_all(splitter *s, const mw_runs *runs, mw_stretches *parts)
 }
 
 /* Append the points made to the others. */
-static bool take_points(splitter *s)
+static bool splitter_take_points(splitter *s)
 {
     mw_constrained_making *m = s->m;
     mw_point *point = mw__alloc_lines(m->point_count + s->made_count, sizeof *point);
@@ -274,8 +269,8 @@ mw_status mw__split_crossings(mw_constrained_making *m, int round, mw_error *err
     mw_stretches parts = {0};
     bool done = find_cuts(&s) && mw__runs_create(&runs, m);
     if (done) {
-        qsort(s.cut, s.cut_count, sizeof *s.cut, compare);
-        done = cut_all(&s, &runs, &parts) && take_points(&s);
+        qsort(s.cut, s.cut_count, sizeof *s.cut, cut_compare);
+        done = cut_all(&s, &runs, &parts) && splitter_take_points(&s);
     }
     if (done) {
         free(m->stretches.item);

@@ -25,7 +25,7 @@ typedef struct delaunay {
     mw_patches patches;
 } delaunay;
 
-static void release(delaunay *d)
+static void delaunay_release(delaunay *d)
 {
     free(d->ground.order);
     free(d->ground.sequence);
@@ -36,7 +36,7 @@ static void release(delaunay *d)
 
 /* --- points --- */
 
-static void extend(mw_extent *e, const mw_extent *by)
+static void extent_extend(mw_extent *e, const mw_extent *by)
 {
     for (int axis = 0; axis < 2; axis++) {
         if (by->low[axis] < e->low[axis]) e->low[axis] = by->low[axis];
@@ -91,7 +91,7 @@ static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
 }
 
 /* What there is to know of the points before they are sorted: extent and lattice. */
-static mw_status survey(delaunay *d, mw_error *error)
+static mw_status delaunay_measure(delaunay *d, mw_error *error)
 {
     uint32_t n = d->ground.n, bad = n;
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
@@ -111,7 +111,7 @@ static mw_status survey(delaunay *d, mw_error *error)
 #pragma omp critical(mw_extent)
 #endif
         {
-            extend(&d->extent, &mine);
+            extent_extend(&d->extent, &mine);
             if (my_lattice < lattice) lattice = my_lattice;
             if (stop < to && stop < bad) bad = stop;
         }
@@ -123,20 +123,15 @@ static mw_status survey(delaunay *d, mw_error *error)
     return MW_OK;
 }
 
-static bool equal(mw_point a, mw_point b)
-{
-    return a.x == b.x && a.y == b.y;
-}
-
 /* Nothing has grown: no three of the points are the corners of a triangle. */
 static mw_status fail_flat(const delaunay *d, mw_error *error)
 {
     const mw_point *p = d->ground.point;
     uint32_t n = d->ground.n, second = 1, third;
-    while (second < n && equal(p[0], p[second])) second++;
+    while (second < n && mw__points_equal(p[0], p[second])) second++;
     if (second == n) return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: all %u are equal", n);
     for (third = second + 1; third < n; third++)
-        if (!equal(p[third], p[0]) && !equal(p[third], p[second]))
+        if (!mw__points_equal(p[third], p[0]) && !mw__points_equal(p[third], p[second]))
             return mw__fail(error, MW_ERROR_INPUT, "all %u points lie on one line", n);
     return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: only two among %u", n);
 }
@@ -144,7 +139,7 @@ static mw_status fail_flat(const delaunay *d, mw_error *error)
 /* --- growth --- */
 
 /* Points in the order of their places. Where each lies is hard to foresee, but its number is known. */
-static void copy_points(delaunay *d, const mw_key *keys)
+static void delaunay_copy_points(delaunay *d, const mw_key *keys)
 {
     enum { AHEAD = 16 };
     uint32_t n = d->ground.n;
@@ -165,28 +160,28 @@ static void copy_points(delaunay *d, const mw_key *keys)
 }
 
 /* The keys lie where the facets will grow. */
-static bool order(delaunay *d)
+static bool delaunay_order_points(delaunay *d)
 {
     mw_ground *g = &d->ground;
     _Static_assert(sizeof(mw_key) <= sizeof(mw_facet), "the facets have room for the keys");
     mw_key *keys = (mw_key *)g->facet, *scratch = keys + g->n;
     if (!mw__curve_sort(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
-    copy_points(d, keys);
+    delaunay_copy_points(d, keys);
     return mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
 }
 
-static mw_status prepare(delaunay *d, mw_error *error)
+static mw_status delaunay_prepare(delaunay *d, mw_error *error)
 {
     mw_ground *g = &d->ground;
     if (g->n < 3) return mw__fail(error, MW_ERROR_INPUT, "fewer than three points: %u", g->n);
     if (g->n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
-    mw_status status = survey(d, error);
+    mw_status status = delaunay_measure(d, error);
     if (status != MW_OK) return status;
     g->order = mw__alloc_lines(g->n, sizeof *g->order);
     g->point = mw__alloc_lines(g->n, sizeof *g->point);
     g->sequence = mw__alloc_lines(g->n, sizeof *g->sequence);
     g->facet = mw__alloc_lines(2 * (size_t)g->n, sizeof *g->facet);
-    bool done = g->order && g->point && g->sequence && g->facet && order(d);
+    bool done = g->order && g->point && g->sequence && g->facet && delaunay_order_points(d);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
@@ -198,7 +193,7 @@ static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
 }
 
 /* The points are not needed any more: their room serves the harvest. */
-static bool harvest(delaunay *d, mw_triangle **tri, uint32_t *tri_count)
+static bool delaunay_collect(delaunay *d, mw_triangle **tri, uint32_t *tri_count)
 {
     free(d->ground.sequence);
     d->ground.sequence = NULL;
@@ -214,7 +209,7 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
     if (!d.setup.patch) d.setup.patch = PATCH;
     *tri = NULL;
     *tri_count = 0;
-    mw_status status = prepare(&d, error);
+    mw_status status = delaunay_prepare(&d, error);
     if (status == MW_OK) {
         mw__grow_patches(&d.patches, &d.ground, d.setup.threads);
         if (d.patches.patch[0].ghost == MW_NONE) status = fail_flat(&d, error);
@@ -223,13 +218,13 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
         const mw_patch *whole = &d.patches.patch[0];
         if (duplicate_of) report_duplicates(&d, duplicate_of);
         if (report) *report = (mw_triangulation_report){n, whole->duplicates, whole->visited};
-        if (!harvest(&d, tri, tri_count)) status = mw__fail_memory(error);
+        if (!delaunay_collect(&d, tri, tri_count)) status = mw__fail_memory(error);
     }
     if (d.setup.order) {
         *d.setup.order = status == MW_OK ? d.ground.order : NULL;
         if (status == MW_OK) d.ground.order = NULL;
     }
-    release(&d);
+    delaunay_release(&d);
     return status;
 }
 
@@ -244,7 +239,8 @@ mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *d
 /* --- a mesh --- */
 
 /* The points as the library has them; the caller's own array if that is what it holds. *copy is to be released. */
-static const mw_point *read_points(const double *from, size_t stride, uint32_t n, uint32_t threads, mw_point **copy)
+static const mw_point *delaunay_read_points(const double *from, size_t stride, uint32_t n, uint32_t threads,
+                                            mw_point **copy)
 {
     *copy = NULL;
     if (stride == 2) return (const mw_point *)from;
@@ -259,8 +255,9 @@ static const mw_point *read_points(const double *from, size_t stride, uint32_t n
     return *copy;
 }
 
-static mw_status make_mesh(const mw_point *given, mw_delaunay_setup setup, bool laid_out, uint32_t *duplicate_of,
-                           mw_triangulation_report *report, mw_mesh *mesh, mw_error *error)
+static mw_status delaunay_make_mesh(const mw_point *given, mw_delaunay_setup setup, bool laid_out,
+                                    uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh *mesh,
+                                    mw_error *error)
 {
     uint32_t *order = NULL, n = mesh->point_count;
     if (laid_out && mw__are_scattered(given, n)) setup.order = &order;
@@ -279,13 +276,13 @@ mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *point
     if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "points is NULL");
     if (n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
     mw_point *copy;
-    const mw_point *given = read_points(points, stride, (uint32_t)n, threads, &copy);
+    const mw_point *given = delaunay_read_points(points, stride, (uint32_t)n, threads, &copy);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     mw_status status = mesh && (given || !n) ? MW_OK : mw__fail_memory(error);
     if (status == MW_OK) {
         mesh->point_count = (uint32_t)n;
         const mw_delaunay_setup setup = {.threads = threads};
-        status = make_mesh(given, setup, laid_out, duplicate_of, report, mesh, error);
+        status = delaunay_make_mesh(given, setup, laid_out, duplicate_of, report, mesh, error);
     }
     free(copy);
     if (status == MW_OK)

@@ -26,7 +26,7 @@ typedef struct sight {
     uint32_t vertex;
 } sight;
 
-static MW_INLINE sight look(const mw_growth *g, uint32_t vertex, mw_point q)
+static MW_INLINE sight sight_of(const mw_growth *g, uint32_t vertex, mw_point q)
 {
     if (MW_UNLIKELY(vertex == g->infinity)) return (sight){0, 0, g->far, vertex};
     double x = g->point[vertex].x - q.x, y = g->point[vertex].y - q.y;
@@ -44,8 +44,8 @@ static bool inside_edge(mw_point a, mw_point b, mw_point q)
     return a.x != b.x ? strictly_between(a.x, b.x, q.x) : strictly_between(a.y, b.y, q.y);
 }
 
-static __attribute__((noinline)) bool in_circle_exact(const mw_growth *g, uint32_t a, uint32_t b, uint32_t c,
-                                                      mw_point q)
+static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g, uint32_t a, uint32_t b, uint32_t c,
+                                                             mw_point q)
 {
     const mw_point *p = g->point;
     if (a != g->infinity && b != g->infinity && c != g->infinity) return mw__incircle_exact(p[a], p[b], p[c], q) > 0;
@@ -74,11 +74,11 @@ static MW_INLINE bool in_circle(const mw_growth *g, const sight *a, const sight 
                  c->lift * (a->x * b->y - a->y * b->x);
     double bound = CIRCLE_ERROR * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + g->underflow;
     if (MW_LIKELY(fabs(det) > bound) || a->lift + b->lift + c->lift < g->lattice) return det > 0;
-    return in_circle_exact(g, a->vertex, b->vertex, c->vertex, q);
+    return growth_in_circle_exact(g, a->vertex, b->vertex, c->vertex, q);
 }
 
 /* Is q strictly to the right of the directed edge ab? */
-static MW_INLINE bool beyond(const mw_growth *g, const sight *a, const sight *b, mw_point q)
+static MW_INLINE bool lies_beyond(const mw_growth *g, const sight *a, const sight *b, mw_point q)
 {
     double left = a->x * b->y, right = a->y * b->x, det = left - right;
     if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right)) || a->lift + b->lift < g->lattice) return det < 0;
@@ -92,7 +92,7 @@ typedef struct place {
 } place;
 
 /* The last facet, or, where that is a ghost, the one across the hull edge. */
-static MW_INLINE uint32_t start(const mw_growth *g)
+static MW_INLINE uint32_t growth_start(const mw_growth *g)
 {
     const mw_facet *f = &g->facet[g->last];
     for (uint32_t k = 0; k < 3; k++)
@@ -101,17 +101,17 @@ static MW_INLINE uint32_t start(const mw_growth *g)
 }
 
 /* The walk from the last facet to one whose circle holds q: that contains q, or a ghost with q beyond its edge. */
-static MW_INLINE place walk(mw_growth *g, mw_point q)
+static MW_INLINE place growth_walk(mw_growth *g, mw_point q)
 {
-    uint32_t link = mw__link(start(g), 0);
+    uint32_t link = mw__link(growth_start(g), 0);
     const mw_facet *f = &g->facet[mw__link_triangle(link)];
-    sight a = look(g, f->v[0], q), b = look(g, f->v[1], q), c = look(g, f->v[2], q);
+    sight a = sight_of(g, f->v[0], q), b = sight_of(g, f->v[1], q), c = sight_of(g, f->v[2], q);
     g->visited++;
-    if (beyond(g, &a, &b, q)) {
+    if (lies_beyond(g, &a, &b, q)) {
         link = f->link[0], c = a, a = b, b = c;
-    } else if (beyond(g, &b, &c, q)) {
+    } else if (lies_beyond(g, &b, &c, q)) {
         link = f->link[1], a = c;
-    } else if (beyond(g, &c, &a, q)) {
+    } else if (lies_beyond(g, &c, &a, q)) {
         link = f->link[2], b = c;
     } else {
         return (place){link, {a, b, c}};
@@ -119,12 +119,12 @@ static MW_INLINE place walk(mw_growth *g, mw_point q)
     for (;;) {
         uint32_t e = mw__link_edge(link);
         f = &g->facet[mw__link_triangle(link)];
-        c = look(g, f->v[mw__prev(e)], q);
+        c = sight_of(g, f->v[mw__prev(e)], q);
         g->visited++;
         if (MW_UNLIKELY(c.vertex == g->infinity)) break;
-        if (beyond(g, &b, &c, q))
+        if (lies_beyond(g, &b, &c, q))
             link = f->link[mw__next(e)], a = c;
-        else if (beyond(g, &c, &a, q))
+        else if (lies_beyond(g, &c, &a, q))
             link = f->link[mw__prev(e)], b = c;
         else
             break;
@@ -146,7 +146,7 @@ static MW_INLINE void set_facet(mw_growth *g, uint32_t t, const uint32_t v[3], u
 }
 
 /* Split the facet of a place into three round q. The first keeps the number of the facet. */
-static MW_INLINE void split(mw_growth *g, const place *at, uint32_t q)
+static MW_INLINE void facet_split(mw_growth *g, const place *at, uint32_t q)
 {
     uint32_t e = mw__link_edge(at->link), a = at->v[0].vertex, b = at->v[1].vertex, c = at->v[2].vertex;
     uint32_t first = mw__link_triangle(at->link), second = g->facet_count++, third = g->facet_count++;
@@ -164,7 +164,7 @@ static MW_INLINE void flip_round(mw_growth *g, uint32_t first, sight a, sight b,
         mw_facet *f = &g->facet[t];
         uint32_t outer = f->link[0], n = mw__link_triangle(outer), e = mw__link_edge(outer);
         mw_facet *beyond_ab = &g->facet[n];
-        sight d = look(g, beyond_ab->v[mw__prev(e)], q);
+        sight d = sight_of(g, beyond_ab->v[mw__prev(e)], q);
         if (in_circle(g, &b, &a, &d, q)) { /* a, b, q and b, a, d become a, d, q and d, b, q */
             uint32_t over_ad = beyond_ab->link[mw__next(e)], over_db = beyond_ab->link[mw__prev(e)];
             uint32_t next = mw__link_triangle(f->link[1]);
@@ -179,7 +179,7 @@ static MW_INLINE void flip_round(mw_growth *g, uint32_t first, sight a, sight b,
             t = mw__link_triangle(f->link[1]);
             if (t == first) return;
             a = b;
-            b = look(g, g->facet[t].v[1], q);
+            b = sight_of(g, g->facet[t].v[1], q);
         }
     }
 }
@@ -213,11 +213,11 @@ void mw__grow_begin(mw_growth *g, const uint32_t first[3])
 uint32_t mw__grow(mw_growth *g, uint32_t point)
 {
     mw_point q = g->point[point];
-    place at = walk(g, q);
+    place at = growth_walk(g, q);
     g->last = mw__link_triangle(at.link);
     for (int k = 0; k < 3; k++)
         if (at.v[k].x == 0 && at.v[k].y == 0 && at.v[k].vertex != g->infinity) return at.v[k].vertex;
-    split(g, &at, point);
+    facet_split(g, &at, point);
     flip_round(g, g->last, at.v[0], at.v[1], q);
     return point;
 }

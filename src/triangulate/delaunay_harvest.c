@@ -30,7 +30,7 @@ typedef struct harvest {
     const uint32_t *vertex; /* of each place: its vertex; NULL: they are the same */
 } harvest;
 
-static MW_INLINE uint32_t lowest(const mw_facet *f)
+static MW_INLINE uint32_t facet_lowest(const mw_facet *f)
 {
     uint32_t low = f->v[0] < f->v[1] ? f->v[0] : f->v[1];
     return low < f->v[2] ? low : f->v[2];
@@ -41,13 +41,13 @@ static MW_INLINE bool is_ghost(const harvest *h, const mw_facet *f)
     return f->v[0] == h->ground->n || f->v[1] == h->ground->n || f->v[2] == h->ground->n;
 }
 
-static void count(harvest *h, stretch *s)
+static void stretch_count(harvest *h, stretch *s)
 {
     s->foreign = NO_MORE;
     for (uint32_t i = s->from; i < s->to; i++) h->next[i] = 0;
     for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
         const mw_facet *facet = &h->ground->facet[f];
-        uint32_t low = lowest(facet);
+        uint32_t low = facet_lowest(facet);
         if (is_ghost(h, facet)) {
             h->number[f] = MW_NONE;
         } else if (low >= s->from && low < s->to) {
@@ -63,7 +63,7 @@ static void count(harvest *h, stretch *s)
 static void count_foreign(harvest *h, stretch *s)
 {
     for (uint32_t f = s->foreign; f != NO_MORE; f = h->number[f - FOREIGN])
-        h->next[lowest(&h->ground->facet[f - FOREIGN])]++;
+        h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
 }
 
 static void sum_up(harvest *h, stretch *s)
@@ -73,7 +73,7 @@ static void sum_up(harvest *h, stretch *s)
 }
 
 /* s->count has become the number of the first. */
-static void number(harvest *h, stretch *s)
+static void stretch_number(harvest *h, stretch *s)
 {
     uint32_t sum = s->count;
     for (uint32_t i = s->from; i < s->to; i++) {
@@ -89,11 +89,11 @@ static void number_foreign(harvest *h, stretch *s)
 {
     for (uint32_t f = s->foreign, after; f != NO_MORE; f = after) {
         after = h->number[f - FOREIGN];
-        h->number[f - FOREIGN] = h->next[lowest(&h->ground->facet[f - FOREIGN])]++;
+        h->number[f - FOREIGN] = h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
     }
 }
 
-static void copy(harvest *h, stretch *s)
+static void stretch_copy(harvest *h, stretch *s)
 {
     for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
         if (h->number[f] == MW_NONE) continue;
@@ -139,7 +139,7 @@ static uint32_t number_all(harvest *h, int team)
 {
     uint32_t sum = 0;
     qsort(h->stretches, (size_t)h->stretch_count, sizeof *h->stretches, by_place);
-    for_each_stretch(h, count, team);
+    for_each_stretch(h, stretch_count, team);
     for_each_stretch(h, count_foreign, 1);
     for_each_stretch(h, sum_up, team);
     for (int64_t i = 0; i < h->stretch_count; i++) {
@@ -147,7 +147,7 @@ static uint32_t number_all(harvest *h, int team)
         h->stretches[i].count = sum;
         sum += here;
     }
-    for_each_stretch(h, number, team);
+    for_each_stretch(h, stretch_number, team);
     for_each_stretch(h, number_foreign, 1);
     return sum;
 }
@@ -161,7 +161,7 @@ bool mw__harvest(const mw_patches *patches, const mw_ground *ground, bool places
     int team = mw__team(threads, h.stretch_count);
     *tri_count = number_all(&h, team);
     *tri = h.tri = mw__alloc_lines(*tri_count, sizeof *h.tri);
-    if (h.tri) for_each_stretch(&h, copy, team);
+    if (h.tri) for_each_stretch(&h, stretch_copy, team);
     free(h.stretches);
     return h.tri;
 }

@@ -16,7 +16,7 @@
 
 /* Where the vertex at infinity is in a ghost. The hull edge is the edge after it, from the vertex before it to the one
  * after it in counter-clockwise order of the hull: edge k leads on to the next ghost, the edge before it back. */
-static MW_INLINE uint32_t corner(const mw_growth *g, uint32_t ghost)
+static MW_INLINE uint32_t ghost_corner(const mw_growth *g, uint32_t ghost)
 {
     const uint32_t *v = g->facet[ghost].v;
     return v[0] == g->infinity ? 0 : v[1] == g->infinity ? 1 : 2;
@@ -24,25 +24,25 @@ static MW_INLINE uint32_t corner(const mw_growth *g, uint32_t ghost)
 
 static MW_INLINE uint32_t hull_from(const mw_growth *g, uint32_t ghost)
 {
-    return g->facet[ghost].v[mw__prev(corner(g, ghost))];
+    return g->facet[ghost].v[mw__prev(ghost_corner(g, ghost))];
 }
 
 static MW_INLINE uint32_t hull_to(const mw_growth *g, uint32_t ghost)
 {
-    return g->facet[ghost].v[mw__next(corner(g, ghost))];
+    return g->facet[ghost].v[mw__next(ghost_corner(g, ghost))];
 }
 
-static MW_INLINE uint32_t onward(const mw_growth *g, uint32_t ghost)
+static MW_INLINE uint32_t hull_onward(const mw_growth *g, uint32_t ghost)
 {
-    return mw__link_triangle(g->facet[ghost].link[corner(g, ghost)]);
+    return mw__link_triangle(g->facet[ghost].link[ghost_corner(g, ghost)]);
 }
 
-static MW_INLINE uint32_t back(const mw_growth *g, uint32_t ghost)
+static MW_INLINE uint32_t hull_back(const mw_growth *g, uint32_t ghost)
 {
-    return mw__link_triangle(g->facet[ghost].link[mw__prev(corner(g, ghost))]);
+    return mw__link_triangle(g->facet[ghost].link[mw__prev(ghost_corner(g, ghost))]);
 }
 
-static MW_INLINE void join(mw_growth *g, uint32_t a, uint32_t b)
+static MW_INLINE void ghosts_join(mw_growth *g, uint32_t a, uint32_t b)
 {
     g->facet[mw__link_triangle(a)].link[mw__link_edge(a)] = b;
     g->facet[mw__link_triangle(b)].link[mw__link_edge(b)] = a;
@@ -55,7 +55,7 @@ typedef struct ends {
     uint32_t low[2], high[2];
 } ends;
 
-static double coordinate(const mw_growth *g, uint32_t ghost, int axis)
+static double ghost_coordinate(const mw_growth *g, uint32_t ghost, int axis)
 {
     mw_point p = g->point[hull_from(g, ghost)];
     return axis ? p.y : p.x;
@@ -64,11 +64,11 @@ static double coordinate(const mw_growth *g, uint32_t ghost, int axis)
 static ends find_ends(const mw_growth *g, uint32_t ghost)
 {
     ends e = {{ghost, ghost}, {ghost, ghost}};
-    for (uint32_t t = onward(g, ghost); t != ghost; t = onward(g, t))
+    for (uint32_t t = hull_onward(g, ghost); t != ghost; t = hull_onward(g, t))
         for (int axis = 0; axis < 2; axis++) {
-            double c = coordinate(g, t, axis);
-            if (c < coordinate(g, e.low[axis], axis)) e.low[axis] = t;
-            if (c > coordinate(g, e.high[axis], axis)) e.high[axis] = t;
+            double c = ghost_coordinate(g, t, axis);
+            if (c < ghost_coordinate(g, e.low[axis], axis)) e.low[axis] = t;
+            if (c > ghost_coordinate(g, e.high[axis], axis)) e.high[axis] = t;
         }
     return e;
 }
@@ -89,7 +89,7 @@ static void go_to_tangent(const mw_growth *g, seam *s)
 {
     const mw_point *p = g->point;
     for (;;) {
-        uint32_t under_left = back(g, s->left), under_right = onward(g, s->right);
+        uint32_t under_left = hull_back(g, s->left), under_right = hull_onward(g, s->right);
         uint32_t l = hull_from(g, under_left), r = hull_to(g, under_right);
         if (mw__orient2d(p[s->l], p[l], p[s->r]) > 0) {
             s->l = l;
@@ -106,10 +106,10 @@ static void go_to_tangent(const mw_growth *g, seam *s)
 /* Put a ghost at the lower tangent, between the ghosts before l and after r. */
 static void close_below(mw_growth *g, seam *s, uint32_t ghost)
 {
-    uint32_t before = back(g, s->left), after = onward(g, s->right);
+    uint32_t before = hull_back(g, s->left), after = hull_onward(g, s->right);
     g->facet[ghost] = (mw_facet){{s->r, s->l, g->infinity}, {MW_NONE, MW_NONE, MW_NONE}};
-    join(g, mw__link(ghost, 1), mw__link(before, corner(g, before)));
-    join(g, mw__link(ghost, 2), mw__link(after, mw__prev(corner(g, after))));
+    ghosts_join(g, mw__link(ghost, 1), mw__link(before, ghost_corner(g, before)));
+    ghosts_join(g, mw__link(ghost, 2), mw__link(after, mw__prev(ghost_corner(g, after))));
     s->below = mw__link(ghost, 0);
 }
 
@@ -117,16 +117,16 @@ static void close_below(mw_growth *g, seam *s, uint32_t ghost)
 static void close_above(mw_growth *g, const seam *s, uint32_t ghost)
 {
     g->facet[ghost] = (mw_facet){{s->l, s->r, g->infinity}, {MW_NONE, MW_NONE, MW_NONE}};
-    join(g, mw__link(ghost, 0), s->below);
-    join(g, mw__link(ghost, 1), mw__link(s->right, corner(g, s->right)));
-    join(g, mw__link(ghost, 2), mw__link(s->left, mw__prev(corner(g, s->left))));
+    ghosts_join(g, mw__link(ghost, 0), s->below);
+    ghosts_join(g, mw__link(ghost, 1), mw__link(s->right, ghost_corner(g, s->right)));
+    ghosts_join(g, mw__link(ghost, 2), mw__link(s->left, mw__prev(ghost_corner(g, s->left))));
 }
 
 /* Is the vertex behind the hull edge of a ghost in the circle of l, r and c? Sets *link to the edge behind. */
 static MW_INLINE bool is_met_before(const mw_growth *g, const seam *s, uint32_t ghost, uint32_t c, uint32_t *link)
 {
     const mw_point *p = g->point;
-    *link = g->facet[ghost].link[mw__next(corner(g, ghost))];
+    *link = g->facet[ghost].link[mw__next(ghost_corner(g, ghost))];
     uint32_t behind = g->facet[mw__link_triangle(*link)].v[mw__prev(mw__link_edge(*link))];
     return behind != g->infinity && mw__incircle(p[s->l], p[s->r], p[c], p[behind]) > 0;
 }
@@ -137,16 +137,16 @@ static uint32_t clear_left(mw_growth *g, const seam *s)
 {
     uint32_t up = hull_to(g, s->left), link;
     while (is_met_before(g, s, s->left, up, &link)) {
-        uint32_t t = mw__link_triangle(link), e = mw__link_edge(link), k = corner(g, s->left);
+        uint32_t t = mw__link_triangle(link), e = mw__link_edge(link), k = ghost_corner(g, s->left);
         mw_facet *ghost = &g->facet[s->left];
         const mw_facet old = g->facet[t];
         uint32_t apex = old.v[mw__prev(e)], next = ghost->link[k];
         g->facet[t] = (mw_facet){{up, apex, g->infinity}, {MW_NONE, MW_NONE, MW_NONE}};
         ghost->v[mw__next(k)] = apex;
-        join(g, mw__link(s->left, mw__next(k)), old.link[mw__prev(e)]);
-        join(g, mw__link(s->left, k), mw__link(t, 1));
-        join(g, mw__link(t, 0), old.link[mw__next(e)]);
-        join(g, mw__link(t, 2), next);
+        ghosts_join(g, mw__link(s->left, mw__next(k)), old.link[mw__prev(e)]);
+        ghosts_join(g, mw__link(s->left, k), mw__link(t, 1));
+        ghosts_join(g, mw__link(t, 0), old.link[mw__next(e)]);
+        ghosts_join(g, mw__link(t, 2), next);
         up = apex;
     }
     return up;
@@ -157,16 +157,16 @@ static uint32_t clear_right(mw_growth *g, const seam *s)
 {
     uint32_t up = hull_from(g, s->right), link;
     while (is_met_before(g, s, s->right, up, &link)) {
-        uint32_t t = mw__link_triangle(link), e = mw__link_edge(link), k = corner(g, s->right);
+        uint32_t t = mw__link_triangle(link), e = mw__link_edge(link), k = ghost_corner(g, s->right);
         mw_facet *ghost = &g->facet[s->right];
         const mw_facet old = g->facet[t];
         uint32_t apex = old.v[mw__prev(e)], next = ghost->link[mw__prev(k)];
         g->facet[t] = (mw_facet){{apex, up, g->infinity}, {MW_NONE, MW_NONE, MW_NONE}};
         ghost->v[mw__prev(k)] = apex;
-        join(g, mw__link(s->right, mw__next(k)), old.link[mw__next(e)]);
-        join(g, mw__link(s->right, mw__prev(k)), mw__link(t, 2));
-        join(g, mw__link(t, 0), old.link[mw__prev(e)]);
-        join(g, mw__link(t, 1), next);
+        ghosts_join(g, mw__link(s->right, mw__next(k)), old.link[mw__next(e)]);
+        ghosts_join(g, mw__link(s->right, mw__prev(k)), mw__link(t, 2));
+        ghosts_join(g, mw__link(t, 0), old.link[mw__prev(e)]);
+        ghosts_join(g, mw__link(t, 1), next);
         up = apex;
     }
     return up;
@@ -175,10 +175,10 @@ static uint32_t clear_right(mw_growth *g, const seam *s)
 /* The ghost at l becomes the triangle of l', l and r. */
 static void rise_left(mw_growth *g, seam *s, uint32_t up)
 {
-    uint32_t t = s->left, k = corner(g, t);
-    s->left = onward(g, t);
+    uint32_t t = s->left, k = ghost_corner(g, t);
+    s->left = hull_onward(g, t);
     g->facet[t].v[k] = s->r;
-    join(g, mw__link(t, mw__prev(k)), s->below);
+    ghosts_join(g, mw__link(t, mw__prev(k)), s->below);
     s->below = mw__link(t, k);
     s->l = up;
 }
@@ -186,10 +186,10 @@ static void rise_left(mw_growth *g, seam *s, uint32_t up)
 /* The ghost at r becomes the triangle of r, r' and l. */
 static void rise_right(mw_growth *g, seam *s, uint32_t up)
 {
-    uint32_t t = s->right, k = corner(g, t);
-    s->right = back(g, t);
+    uint32_t t = s->right, k = ghost_corner(g, t);
+    s->right = hull_back(g, t);
     g->facet[t].v[k] = s->l;
-    join(g, mw__link(t, k), s->below);
+    ghosts_join(g, mw__link(t, k), s->below);
     s->below = mw__link(t, mw__prev(k));
     s->r = up;
 }
@@ -216,14 +216,14 @@ static void close_seam(mw_growth *g, seam *s, uint32_t spare)
 uint32_t mw__merge(mw_growth *g, uint32_t a, uint32_t b, uint32_t spare)
 {
     ends ea = find_ends(g, a), eb = find_ends(g, b);
-    int axis = coordinate(g, ea.high[0], 0) < coordinate(g, eb.low[0], 0) ||
-                       coordinate(g, eb.high[0], 0) < coordinate(g, ea.low[0], 0)
+    int axis = ghost_coordinate(g, ea.high[0], 0) < ghost_coordinate(g, eb.low[0], 0) ||
+                       ghost_coordinate(g, eb.high[0], 0) < ghost_coordinate(g, ea.low[0], 0)
                    ? 0
                    : 1;
-    bool a_first = coordinate(g, ea.high[axis], axis) < coordinate(g, eb.low[axis], axis);
+    bool a_first = ghost_coordinate(g, ea.high[axis], axis) < ghost_coordinate(g, eb.low[axis], axis);
     /* A horizontal line is turned upright by a quarter turn clockwise: what lies below it comes to lie on the left. */
     uint32_t left = a_first ? ea.high[axis] : eb.high[axis], right = a_first ? eb.low[axis] : ea.low[axis];
-    seam s = {.l = hull_from(g, left), .r = hull_from(g, right), .left = left, .right = back(g, right)};
+    seam s = {.l = hull_from(g, left), .r = hull_from(g, right), .left = left, .right = hull_back(g, right)};
     close_seam(g, &s, spare);
     return spare + 1;
 }

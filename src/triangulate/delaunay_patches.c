@@ -32,7 +32,7 @@ static bool add_halves(mw_patches *patches, uint32_t whole, uint32_t middle)
 }
 
 /* All keys of the part are equal: let them be those of a curve through its own extent, along which it is sorted. */
-static bool refine(const mw_patch *patch, const mw_point *points, mw_key *keys)
+static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *keys)
 {
     uint32_t n = patch->to - patch->from;
     if (n <= MW_LONG_RUN) return false;
@@ -63,7 +63,7 @@ bool mw__cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t
     for (uint32_t i = 0; i < patches->count; i++) {
         const mw_patch *patch = &patches->patch[i];
         if (patch->to - patch->from <= most) continue;
-        if (keys[patch->from].key == keys[patch->to - 1].key && !refine(patch, points, keys)) continue;
+        if (keys[patch->from].key == keys[patch->to - 1].key && !patch_refine(patch, points, keys)) continue;
         if (!add_halves(patches, i, find_middle(patch, keys))) return false;
     }
     for (uint32_t i = patches->count; i-- > 0;) {
@@ -77,29 +77,17 @@ bool mw__cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t
 
 /* --- grow --- */
 
-static bool equal(mw_point a, mw_point b)
-{
-    return a.x == b.x && a.y == b.y;
-}
-
-static void exchange(uint32_t *a, uint32_t *b)
-{
-    uint32_t old = *a;
-    *a = *b;
-    *b = old;
-}
-
 /* Bring three places that do not lie on one line to the front of the sequence. */
 static bool choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
 {
     uint32_t second = 1;
-    while (second < n && equal(p[s[0]], p[s[second]])) second++;
+    while (second < n && mw__points_equal(p[s[0]], p[s[second]])) second++;
     if (second >= n) return false;
-    exchange(&s[1], &s[second]);
+    mw__swap(&s[1], &s[second]);
     uint32_t third = second + 1;
     while (third < n && mw__orient2d(p[s[0]], p[s[1]], p[s[third]]) == 0) third++;
     if (third >= n) return false;
-    exchange(&s[2], &s[third]);
+    mw__swap(&s[2], &s[third]);
     return true;
 }
 
@@ -109,13 +97,13 @@ static void set_twin(mw_point *point, uint32_t twin)
     *point = (mw_point){NAN, twin};
 }
 
-static uint32_t insert(const mw_ground *ground, mw_growth *g, const uint32_t *sequence, uint32_t n)
+static uint32_t patch_insert(const mw_ground *ground, mw_growth *g, const uint32_t *sequence, uint32_t n)
 {
     uint32_t duplicates = 0;
     for (uint32_t i = 0; i < n; i++) {
         uint32_t place = sequence[i], vertex = mw__grow(g, place);
         if (MW_LIKELY(vertex == place)) continue;
-        if (ground->order[place] < ground->order[vertex]) exchange(&ground->order[place], &ground->order[vertex]);
+        if (ground->order[place] < ground->order[vertex]) mw__swap(&ground->order[place], &ground->order[vertex]);
         set_twin(&ground->point[place], vertex);
         duplicates++;
     }
@@ -143,14 +131,14 @@ static uint32_t find_ghost(const mw_growth *g, uint32_t from)
     return f;
 }
 
-static void grow(const mw_ground *ground, mw_patch *patch)
+static void patch_grow(const mw_ground *ground, mw_patch *patch)
 {
     uint32_t n = patch->to - patch->from, *sequence = ground->sequence + patch->from;
     mw__insertion_sequence(patch->from, n, sequence);
     mw_growth g = growth_of(ground, 0, 2 * patch->from);
     if (choose_first_three(g.point, sequence, n)) {
         mw__grow_begin(&g, sequence);
-        patch->duplicates = insert(ground, &g, sequence + 3, n - 3);
+        patch->duplicates = patch_insert(ground, &g, sequence + 3, n - 3);
         patch->ghost = find_ghost(&g, patch->from);
         patch->visited = g.visited;
         patch->spare = 2 * patch->to - 2;
@@ -166,17 +154,17 @@ static void take_in(const mw_ground *ground, mw_patch *patch, const mw_patch *gr
     uint32_t n = flat->to - flat->from, *sequence = ground->sequence + flat->from;
     mw__insertion_sequence(flat->from, n, sequence);
     mw_growth g = growth_of(ground, grown->ghost, 2 * flat->from);
-    patch->duplicates = grown->duplicates + insert(ground, &g, sequence, n);
+    patch->duplicates = grown->duplicates + patch_insert(ground, &g, sequence, n);
     clear_unused(&g, flat->to);
     patch->ghost = find_ghost(&g, patch->from);
     patch->visited = grown->visited + g.visited;
     patch->spare = grown->spare;
 }
 
-static void merge(const mw_ground *ground, mw_patch *patch, const mw_patch *half)
+static void patch_merge(const mw_ground *ground, mw_patch *patch, const mw_patch *half)
 {
     if (half[0].ghost == MW_NONE && half[1].ghost == MW_NONE) {
-        grow(ground, patch);
+        patch_grow(ground, patch);
     } else if (half[0].ghost == MW_NONE) {
         take_in(ground, patch, &half[1], &half[0]);
     } else if (half[1].ghost == MW_NONE) {
@@ -204,9 +192,9 @@ static void grow_rank(mw_patches *patches, const mw_ground *ground, uint32_t ran
         mw_patch *patch = &patches->patch[i];
         if (patch->rank != rank) continue;
         if (patch->half == MW_NONE)
-            grow(ground, patch);
+            patch_grow(ground, patch);
         else
-            merge(ground, patch, &patches->patch[patch->half]);
+            patch_merge(ground, patch, &patches->patch[patch->half]);
     }
 }
 

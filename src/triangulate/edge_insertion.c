@@ -71,12 +71,12 @@ static void *with_room(void *array, size_t *room, size_t n, size_t size)
     return larger;
 }
 
-static double cross(mw_point a, mw_point b)
+static double vector_cross(mw_point a, mw_point b)
 {
     return a.x * b.y - a.y * b.x;
 }
 
-static mw_point minus(mw_point a, mw_point b)
+static mw_point vector_minus(mw_point a, mw_point b)
 {
     return (mw_point){a.x - b.x, a.y - b.y};
 }
@@ -122,7 +122,7 @@ static uint32_t cut_one(const search *s, hand side, uint32_t top, uint32_t v)
 }
 
 /* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. Less where the work is spent. */
-static uint32_t cut(const search *s, hand side, uint32_t top, uint32_t v)
+static uint32_t search_cut(const search *s, hand side, uint32_t top, uint32_t v)
 {
     for (uint32_t old = NOWHERE; old != top && !is_spent(s->in);) {
         old = top;
@@ -131,7 +131,7 @@ static uint32_t cut(const search *s, hand side, uint32_t top, uint32_t v)
     return top;
 }
 
-static bool push(mw_insertion *in, uint32_t vertex, uint32_t below, uint32_t *top)
+static bool chain_push(mw_insertion *in, uint32_t vertex, uint32_t below, uint32_t *top)
 {
     mw_chain *chain = with_room(in->chain, &in->chain_room, in->chain_count + 1, sizeof *chain);
     if (!chain) return false;
@@ -156,7 +156,7 @@ static void set_turn(search *s)
     s->sine = usable ? s->worst.cross / length : 0;
 }
 
-/* What y leaves of what is behind it: the places z with cross(direction, z - y) < 0 (left chain) or > 0 (right chain).
+/* What y leaves of what is behind it: the places z with vector_cross(direction, z - y) < 0 (left chain) or > 0 (right chain).
  * Rounded: it only saves work. */
 typedef struct ray {
     mw_point y, direction;
@@ -166,7 +166,7 @@ typedef struct ray {
  * left chain. */
 static ray ray_from(const search *s, hand side, uint32_t vertex)
 {
-    mw_point y = s->in->point[vertex], d = minus(y, s->in->point[s->q]);
+    mw_point y = s->in->point[vertex], d = vector_minus(y, s->in->point[s->q]);
     double cosine = s->cosine, sine = side == LEFT ? -s->sine : s->sine;
     ray r = {y, {d.x * cosine - d.y * sine, d.x * sine + d.y * cosine}};
     if (!(fabs(r.direction.x) + fabs(r.direction.y) >= RAY_SHORTEST)) r.direction = (mw_point){0, 0};
@@ -177,14 +177,14 @@ static ray ray_from(const search *s, hand side, uint32_t vertex)
  * a dozen operations can bring about, and MW_UNDERFLOW_ERROR more than what underflows. */
 static double left_over(const ray *r, hand side, mw_point z)
 {
-    mw_point d = minus(z, r->y);
-    double value = cross(r->direction, d);
+    mw_point d = vector_minus(z, r->y);
+    double value = vector_cross(r->direction, d);
     double slack = (fabs(r->direction.x) + fabs(r->direction.y)) * (fabs(d.x) + fabs(d.y)) * RAY_ERROR;
     return (side == LEFT ? -value : value) + slack + MW_UNDERFLOW_ERROR;
 }
 
 /* Is nothing left of the edge from u, on the left, to v between the rays of two vertices? */
-static bool is_closed(const search *s, uint32_t left_vertex, uint32_t right_vertex, mw_point u, mw_point v)
+static bool search_is_closed(const search *s, uint32_t left_vertex, uint32_t right_vertex, mw_point u, mw_point v)
 {
     ray left = ray_from(s, LEFT, left_vertex), right = ray_from(s, RIGHT, right_vertex);
     double from_u = left_over(&left, LEFT, u), from_v = left_over(&left, LEFT, v);
@@ -198,7 +198,7 @@ static bool is_closed(const search *s, uint32_t left_vertex, uint32_t right_vert
 }
 
 /* Of two vertices of a chain, that whose ray leaves less near the new one, w. */
-static uint32_t narrower(const search *s, hand side, uint32_t old, uint32_t w)
+static uint32_t hand_narrower(const search *s, hand side, uint32_t old, uint32_t w)
 {
     ray r = ray_from(s, side, old);
     return left_over(&r, side, s->in->point[w]) < 0 ? old : w;
@@ -206,7 +206,7 @@ static uint32_t narrower(const search *s, hand side, uint32_t old, uint32_t w)
 
 /* --- the search --- */
 
-static uint32_t apex_of(const mw_insertion *in, uint32_t half)
+static uint32_t half_apex(const mw_insertion *in, uint32_t half)
 {
     return in->tri[mw__link_triangle(half)].v[mw__prev(mw__link_edge(half))];
 }
@@ -216,10 +216,10 @@ static bool is_open(const search *s, const mw_sight *next, uint32_t u, uint32_t 
 {
     const mw_insertion *in = s->in;
     if (next->half == MW_NONE || in->tri[mw__link_triangle(next->half)].user == MW_INSERTION_FIXED) return false;
-    return !is_closed(s, next->left_ray, next->right_ray, in->point[u], in->point[v]);
+    return !search_is_closed(s, next->left_ray, next->right_ray, in->point[u], in->point[v]);
 }
 
-static mw_insertion_result look(mw_insertion *in, mw_sight next)
+static mw_insertion_result insertion_look(mw_insertion *in, mw_sight next)
 {
     if (in->sight_count >= in->most_sights || in->sight_count >= MW_INSERTION_MOST_SIGHTS) return MW_INSERTION_SPENT;
     mw_sight *sight = with_room(in->sight, &in->sight_room, in->sight_count + 1, sizeof *sight);
@@ -230,7 +230,7 @@ static mw_insertion_result look(mw_insertion *in, mw_sight next)
 }
 
 /* Pass w, the apex beyond half-edge `half` of sight i: leave it on the given side, whose chain it joins. */
-static mw_insertion_result pass(search *s, uint32_t i, uint32_t w, hand side)
+static mw_insertion_result search_pass(search *s, uint32_t i, uint32_t w, hand side)
 {
     mw_insertion *in = s->in;
     mw_sight from = in->sight[i], next = from;
@@ -238,19 +238,19 @@ static mw_insertion_result pass(search *s, uint32_t i, uint32_t w, hand side)
     uint32_t e = mw__link_edge(from.half), u = tri->v[e], v = tri->v[e + 1];
     next.parent = i;
     if (side == LEFT) {
-        next.left_ray = narrower(s, LEFT, from.left_ray, w);
+        next.left_ray = hand_narrower(s, LEFT, from.left_ray, w);
         if (mw__orient2d(in->point[s->q], in->point[from.left_bound], in->point[w]) < 0) next.left_bound = w;
         next.half = tri->link[mw__next(e)];
         if (!is_open(s, &next, w, v)) return MW_INSERTION_NONE;
-        if (!push(in, w, cut(s, LEFT, from.left, w), &next.left)) return MW_INSERTION_MEMORY;
+        if (!chain_push(in, w, search_cut(s, LEFT, from.left, w), &next.left)) return MW_INSERTION_MEMORY;
     } else {
-        next.right_ray = narrower(s, RIGHT, from.right_ray, w);
+        next.right_ray = hand_narrower(s, RIGHT, from.right_ray, w);
         if (mw__orient2d(in->point[s->q], in->point[from.right_bound], in->point[w]) > 0) next.right_bound = w;
         next.half = tri->link[mw__prev(e)];
         if (!is_open(s, &next, u, w)) return MW_INSERTION_NONE;
-        if (!push(in, w, cut(s, RIGHT, from.right, w), &next.right)) return MW_INSERTION_MEMORY;
+        if (!chain_push(in, w, search_cut(s, RIGHT, from.right, w), &next.right)) return MW_INSERTION_MEMORY;
     }
-    return look(in, next);
+    return insertion_look(in, next);
 }
 
 /* Are both polygons cut up to the edge to w? Ears are cut on both sides in turn, so that where one side fails soon it
@@ -272,31 +272,31 @@ static bool is_better(const search *s, const mw_sight *from, uint32_t w)
     return false;
 }
 
-static mw_insertion_result begin(search *s, uint32_t half)
+static mw_insertion_result search_begin(search *s, uint32_t half)
 {
     mw_insertion *in = s->in;
     mw_sight first = {.half = half, .parent = NOWHERE, .left_bound = s->r, .right_bound = s->p};
     uint32_t bottom;
     in->sight_count = in->chain_count = 0;
-    if (!push(in, s->q, NOWHERE, &bottom) || !push(in, s->r, bottom, &first.left) ||
-        !push(in, s->p, bottom, &first.right))
+    if (!chain_push(in, s->q, NOWHERE, &bottom) || !chain_push(in, s->r, bottom, &first.left) ||
+        !chain_push(in, s->p, bottom, &first.right))
         return MW_INSERTION_MEMORY;
     first.left_ray = s->r;
     first.right_ray = s->p;
-    return is_open(s, &first, s->r, s->p) ? look(in, first) : MW_INSERTION_NONE;
+    return is_open(s, &first, s->r, s->p) ? insertion_look(in, first) : MW_INSERTION_NONE;
 }
 
 /* The sight beyond which lies an s that makes things better. Chains are cut in full as long as the work is not spent,
  * and none is used after. */
-static mw_insertion_result find(search *s, uint32_t half, uint32_t *found)
+static mw_insertion_result search_find(search *s, uint32_t half, uint32_t *found)
 {
     mw_insertion *in = s->in;
     const mw_point *point = in->point;
-    mw_insertion_result result = begin(s, half);
+    mw_insertion_result result = search_begin(s, half);
     for (uint32_t i = 0; result == MW_INSERTION_NONE && i < in->sight_count; i++) {
         if (is_spent(in)) return MW_INSERTION_SPENT;
         mw_sight from = in->sight[i];
-        uint32_t w = apex_of(in, from.half);
+        uint32_t w = half_apex(in, from.half);
         bool right_of_left = mw__orient2d(point[s->q], point[from.left_bound], point[w]) < 0;
         bool left_of_right = mw__orient2d(point[s->q], point[from.right_bound], point[w]) > 0;
         in->work += TRIANGLE_WORK;
@@ -305,8 +305,8 @@ static mw_insertion_result find(search *s, uint32_t half, uint32_t *found)
             return MW_INSERTION_DONE;
         }
         if (in->reach == 1) break;
-        if (left_of_right) result = pass(s, i, w, LEFT);
-        if (right_of_left && result == MW_INSERTION_NONE) result = pass(s, i, w, RIGHT);
+        if (left_of_right) result = search_pass(s, i, w, LEFT);
+        if (right_of_left && result == MW_INSERTION_NONE) result = search_pass(s, i, w, RIGHT);
     }
     return result == MW_INSERTION_NONE && is_spent(in) ? MW_INSERTION_SPENT : result;
 }
@@ -372,7 +372,7 @@ static void list_chains(const search *s, uint32_t k, mw_shore *chain[2], uint32_
     chain[RIGHT][right++] = step_over(in, 0, k, s->p);
     uint32_t half = in->tri[in->made[0]].link[mw__next(k)];
     for (uint32_t i = 1; i <= last; i++) {
-        uint32_t e = mw__link_edge(half), w = apex_of(in, half);
+        uint32_t e = mw__link_edge(half), w = half_apex(in, half);
         bool out_right = i < last && leads_to(in, i, mw__next(e), i + 1), out_left = i < last && !out_right;
         if (!out_left) chain[LEFT][left++] = step_over(in, i, mw__prev(e), w);
         if (!out_right) chain[RIGHT][right++] = step_over(in, i, mw__next(e), w);
@@ -384,7 +384,7 @@ static void list_chains(const search *s, uint32_t k, mw_shore *chain[2], uint32_
 
 /* Edge `half` of a new triangle lies where the step was. Where chains run along both sides of an edge, what lies beyond
  * a step is the triangle that has come in the place of the other one. */
-static void place(mw_insertion *in, uint32_t half, const mw_shore *step)
+static void insertion_place(mw_insertion *in, uint32_t half, const mw_shore *step)
 {
     uint32_t beyond = step->beyond;
     if (step->place != NOWHERE && beyond != MW_NONE && in->tri[mw__link_triangle(beyond)].user >= PLACE) {
@@ -402,8 +402,8 @@ static void write_ear(mw_insertion *in, hand side, uint32_t t, const mw_shore *a
     tri->v[0] = tri->v[3] = b->vertex;
     tri->v[1] = side == LEFT ? a->vertex : c->vertex;
     tri->v[2] = side == LEFT ? c->vertex : a->vertex;
-    place(in, mw__link(t, side == LEFT ? 0 : 2), b);
-    place(in, mw__link(t, side == LEFT ? 2 : 0), c);
+    insertion_place(in, mw__link(t, side == LEFT ? 0 : 2), b);
+    insertion_place(in, mw__link(t, side == LEFT ? 2 : 0), c);
     c->beyond = mw__link(t, 1);
     c->place = NOWHERE;
 }
@@ -422,7 +422,7 @@ static uint32_t write_side(const search *s, hand side, mw_shore *chain, uint32_t
     return chain[1].beyond;
 }
 
-static mw_insertion_result exchange(const search *s, uint32_t t, uint32_t k, uint32_t found)
+static mw_insertion_result search_exchange(const search *s, uint32_t t, uint32_t k, uint32_t found)
 {
     mw_insertion *in = s->in;
     if (!list_path(in, t, found)) return MW_INSERTION_MEMORY;
@@ -444,6 +444,6 @@ mw_insertion_result mw__insert_edge(mw_insertion *in, uint32_t t, uint32_t k)
     uint32_t q = tri->v[k], p = tri->v[mw__next(k)], r = tri->v[mw__prev(k)], found = 0;
     search s = {.in = in, .q = q, .p = p, .r = r, .worst = mw__angle(in->point[p], in->point[q], in->point[r])};
     set_turn(&s);
-    mw_insertion_result result = find(&s, tri->link[mw__next(k)], &found);
-    return result == MW_INSERTION_DONE ? exchange(&s, t, k, found) : result;
+    mw_insertion_result result = search_find(&s, tri->link[mw__next(k)], &found);
+    return result == MW_INSERTION_DONE ? search_exchange(&s, t, k, found) : result;
 }

@@ -40,28 +40,13 @@ static bool is_taken(const greedy *g, uint32_t half)
     return g->net.piece[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)] != MW_NONE;
 }
 
-static uint32_t link_of(const greedy *g, uint32_t half)
-{
-    return g->net.tri[mw__link_triangle(half)].link[mw__link_edge(half)];
-}
-
-static uint32_t start_of(const greedy *g, uint32_t half)
-{
-    return g->net.tri[mw__link_triangle(half)].v[mw__link_edge(half)];
-}
-
-static uint32_t end_of(const greedy *g, uint32_t half)
-{
-    return g->net.tri[mw__link_triangle(half)].v[mw__link_edge(half) + 1];
-}
-
 /* Turns round a vertex: counter-clockwise to the hull, then clockwise from the beginning. */
 typedef struct rotor {
     uint32_t half, first; /* half-edges that leave the vertex */
     bool clockwise;
 } rotor;
 
-static rotor rotor_at(const greedy *g, uint32_t vertex)
+static rotor greedy_rotor(const greedy *g, uint32_t vertex)
 {
     uint32_t t = g->net.at[vertex], k = 0;
     while (g->net.tri[t].v[k] != vertex) k++;
@@ -69,28 +54,28 @@ static rotor rotor_at(const greedy *g, uint32_t vertex)
 }
 
 /* Returns a half-edge between the vertex and `other`, or goes on to the next triangle and returns MW_NONE. */
-static uint32_t turn(const greedy *g, rotor *r, uint32_t other)
+static uint32_t greedy_rotor_turn(const greedy *g, rotor *r, uint32_t other)
 {
     uint32_t back = mw__half_prev(r->half);
-    if (end_of(g, r->half) == other) return r->half;
-    if (start_of(g, back) == other) return back;
-    if (!r->clockwise && link_of(g, back) != MW_NONE) {
-        r->half = link_of(g, back);
+    if (mw__half_end(g->net.tri, r->half) == other) return r->half;
+    if (mw__half_start(g->net.tri, back) == other) return back;
+    if (!r->clockwise && mw__half_link(g->net.tri, back) != MW_NONE) {
+        r->half = mw__half_link(g->net.tri, back);
         return MW_NONE;
     }
     if (!r->clockwise) r->half = r->first;
     r->clockwise = true;
-    r->half = mw__half_next(link_of(g, r->half));
+    r->half = mw__half_next(mw__half_link(g->net.tri, r->half));
     return MW_NONE;
 }
 
 /* A half-edge of the edge between a and b. Turns round both at once, for one of them may have a high degree. */
 static uint32_t half_between(const greedy *g, uint32_t a, uint32_t b)
 {
-    rotor at_a = rotor_at(g, a), at_b = rotor_at(g, b);
+    rotor at_a = greedy_rotor(g, a), at_b = greedy_rotor(g, b);
     for (;;) {
-        uint32_t half = turn(g, &at_a, b);
-        if (half == MW_NONE) half = turn(g, &at_b, a);
+        uint32_t half = greedy_rotor_turn(g, &at_a, b);
+        if (half == MW_NONE) half = greedy_rotor_turn(g, &at_b, a);
         if (half != MW_NONE) return half;
     }
 }
@@ -109,10 +94,15 @@ static bool add_corner(greedy *g, uint32_t a, uint32_t z, uint32_t b)
 static bool add_corners(greedy *g, uint32_t half)
 {
     uint32_t after = mw__half_next(half), before = mw__half_prev(half);
-    while (!is_taken(g, after) && link_of(g, after) != MW_NONE) after = mw__half_next(link_of(g, after));
-    while (!is_taken(g, before) && link_of(g, before) != MW_NONE) before = mw__half_prev(link_of(g, before));
-    if (is_taken(g, after) && !add_corner(g, start_of(g, half), end_of(g, half), end_of(g, after))) return false;
-    return !is_taken(g, before) || add_corner(g, start_of(g, before), start_of(g, half), end_of(g, half));
+    while (!is_taken(g, after) && mw__half_link(g->net.tri, after) != MW_NONE)
+        after = mw__half_next(mw__half_link(g->net.tri, after));
+    while (!is_taken(g, before) && mw__half_link(g->net.tri, before) != MW_NONE)
+        before = mw__half_prev(mw__half_link(g->net.tri, before));
+    if (is_taken(g, after) && !add_corner(g, mw__half_start(g->net.tri, half), mw__half_end(g->net.tri, half),
+                                          mw__half_end(g->net.tri, after)))
+        return false;
+    return !is_taken(g, before) || add_corner(g, mw__half_start(g->net.tri, before), mw__half_start(g->net.tri, half),
+                                              mw__half_end(g->net.tri, half));
 }
 
 /* Add the open edges of a triangle: each from one of its two triangles only. */
@@ -120,15 +110,15 @@ static bool add_edges(greedy *g, uint32_t t)
 {
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t half = mw__link(t, k);
-        if (half > link_of(g, half) || is_taken(g, half)) continue;
-        if (!mw__greedy_push(&g->heap, start_of(g, half), end_of(g, half))) return false;
+        if (half > mw__half_link(g->net.tri, half) || is_taken(g, half)) continue;
+        if (!mw__greedy_push(&g->heap, mw__half_start(g->net.tri, half), mw__half_end(g->net.tri, half))) return false;
     }
     return true;
 }
 
 /* Begin with an empty heap: all open edges, all corners. Done anew when half as many others as there are triangles may
  * have gathered in it, so memory and time stay in proportion. */
-static bool gather(greedy *g)
+static bool greedy_gather(greedy *g)
 {
     g->heap.count = 0;
     for (uint32_t t = 0; t < g->net.tri_count; t++) {
@@ -144,7 +134,7 @@ static bool gather(greedy *g)
 /* --- taking an edge --- */
 
 /* Put the triangle of a half-edge on the list if it is another than before. */
-static void visit(greedy *g, uint32_t half, uint32_t *count)
+static void greedy_visit(greedy *g, uint32_t half, uint32_t *count)
 {
     if (half == MW_NONE) return;
     uint32_t t = mw__link_triangle(half);
@@ -158,27 +148,27 @@ static void visit(greedy *g, uint32_t half, uint32_t *count)
 static bool add_changes(greedy *g, uint32_t half)
 {
     uint32_t count = 0;
-    visit(g, half, &count);
+    greedy_visit(g, half, &count);
     for (uint32_t i = 0; i < count; i++) {
         if (!add_edges(g, g->changed[i])) return false;
-        for (uint32_t k = 0; k < 3; k++) visit(g, link_of(g, mw__link(g->changed[i], k)), &count);
+        for (uint32_t k = 0; k < 3; k++) greedy_visit(g, mw__half_link(g->net.tri, mw__link(g->changed[i], k)), &count);
     }
     return true;
 }
 
 /* Take an edge if it is open. One with a vertex inside is not: what is forced in first of it, up to a vertex, is
  * shorter and therefore taken already, or crosses a taken edge. Returns false when out of memory. */
-static bool take(greedy *g, mw_greedy_edge edge)
+static bool greedy_take(greedy *g, mw_greedy_edge edge)
 {
     uint32_t from = edge.low, to = edge.high, taken = g->net.piece_count;
     mw_piece piece;
     if (mw__constrain(&g->net, &from, &to, &piece) == MW_CONSTRAIN_MEMORY) return false;
     if (g->net.piece_count == taken) return true;
-    uint32_t half = half_between(g, piece.from, piece.to), twin = link_of(g, half);
+    uint32_t half = half_between(g, piece.from, piece.to), twin = mw__half_link(g->net.tri, half);
     return add_corners(g, half) && (twin == MW_NONE || add_corners(g, twin)) && add_changes(g, half);
 }
 
-static bool create(greedy *g, mw_triangulation *t)
+static bool greedy_create(greedy *g, mw_triangulation *t)
 {
     bool created = mw__constrained_create(&g->net, t->point, t->point_count, t->tri, t->tri_count);
     g->heap.point = t->point;
@@ -187,7 +177,7 @@ static bool create(greedy *g, mw_triangulation *t)
     return created && g->seen && g->changed;
 }
 
-static void release(greedy *g)
+static void greedy_release(greedy *g)
 {
     mw__constrained_release(&g->net);
     free(g->heap.item);
@@ -200,11 +190,11 @@ mw_status mw__make_greedy(mw_triangulation *t, const mw_kind_options *options, m
     (void)options;
     (void)report;
     greedy g = {0};
-    bool done = create(&g, t) && gather(&g);
+    bool done = greedy_create(&g, t) && greedy_gather(&g);
     while (done && g.heap.count > 0) {
-        done = take(&g, mw__greedy_pop(&g.heap));
-        if (done && g.heap.count > g.limit) done = gather(&g);
+        done = greedy_take(&g, mw__greedy_pop(&g.heap));
+        if (done && g.heap.count > g.limit) done = greedy_gather(&g);
     }
-    release(&g);
+    greedy_release(&g);
     return done ? MW_OK : mw__fail_memory(error);
 }

@@ -41,7 +41,7 @@ mw_status mw__make_delaunay(mw_triangulation *t, const mw_kind_options *options,
 }
 
 /* The direction from p to another point, scaled by a power of two so that products stay among the doubles. */
-static mw_point direction(mw_point p, mw_point to)
+static mw_point unit_direction(mw_point p, mw_point to)
 {
     double x = to.x - p.x, y = to.y - p.y;
     if (!(fabs(x) <= DBL_MAX && fabs(y) <= DBL_MAX)) {
@@ -54,16 +54,16 @@ static mw_point direction(mw_point p, mw_point to)
 }
 
 /* Of the angle at corner b: its cotangent, the smaller the larger the angle is. */
-static double cotangent(mw_point a, mw_point b, mw_point c)
+static double angle_cotangent(mw_point a, mw_point b, mw_point c)
 {
     double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
     double cross = fabs(ux * vy - uy * vx), sum = fabs(ux * vy) + fabs(uy * vx);
     if (MW_LIKELY(sum < 0x1p900 && cross > 0x1p-900)) return (ux * vx + uy * vy) / cross;
-    mw_point u = direction(b, a), v = direction(b, c);
+    mw_point u = unit_direction(b, a), v = unit_direction(b, c);
     return (u.x * v.x + u.y * v.y) / fabs(u.x * v.y - u.y * v.x);
 }
 
-static void measure(const mw_triangulation *t, mw_kind_report *report)
+static void triangulation_measure(const mw_triangulation *t, mw_kind_report *report)
 {
     double least = INFINITY;
     for (uint32_t i = 0; i < t->tri_count; i++)
@@ -72,13 +72,13 @@ static void measure(const mw_triangulation *t, mw_kind_report *report)
             mw_point a = t->point[tri->v[k]], b = t->point[tri->v[k + 1]], c = t->point[tri->v[mw__prev(k)]];
             bool twice = tri->link[k] != MW_NONE && mw__link_triangle(tri->link[k]) < i;
             if (!twice) report->edge_length += hypot(b.x - a.x, b.y - a.y);
-            least = fmin(least, cotangent(a, b, c));
+            least = fmin(least, angle_cotangent(a, b, c));
         }
     report->largest_angle = atan2(1, least);
 }
 
 /* Number the records along a Hilbert curve, and link them anew. */
-static bool lay_out(mw_triangulation *t)
+static bool triangulation_lay_out(mw_triangulation *t)
 {
     uint32_t *order = mw__alloc(t->tri_count, sizeof *order);
     mw_triangle *tri = mw__alloc_lines(t->tri_count, sizeof *tri);
@@ -100,14 +100,14 @@ static bool lay_out(mw_triangulation *t)
 }
 
 /* The mesh is a Delaunay triangulation: make it one of the kind. */
-static mw_status convert(mw_triangulation_kind kind, mw_mesh *mesh, const mw_kind_options *options,
-                         mw_kind_report *report, mw_error *error)
+static mw_status kind_convert(mw_triangulation_kind kind, mw_mesh *mesh, const mw_kind_options *options,
+                              mw_kind_report *report, mw_error *error)
 {
     mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count};
     mw_status status = kinds[kind].make(&t, options, report, error);
-    if (status == MW_OK && kind != MW_DELAUNAY && !lay_out(&t)) status = mw__fail_memory(error);
+    if (status == MW_OK && kind != MW_DELAUNAY && !triangulation_lay_out(&t)) status = mw__fail_memory(error);
     mesh->tri = t.tri;
-    if (status == MW_OK) measure(&t, report);
+    if (status == MW_OK) triangulation_measure(&t, report);
     return status;
 }
 
@@ -124,7 +124,7 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
     mw_mesh *mesh;
     mw_status status = mw__delaunay_mesh(options->threads, kind == MW_DELAUNAY, points, n, stride, duplicate_of,
                                          &made.delaunay, &mesh, error);
-    if (status == MW_OK) status = convert(kind, mesh, options, &made, error);
+    if (status == MW_OK) status = kind_convert(kind, mesh, options, &made, error);
     if (status == MW_OK && !mw__lay_out_vertices(mesh, options->threads)) status = mw__fail_memory(error);
     if (status == MW_OK) {
         *out = mesh;

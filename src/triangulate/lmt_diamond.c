@@ -88,17 +88,10 @@ bool mw__edge_push(mw_edge_list *list, uint64_t key)
 
 /* --- the tree of boxes: node i has the children 2 i + 1 and 2 i + 2 --- */
 
-static double coordinate(const seeker *s, uint32_t i, int axis)
+static double seeker_coordinate(const seeker *s, uint32_t i, int axis)
 {
     mw_point p = s->points->scaled[s->order[i]];
     return axis == 0 ? p.x : p.y;
-}
-
-static void exchange(uint32_t *a, uint32_t *b)
-{
-    uint32_t t = *a;
-    *a = *b;
-    *b = t;
 }
 
 /* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare 1961]. */
@@ -106,12 +99,12 @@ static void select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_
 {
     int64_t low = begin, high = (int64_t)end - 1;
     while (low < high) {
-        double pivot = coordinate(s, (uint32_t)(low + (high - low) / 2), axis);
+        double pivot = seeker_coordinate(s, (uint32_t)(low + (high - low) / 2), axis);
         int64_t i = low, j = high;
         while (i <= j) {
-            while (coordinate(s, (uint32_t)i, axis) < pivot) i++;
-            while (coordinate(s, (uint32_t)j, axis) > pivot) j--;
-            if (i <= j) exchange(&s->order[i++], &s->order[j--]);
+            while (seeker_coordinate(s, (uint32_t)i, axis) < pivot) i++;
+            while (seeker_coordinate(s, (uint32_t)j, axis) > pivot) j--;
+            if (i <= j) mw__swap(&s->order[i++], &s->order[j--]);
         }
         if (middle <= j)
             high = j;
@@ -122,26 +115,26 @@ static void select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_
     }
 }
 
-static void bound(seeker *s, box *b)
+static void box_bound(seeker *s, box *b)
 {
     for (int axis = 0; axis < 2; axis++) {
         b->low[axis] = INFINITY;
         b->high[axis] = -INFINITY;
         for (uint32_t i = b->begin; i < b->end; i++) {
-            b->low[axis] = fmin(b->low[axis], coordinate(s, i, axis));
-            b->high[axis] = fmax(b->high[axis], coordinate(s, i, axis));
+            b->low[axis] = fmin(b->low[axis], seeker_coordinate(s, i, axis));
+            b->high[axis] = fmax(b->high[axis], seeker_coordinate(s, i, axis));
         }
     }
 }
 
-static void build(seeker *s, uint32_t vertex_count)
+static void seeker_build(seeker *s, uint32_t vertex_count)
 {
     s->node[0].reach = INFINITY;
     s->node[0].begin = 0;
     s->node[0].end = vertex_count;
     for (uint32_t i = 0; i < s->node_count; i++) {
         box *b = &s->node[i];
-        bound(s, b);
+        box_bound(s, b);
         if (i >= s->first_leaf) continue;
         uint32_t middle = b->begin + (b->end - b->begin) / 2;
         select_middle(s, b->begin, b->end, middle, b->high[0] - b->low[0] < b->high[1] - b->low[1]);
@@ -152,7 +145,7 @@ static void build(seeker *s, uint32_t vertex_count)
     }
 }
 
-static bool prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_count)
+static bool seeker_prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_count)
 {
     uint32_t leaves = 1;
     while (vertex_count / leaves > LEAF) leaves *= 2;
@@ -168,7 +161,7 @@ static bool prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_count)
         s->order[i] = vertex[i];
         s->reach[vertex[i]] = INFINITY;
     }
-    build(s, vertex_count);
+    seeker_build(s, vertex_count);
     double cosine = cos(BASE_ANGLE);
     s->stretch = 4 * cosine * cosine * (1 + LENGTH_MARGIN);
     s->tangent = tan(BASE_ANGLE) * (1 - LENGTH_MARGIN);
@@ -177,14 +170,14 @@ static bool prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_count)
 
 /* --- a heap, the nearest first --- */
 
-static void push(seeker *s, item it)
+static void seeker_push(seeker *s, item it)
 {
     uint32_t i = s->heap_count++;
     for (; i > 0 && s->heap[(i - 1) / 2].square > it.square; i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
     s->heap[i] = it;
 }
 
-static item pop(seeker *s)
+static item seeker_pop(seeker *s)
 {
     item top = s->heap[0], last = s->heap[--s->heap_count];
     uint32_t i = 0;
@@ -230,7 +223,7 @@ static void make_dead(arcs *a, double from, double to)
     }
 }
 
-static bool covers(const arcs *a, double from, double to)
+static bool arcs_cover(const arcs *a, double from, double to)
 {
     for (uint32_t i = 0; i < a->count; i++)
         if (a->arc[i].from < from && to < a->arc[i].to) return true;
@@ -240,12 +233,12 @@ static bool covers(const arcs *a, double from, double to)
 /* Are all directions dead from `from` counter-clockwise to `to`? */
 static bool all_dead(const seeker *s, double from, double to)
 {
-    if (from <= to) return covers(&s->left, from, to) && covers(&s->right, from, to);
+    if (from <= to) return arcs_cover(&s->left, from, to) && arcs_cover(&s->right, from, to);
     return all_dead(s, from, PI) && all_dead(s, -PI, to);
 }
 
 /* The points at less than the square of a distance, divided by 2 cos a, make their directions dead from there on. */
-static void activate(seeker *s, double square)
+static void seeker_activate(seeker *s, double square)
 {
     for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch + TINY < square; s->active++) {
         double angle = s->seen[s->active].angle;
@@ -293,23 +286,23 @@ static void open_box(seeker *s, uint32_t p, uint32_t number)
     if (is_hidden(s, at, b)) return;
     for (uint32_t child = 2 * number + 1; number < s->first_leaf && child <= 2 * number + 2; child++) {
         double square = box_square(&s->node[child], at);
-        if (square <= s->node[child].reach) push(s, (item){square, child, true});
+        if (square <= s->node[child].reach) seeker_push(s, (item){square, child, true});
     }
     for (uint32_t i = b->begin; number >= s->first_leaf && i < b->end; i++) {
         double square = mw__square(s->points, p, s->order[i]);
-        if (s->order[i] != p && square <= s->reach[s->order[i]]) push(s, (item){square, s->order[i], false});
+        if (s->order[i] != p && square <= s->reach[s->order[i]]) seeker_push(s, (item){square, s->order[i], false});
     }
 }
 
 /* Is b, another point than a and c, on the way from a to c? Exact. */
-static bool is_between(mw_point a, mw_point b, mw_point c)
+static bool point_is_between(mw_point a, mw_point b, mw_point c)
 {
     return fmin(a.x, c.x) <= b.x && b.x <= fmax(a.x, c.x) && fmin(a.y, c.y) <= b.y && b.y <= fmax(a.y, c.y) &&
            mw__orient2d(a, b, c) == 0;
 }
 
 /* Is a point near by on the way from p to q, or do such points lie surely in both triangles of that edge? */
-static bool fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double square)
+static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double square)
 {
     const mw_point *point = s->points->point;
     bool left = false, right = false;
@@ -317,7 +310,7 @@ static bool fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double sq
         mw_point w = s->nearest[i];
         double a = u.x * w.y, b = u.y * w.x, height = fabs(a - b), along = u.x * w.x + u.y * w.y;
         if (height <= LENGTH_MARGIN * (fabs(a) + fabs(b)) + TINY) {
-            if (along > 0 && is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
+            if (along > 0 && point_is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
             continue;
         }
         bool inside = height < s->tangent * along && height < s->tangent * (square - along - LENGTH_MARGIN * square);
@@ -336,12 +329,12 @@ static bool is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u)
 }
 
 /* Visit a point; is the edge to it a candidate? One that is not sharp may be, and rules out nothing. */
-static bool visit(seeker *s, uint32_t p, item it)
+static bool seeker_visit(seeker *s, uint32_t p, item it)
 {
     mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};
     double angle = atan2(u.y, u.x);
     bool sharp = is_sharp(s, p, it.number, u);
-    bool candidate = !all_dead(s, angle, angle) && !(sharp && fails(s, p, it.number, u, it.square));
+    bool candidate = !all_dead(s, angle, angle) && !(sharp && diamond_fails(s, p, it.number, u, it.square));
     if (!sharp) return candidate;
     s->seen[s->seen_count++] = (seen){it.square, angle};
     if (s->nearest_count < NEAREST) {
@@ -352,17 +345,17 @@ static bool visit(seeker *s, uint32_t p, item it)
 }
 
 /* Collect the candidates from p, unless more than `most` points come before it is closed. */
-static mw_lmt_result seek(seeker *s, uint32_t p, uint32_t most, mw_effort *effort, mw_edge_list *list)
+static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort *effort, mw_edge_list *list)
 {
     size_t before = list->count;
     s->heap_count = s->seen_count = s->active = s->nearest_count = 0;
     s->left.count = s->right.count = 0;
-    push(s, (item){0, 0, true});
+    seeker_push(s, (item){0, 0, true});
     while (s->heap_count > 0) {
         if (effort->steps < STEPS_PER_VISIT) return MW_LMT_SPENT;
         effort->steps -= STEPS_PER_VISIT;
-        item it = pop(s);
-        activate(s, it.square);
+        item it = seeker_pop(s);
+        seeker_activate(s, it.square);
         if (all_dead(s, -PI, PI)) {
             s->reach[p] = it.square;
             return MW_LMT_DONE;
@@ -372,7 +365,7 @@ static mw_lmt_result seek(seeker *s, uint32_t p, uint32_t most, mw_effort *effor
         } else if (s->seen_count == most) {
             list->count = before;
             return MW_LMT_DONE;
-        } else if (visit(s, p, it)) {
+        } else if (seeker_visit(s, p, it)) {
             if (list->count >= effort->candidates) return MW_LMT_SPENT;
             if (!mw__edge_push(list, mw__edge_key(p, it.number))) return MW_LMT_MEMORY;
         }
@@ -397,12 +390,12 @@ mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint3
                           mw_edge_list *list)
 {
     seeker s = {.points = points};
-    mw_lmt_result result = prepare(&s, vertex, vertex_count) ? MW_LMT_DONE : MW_LMT_MEMORY;
+    mw_lmt_result result = seeker_prepare(&s, vertex, vertex_count) ? MW_LMT_DONE : MW_LMT_MEMORY;
     for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
-        result = seek(&s, s.order[i], FEW, effort, list);
+        result = seeker_seek(&s, s.order[i], FEW, effort, list);
     if (result == MW_LMT_DONE) spread_reach(&s);
     for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
-        if (s.reach[s.order[i]] == INFINITY) result = seek(&s, s.order[i], UINT32_MAX, effort, list);
+        if (s.reach[s.order[i]] == INFINITY) result = seeker_seek(&s, s.order[i], UINT32_MAX, effort, list);
     free(s.reach);
     free(s.order);
     free(s.node);

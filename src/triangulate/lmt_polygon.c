@@ -27,7 +27,7 @@ typedef struct table {
     double *row;          /* per corner m: the weight of the chord im, INFINITY without one    */
 } table;
 
-static void release(table *t)
+static void table_release(table *t)
 {
     free(t->first_up);
     free(t->up);
@@ -37,7 +37,7 @@ static void release(table *t)
     free(t->row);
 }
 
-static void add_up(size_t *first, uint32_t n)
+static void prefix_sums(size_t *first, uint32_t n)
 {
     size_t sum = 0;
     for (uint32_t i = 0; i <= n; i++) first[i] = sum += first[i];
@@ -52,10 +52,10 @@ static bool sort_chords(table *t, const mw_polygon *p)
     bool done = by_high && first;
     if (done) {
         for (size_t c = 0; c < p->chord_count; c++) first[p->chord[c].high]++;
-        add_up(first, n);
+        prefix_sums(first, n);
         for (size_t c = p->chord_count; c-- > 0;) by_high[--first[p->chord[c].high]] = (uint32_t)c;
         for (size_t c = 0; c < p->chord_count; c++) t->first_up[p->chord[c].low]++;
-        add_up(t->first_up, n);
+        prefix_sums(t->first_up, n);
         for (size_t c = p->chord_count; c-- > 0;) t->up[--t->first_up[p->chord[by_high[c]].low]] = by_high[c];
     }
     free(by_high);
@@ -63,7 +63,7 @@ static bool sort_chords(table *t, const mw_polygon *p)
     return done;
 }
 
-static bool create(table *t, const mw_polygon *p)
+static bool table_create(table *t, const mw_polygon *p)
 {
     uint32_t n = p->corner_count;
     *t = (table){.corner_count = n};
@@ -99,7 +99,7 @@ static void close_chord(table *t, uint32_t i, uint32_t j, double length)
     t->down[t->first_down[j] + t->down_count[j]++] = best;
 }
 
-static void fill(table *t, const mw_polygon *p)
+static void table_fill(table *t, const mw_polygon *p)
 {
     uint32_t n = t->corner_count;
     for (uint32_t i = n - 1; i-- > 0;) {
@@ -113,7 +113,7 @@ static void fill(table *t, const mw_polygon *p)
     }
 }
 
-static uint32_t apex_of(const table *t, uint32_t i, uint32_t j)
+static uint32_t chord_apex(const table *t, uint32_t i, uint32_t j)
 {
     const end *list = &t->down[t->first_down[j]];
     uint32_t below = 0, above = t->down_count[j] - 1;
@@ -128,13 +128,13 @@ static uint32_t apex_of(const table *t, uint32_t i, uint32_t j)
 }
 
 /* Chords still to be opened are kept in the room of the corners not yet written: there are never more of them. */
-static void collect(const table *t, uint32_t *corners)
+static void table_collect(const table *t, uint32_t *corners)
 {
     size_t written = 0, open = 3 * ((size_t)t->corner_count - 2);
     corners[--open] = 0;
     corners[--open] = t->corner_count - 1;
     while (open < 3 * ((size_t)t->corner_count - 2)) {
-        uint32_t j = corners[open++], i = corners[open++], m = apex_of(t, i, j);
+        uint32_t j = corners[open++], i = corners[open++], m = chord_apex(t, i, j);
         corners[written++] = i;
         corners[written++] = m;
         corners[written++] = j;
@@ -163,11 +163,11 @@ bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps)
 bool mw__polygon_fill(const mw_polygon *polygon, uint32_t *corners)
 {
     table t;
-    bool done = create(&t, polygon);
+    bool done = table_create(&t, polygon);
     if (done) {
-        fill(&t, polygon);
-        collect(&t, corners);
+        table_fill(&t, polygon);
+        table_collect(&t, corners);
     }
-    release(&t);
+    table_release(&t);
     return done;
 }

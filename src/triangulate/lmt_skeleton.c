@@ -25,17 +25,17 @@ typedef struct apexes {
     bool overflow;
 } apexes;
 
-static uint32_t target(const mw_lmt *lmt, uint32_t half)
+static uint32_t half_target(const mw_lmt *lmt, uint32_t half)
 {
     return lmt->from[half ^ 1];
 }
 
-static uint32_t degree(const mw_lmt *lmt, uint32_t v)
+static uint32_t vertex_degree(const mw_lmt *lmt, uint32_t v)
 {
     return lmt->first[v + 1] - lmt->first[v];
 }
 
-static double side(const mw_lmt *lmt, uint32_t a, uint32_t b, uint32_t c)
+static double skeleton_side(const mw_lmt *lmt, uint32_t a, uint32_t b, uint32_t c)
 {
     const mw_point *point = lmt->points->point;
     return mw__orient2d(point[a], point[b], point[c]);
@@ -60,28 +60,29 @@ static int by_angle(const void *a, const void *b)
 }
 
 /* Is direction vp before direction vq, counter-clockwise from the direction to the left on? Exact. */
-static bool is_before(const mw_lmt *lmt, uint32_t v, uint32_t p, uint32_t q)
+static bool neighbour_is_before(const mw_lmt *lmt, uint32_t v, uint32_t p, uint32_t q)
 {
     const mw_point *point = lmt->points->point;
     bool p_up = point[p].y >= point[v].y, q_up = point[q].y >= point[v].y;
     if (p_up != q_up) return q_up;
-    double turn = side(lmt, v, p, q);
+    double turn = skeleton_side(lmt, v, p, q);
     return turn != 0 ? turn > 0 : point[p].x > point[v].x && point[q].x < point[v].x;
 }
 
 /* Sorted by rounded angles first, so that the exact sort has little to do. */
 static void sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
 {
-    uint32_t begin = lmt->first[v], n = degree(lmt, v);
+    uint32_t begin = lmt->first[v], n = vertex_degree(lmt, v);
     const mw_point *at = lmt->points->scaled;
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t half = lmt->ring[begin + i], w = target(lmt, half);
+        uint32_t half = lmt->ring[begin + i], w = half_target(lmt, half);
         spokes[i] = (spoke){atan2(at[w].y - at[v].y, at[w].x - at[v].x), half};
     }
     qsort(spokes, n, sizeof *spokes, by_angle);
     for (uint32_t i = 0; i < n; i++) {
         uint32_t half = spokes[i].half, j = i;
-        for (; j > 0 && is_before(lmt, v, target(lmt, half), target(lmt, lmt->ring[begin + j - 1])); j--)
+        for (; j > 0 && neighbour_is_before(lmt, v, half_target(lmt, half), half_target(lmt, lmt->ring[begin + j - 1]));
+             j--)
             lmt->ring[begin + j] = lmt->ring[begin + j - 1];
         lmt->ring[begin + j] = half;
     }
@@ -91,7 +92,8 @@ static void sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
 static bool sort_rings(mw_lmt *lmt)
 {
     uint32_t most = 0;
-    for (uint32_t v = 0; v < lmt->points->count; v++) most = degree(lmt, v) > most ? degree(lmt, v) : most;
+    for (uint32_t v = 0; v < lmt->points->count; v++)
+        most = vertex_degree(lmt, v) > most ? vertex_degree(lmt, v) : most;
     spoke *spokes = mw__alloc(most, sizeof *spokes);
     if (!spokes) return false;
     for (uint32_t v = 0; v < lmt->points->count; v++) sort_ring(lmt, v, spokes);
@@ -137,16 +139,16 @@ void mw__lmt_release(mw_lmt *lmt)
 /* --- the triangles over an edge --- */
 
 /* The living edge between two vertices, or MW_NONE. */
-static uint32_t find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *steps)
+static uint32_t edge_find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *steps)
 {
-    if (degree(lmt, a) > degree(lmt, b)) {
+    if (vertex_degree(lmt, a) > vertex_degree(lmt, b)) {
         uint32_t t = a;
         a = b;
         b = t;
     }
     for (uint32_t i = lmt->first[a]; i < lmt->first[a + 1]; i++) {
         ++*steps;
-        if (target(lmt, lmt->ring[i]) == b) return is_alive(lmt, lmt->ring[i]) ? lmt->ring[i] / 2 : MW_NONE;
+        if (half_target(lmt, lmt->ring[i]) == b) return is_alive(lmt, lmt->ring[i]) ? lmt->ring[i] / 2 : MW_NONE;
     }
     return MW_NONE;
 }
@@ -156,27 +158,27 @@ static uint32_t find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *steps)
 static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_t *steps)
 {
     bool left = true;
-    if (degree(lmt, lmt->from[half]) > degree(lmt, target(lmt, half))) {
+    if (vertex_degree(lmt, lmt->from[half]) > vertex_degree(lmt, half_target(lmt, half))) {
         half ^= 1;
         left = false;
     }
-    uint32_t a = lmt->from[half], b = target(lmt, half), nearest = MW_NONE;
+    uint32_t a = lmt->from[half], b = half_target(lmt, half), nearest = MW_NONE;
     uint32_t begin = lmt->first[a], end = lmt->first[a + 1], i = lmt->place[half];
     found->count = 0;
     found->overflow = false;
     for (uint32_t turns = 1; turns < end - begin; turns++) {
         i = left ? (i + 1 == end ? begin : i + 1) : (i == begin ? end - 1 : i - 1);
         ++*steps;
-        uint32_t l = target(lmt, lmt->ring[i]);
-        double up = side(lmt, a, b, l);
+        uint32_t l = half_target(lmt, lmt->ring[i]);
+        double up = skeleton_side(lmt, a, b, l);
         if (left ? up <= 0 : up >= 0) return;
         if (nearest != MW_NONE) {
-            double nearer = side(lmt, b, nearest, l);
+            double nearer = skeleton_side(lmt, b, nearest, l);
             if (left ? nearer <= 0 : nearer >= 0) continue;
         }
         nearest = l;
         if (!is_alive(lmt, lmt->ring[i])) continue;
-        uint32_t other = find(lmt, b, l, steps);
+        uint32_t other = edge_find(lmt, b, l, steps);
         if (other == MW_NONE) continue;
         if (found->count == APEXES) {
             found->overflow = true;
@@ -198,7 +200,7 @@ static bool is_minimal(const mw_lmt *lmt, uint32_t e, const apexes *left, const 
             ++*steps;
             uint32_t l = left->apex[i].vertex, r = right->apex[j].vertex;
             if (!mw__surely_longer(square, mw__square(lmt->points, l, r))) return true;
-            if (side(lmt, l, a, r) <= 0 || side(lmt, r, b, l) <= 0) return true;
+            if (skeleton_side(lmt, l, a, r) <= 0 || skeleton_side(lmt, r, b, l) <= 0) return true;
         }
     return false;
 }
@@ -209,7 +211,7 @@ typedef struct work {
     uint32_t head, count; /* of the queue */
 } work;
 
-static void enqueue(mw_lmt *lmt, work *w, uint32_t e)
+static void edge_enqueue(mw_lmt *lmt, work *w, uint32_t e)
 {
     if ((lmt->state[e] & (MW_LMT_ALIVE | MW_LMT_KNOWN | MW_LMT_QUEUED)) != MW_LMT_ALIVE) return;
     lmt->state[e] |= MW_LMT_QUEUED;
@@ -219,15 +221,15 @@ static void enqueue(mw_lmt *lmt, work *w, uint32_t e)
 static void enqueue_sides(mw_lmt *lmt, work *w, const apexes *found)
 {
     for (uint32_t i = 0; i < found->count; i++) {
-        enqueue(lmt, w, found->apex[i].side[0]);
-        enqueue(lmt, w, found->apex[i].side[1]);
+        edge_enqueue(lmt, w, found->apex[i].side[0]);
+        edge_enqueue(lmt, w, found->apex[i].side[1]);
     }
 }
 
 void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort)
 {
     work w = {0, 0};
-    for (uint32_t e = 0; e < lmt->edge_count; e++) enqueue(lmt, &w, e);
+    for (uint32_t e = 0; e < lmt->edge_count; e++) edge_enqueue(lmt, &w, e);
     while (w.count > 0) {
         uint32_t e = lmt->queue[w.head];
         w.head = w.head + 1 == lmt->edge_count ? 0 : w.head + 1;

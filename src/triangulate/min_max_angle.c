@@ -56,7 +56,7 @@ static void sift_up(heap *h, size_t i, entry e)
     h->at[i] = e;
 }
 
-static entry pop(heap *h)
+static entry heap_pop(heap *h)
 {
     entry top = h->at[0], last = h->at[--h->count];
     size_t i = 0, child;
@@ -84,7 +84,7 @@ static entry entry_of(const heap *h, const mw_triangle *tri, uint32_t t)
     return best;
 }
 
-static bool push(heap *h, const mw_triangle *tri, uint32_t t)
+static bool heap_push(heap *h, const mw_triangle *tri, uint32_t t)
 {
     if (h->count == h->room) {
         size_t room = h->room + h->room / 2 + 64;
@@ -120,7 +120,7 @@ static bool push_again(improvement *m, uint32_t t)
         uint32_t link = tri[t].link[k], n = mw__link_triangle(link);
         if (link == MW_NONE || tri[n].user != MW_INSERTION_TRIED) continue;
         tri[n].user = MW_INSERTION_FREE;
-        if (!push(&m->heap, tri, n)) return false;
+        if (!heap_push(&m->heap, tri, n)) return false;
     }
     return true;
 }
@@ -129,30 +129,30 @@ static bool push_made(improvement *m)
 {
     const mw_insertion *in = &m->insertion;
     for (uint32_t i = 0; i < in->made_count; i++) {
-        if (!push(&m->heap, m->t->tri, in->made[i])) return false;
+        if (!heap_push(&m->heap, m->t->tri, in->made[i])) return false;
         if (!push_again(m, in->made[i])) return false;
     }
     return true;
 }
 
 /* Put all free triangles on the heap, and nothing else: those that are on it already, less what is out of date. */
-static bool fill(improvement *m)
+static bool improvement_fill(improvement *m)
 {
     m->heap.count = 0;
     for (uint32_t i = 0; i < m->t->tri_count; i++)
-        if (m->t->tri[i].user == MW_INSERTION_FREE && !push(&m->heap, m->t->tri, i)) return false;
+        if (m->t->tri[i].user == MW_INSERTION_FREE && !heap_push(&m->heap, m->t->tri, i)) return false;
     return true;
 }
 
 static bool add_made(improvement *m)
 {
     if (!push_made(m)) return false;
-    return m->heap.count / (ENTRIES_PER_TRIANGLE + 1) < m->t->tri_count || fill(m);
+    return m->heap.count / (ENTRIES_PER_TRIANGLE + 1) < m->t->tri_count || improvement_fill(m);
 }
 
 /* Improve by edges that cross at most `reach` others, until nothing is left to try or a limit is reached. *proved: an
  * attempt has failed. */
-static mw_status improve(improvement *m, uint32_t reach, mw_angle_limits limits, bool *proved)
+static mw_status improvement_run(improvement *m, uint32_t reach, mw_angle_limits limits, bool *proved)
 {
     mw_triangle *tri = m->t->tri;
     mw_insertion_result result = MW_INSERTION_NONE;
@@ -160,9 +160,9 @@ static mw_status improve(improvement *m, uint32_t reach, mw_angle_limits limits,
     m->insertion.most_work = limits.most_work;
     m->insertion.most_sights = limits.most_sights;
     for (uint32_t i = 0; i < m->t->tri_count; i++) tri[i].user = MW_INSERTION_FREE;
-    if (!fill(m)) return MW_ERROR_MEMORY;
+    if (!improvement_fill(m)) return MW_ERROR_MEMORY;
     while (m->heap.count > 0 && result != MW_INSERTION_SPENT) {
-        entry e = pop(&m->heap);
+        entry e = heap_pop(&m->heap);
         uint32_t k = corner_of(&e, &tri[e.triangle]);
         if (k == 3 || tri[e.triangle].user != MW_INSERTION_FREE) continue;
         result = mw__insert_edge(&m->insertion, e.triangle, k);
@@ -182,8 +182,8 @@ mw_status mw__min_max_angle_within(mw_triangulation *t, mw_angle_limits limits, 
     mw_status status = MW_OK;
     bool ignored;
     *proved = false;
-    if (limits.most_work > 0) status = improve(&m, UINT32_MAX, limits, proved);
-    if (status == MW_OK) status = improve(&m, 1, none, &ignored);
+    if (limits.most_work > 0) status = improvement_run(&m, UINT32_MAX, limits, proved);
+    if (status == MW_OK) status = improvement_run(&m, 1, none, &ignored);
     mw__insertion_release(&m.insertion);
     free(m.heap.at);
     return status;

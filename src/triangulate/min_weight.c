@@ -56,7 +56,7 @@ static mw_triangle *triangle_of(const weigher *w, uint32_t link)
     return &w->t->tri[mw__link_triangle(link)];
 }
 
-static double side(const weigher *w, uint32_t a, uint32_t b, uint32_t c)
+static double vertex_side(const weigher *w, uint32_t a, uint32_t b, uint32_t c)
 {
     return mw__orient2d(w->t->point[a], w->t->point[b], w->t->point[c]);
 }
@@ -76,26 +76,18 @@ static void set_mark(const weigher *w, uint32_t half)
     w->mark[mw__link_triangle(half)] |= (uint8_t)(1u << mw__link_edge(half));
 }
 
-static uint32_t link_of(const weigher *w, uint32_t half)
-{
-    return triangle_of(w, half)->link[mw__link_edge(half)];
-}
-
-static uint32_t start_of(const weigher *w, uint32_t half)
-{
-    return triangle_of(w, half)->v[mw__link_edge(half)];
-}
-
 /* --- locally minimal --- */
 
 /* Exchange the edge `half` for the other diagonal. The new triangles have their edges where they were, so that the four
  * around are edges 1 and 2 of one and of the other. */
-static void exchange(const weigher *w, uint32_t half)
+static void half_exchange(const weigher *w, uint32_t half)
 {
-    uint32_t twin = link_of(w, half), a = start_of(w, half), b = start_of(w, twin);
-    uint32_t p = start_of(w, mw__half_prev(half)), q = start_of(w, mw__half_prev(twin));
-    uint32_t around[4] = {link_of(w, mw__half_prev(half)), link_of(w, mw__half_next(twin)),
-                          link_of(w, mw__half_prev(twin)), link_of(w, mw__half_next(half))}; /* pa, aq, qb, bp */
+    uint32_t twin = mw__half_link(w->t->tri, half), a = mw__half_start(w->t->tri, half),
+             b = mw__half_start(w->t->tri, twin);
+    uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)), q = mw__half_start(w->t->tri, mw__half_prev(twin));
+    uint32_t around[4] = {mw__half_link(w->t->tri, mw__half_prev(half)), mw__half_link(w->t->tri, mw__half_next(twin)),
+                          mw__half_link(w->t->tri, mw__half_prev(twin)),
+                          mw__half_link(w->t->tri, mw__half_next(half))}; /* pa, aq, qb, bp */
     uint32_t s = mw__link_triangle(half), t = mw__link_triangle(twin);
     w->t->tri[s] = (mw_triangle){{q, p, a, q}, {mw__link(t, 0), around[0], around[1]}, 0};
     w->t->tri[t] = (mw_triangle){{p, q, b, p}, {mw__link(s, 0), around[2], around[3]}, 0};
@@ -106,18 +98,18 @@ static void exchange(const weigher *w, uint32_t half)
 
 static bool is_too_long(const weigher *w, uint32_t half)
 {
-    uint32_t twin = link_of(w, half);
+    uint32_t twin = mw__half_link(w->t->tri, half);
     if (twin == MW_NONE) return false;
-    uint32_t a = start_of(w, half), b = start_of(w, twin);
-    uint32_t p = start_of(w, mw__half_prev(half)), q = start_of(w, mw__half_prev(twin));
-    return mw__surely_longer(mw__square(&w->points, a, b), mw__square(&w->points, p, q)) && side(w, p, a, q) > 0 &&
-           side(w, q, b, p) > 0;
+    uint32_t a = mw__half_start(w->t->tri, half), b = mw__half_start(w->t->tri, twin);
+    uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)), q = mw__half_start(w->t->tri, mw__half_prev(twin));
+    return mw__surely_longer(mw__square(&w->points, a, b), mw__square(&w->points, p, q)) &&
+           vertex_side(w, p, a, q) > 0 && vertex_side(w, q, b, p) > 0;
 }
 
 enum { ALL_EDGES = 7, OUTER_EDGES = 6, ON_STACK = 8 };
 
 /* Each exchange makes the sum of lengths surely less, so this ends. It leaves no mark. */
-static void shorten(weigher *w)
+static void weigher_shorten(weigher *w)
 {
     uint32_t count = w->t->tri_count;
     for (uint32_t t = 0; t < count; t++) {
@@ -132,10 +124,10 @@ static void shorten(weigher *w)
             count--;
             continue;
         }
-        uint32_t half = mw__link(t, k), other = mw__link_triangle(link_of(w, half));
+        uint32_t half = mw__link(t, k), other = mw__link_triangle(mw__half_link(w->t->tri, half));
         w->mark[t] &= (uint8_t) ~(1u << k);
         if (!is_too_long(w, half)) continue;
-        exchange(w, half);
+        half_exchange(w, half);
         if (!(w->mark[other] & ON_STACK)) w->list[count++] = other;
         w->mark[t] |= OUTER_EDGES;
         w->mark[other] |= OUTER_EDGES | ON_STACK;
@@ -160,13 +152,14 @@ static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *step
     bool clockwise = false;
     do {
         ++*steps;
-        if (side(w, u, start_of(w, mw__half_next(half)), v) > 0 && side(w, u, start_of(w, mw__half_prev(half)), v) < 0)
+        if (vertex_side(w, u, mw__half_start(w->t->tri, mw__half_next(half)), v) > 0 &&
+            vertex_side(w, u, mw__half_start(w->t->tri, mw__half_prev(half)), v) < 0)
             return half;
-        uint32_t beyond = clockwise ? link_of(w, half) : link_of(w, mw__half_prev(half));
+        uint32_t beyond = clockwise ? mw__half_link(w->t->tri, half) : mw__half_link(w->t->tri, mw__half_prev(half));
         if (beyond == MW_NONE && !clockwise) { /* the hull: turn the other way from the beginning */
             clockwise = true;
             half = first;
-            beyond = link_of(w, first);
+            beyond = mw__half_link(w->t->tri, first);
         }
         if (beyond == MW_NONE) return MW_NONE;
         half = clockwise ? mw__half_next(beyond) : beyond;
@@ -175,13 +168,13 @@ static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *step
 }
 
 /* Walk through T from u to v, no neighbour of it; false if there is a point on the way. */
-static bool walk(const weigher *w, uint32_t u, uint32_t v, bool marking, crossing *way, uint64_t *steps)
+static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking, crossing *way, uint64_t *steps)
 {
     uint32_t half = way_out(w, u, v, steps);
     if (half == MW_NONE) return false;
     way->from = half;
     for (half = mw__half_next(half);; ++*steps) {
-        uint32_t twin = link_of(w, half), apex = start_of(w, mw__half_prev(twin));
+        uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (marking) {
             set_mark(w, half);
             set_mark(w, twin);
@@ -190,7 +183,7 @@ static bool walk(const weigher *w, uint32_t u, uint32_t v, bool marking, crossin
             way->to = mw__half_prev(twin);
             return true;
         }
-        double turn = side(w, u, v, apex);
+        double turn = vertex_side(w, u, v, apex);
         if (turn == 0) return false;
         half = turn > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
@@ -214,7 +207,7 @@ static bool push_known(weigher *w)
 }
 
 /* Keep, once each, the edges of T and those that were found from both ends and hold no point. */
-static bool sift(weigher *w, mw_effort *effort)
+static bool weigher_sift(weigher *w, mw_effort *effort)
 {
     mw_edge_list *list = &w->edges;
     size_t kept = 0;
@@ -224,7 +217,8 @@ static bool sift(weigher *w, mw_effort *effort)
         for (next = i + 1; next < list->count && (list->key[next] | MW_EDGE_KNOWN) == edge; next++)
             last = list->key[next];
         crossing way;
-        if (last == edge || (next - i == 2 && walk(w, mw__edge_low(edge), mw__edge_high(edge), false, &way, &steps)))
+        if (last == edge ||
+            (next - i == 2 && weigher_walk(w, mw__edge_low(edge), mw__edge_high(edge), false, &way, &steps)))
             list->key[kept++] = last;
         if (effort->steps <= steps) return false;
         effort->steps -= steps;
@@ -242,7 +236,7 @@ static mw_lmt_result find_candidates(weigher *w, mw_effort effort)
     mw_lmt_result result = mw__diamond(&w->points, used, count, &effort, &w->edges);
     free(used);
     if (result == MW_LMT_DONE && !push_known(w)) result = MW_LMT_MEMORY;
-    if (result == MW_LMT_DONE && !sift(w, &effort)) result = MW_LMT_SPENT;
+    if (result == MW_LMT_DONE && !weigher_sift(w, &effort)) result = MW_LMT_SPENT;
     return result;
 }
 
@@ -260,7 +254,7 @@ static mw_lmt_result mark_crossed(weigher *w, mw_effort effort)
         if (w->lmt.state[e] != MW_LMT_ALIVE) continue;
         crossing *way = &w->crossing[count];
         uint64_t steps = 0;
-        walk(w, w->lmt.from[2 * e], w->lmt.from[2 * e + 1], true, way, &steps);
+        weigher_walk(w, w->lmt.from[2 * e], w->lmt.from[2 * e + 1], true, way, &steps);
         way->next = w->chain[mw__link_triangle(way->from)];
         w->chain[mw__link_triangle(way->from)] = (uint32_t)count++;
         if (effort.steps <= steps) return MW_LMT_SPENT;
@@ -301,7 +295,7 @@ enum {
     TREE_SHIFT = 4
 }; /* marked edges that join a triangle to one found before have a second mark, this much higher */
 
-static face find_face(weigher *w, uint32_t first)
+static face weigher_find_face(weigher *w, uint32_t first)
 {
     face f = {0};
     uint32_t joints = 0; /* marked edges, counted from both sides */
@@ -335,11 +329,11 @@ static void cut_open(const weigher *w, face *f)
 /* Does a candidate cross none of the edges along which its face was cut? */
 static bool stays_inside(const weigher *w, const crossing *way)
 {
-    uint32_t u = start_of(w, way->from), v = start_of(w, way->to);
+    uint32_t u = mw__half_start(w->t->tri, way->from), v = mw__half_start(w->t->tri, way->to);
     for (uint32_t half = mw__half_next(way->from); has_mark(w, half);) {
-        uint32_t twin = link_of(w, half), apex = start_of(w, mw__half_prev(twin));
+        uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (apex == v) return true;
-        half = side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
+        half = vertex_side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
     return false;
 }
@@ -352,8 +346,8 @@ static void number_corners(weigher *w, const face *f)
         if (!is_marked(w, w->list[f->triangles - 1], k)) half = mw__link(w->list[f->triangles - 1], k);
     for (uint32_t i = 0; i < f->border; i++) {
         number = number + 1 == f->border ? 0 : number + 1;
-        w->vertex[number] = start_of(w, mw__half_next(half));
-        for (half = mw__half_next(half);; half = mw__half_next(link_of(w, half))) {
+        w->vertex[number] = mw__half_start(w->t->tri, mw__half_next(half));
+        for (half = mw__half_next(half);; half = mw__half_next(mw__half_link(w->t->tri, half))) {
             w->corner[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)] = number;
             if (!has_mark(w, half)) break;
         }
@@ -386,7 +380,7 @@ static size_t gather_chords(const weigher *w, const face *f, mw_chord *chord)
         uint32_t t = w->list[i];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t half = mw__link(t, k);
-            if (has_mark(w, half) && mw__link_triangle(link_of(w, half)) > t)
+            if (has_mark(w, half) && mw__link_triangle(mw__half_link(w->t->tri, half)) > t)
                 chord[count++] = make_chord(w, corner_at(w, half), corner_at(w, mw__half_next(half)));
         }
         for (uint32_t c = w->chain[t]; c != MW_NONE; c = w->crossing[c].next) {
@@ -399,7 +393,7 @@ static size_t gather_chords(const weigher *w, const face *f, mw_chord *chord)
 }
 
 /* May this polygon be filled, for what has been spent so far? */
-static bool afford(weigher *w, uint32_t limit, const mw_polygon *p, bool *filling)
+static bool weigher_afford(weigher *w, uint32_t limit, const mw_polygon *p, bool *filling)
 {
     uint64_t steps = 0;
     *filling = limit > 0 && p->corner_count <= limit;
@@ -434,7 +428,7 @@ static bool fill_face(weigher *w, face *f, uint32_t limit, bool *filled)
     if (!chord) return false;
     number_corners(w, f);
     mw_polygon p = {f->border, chord, gather_chords(w, f, chord)};
-    bool done = afford(w, limit, &p, filled);
+    bool done = weigher_afford(w, limit, &p, filled);
     if (done && *filled) done = write_triangles(w, f, &p);
     if (f->is_cut) *filled = false;
     free(chord);
@@ -445,7 +439,7 @@ static bool fill_faces(weigher *w, uint32_t limit, mw_kind_report *report)
 {
     for (uint32_t t = 0; t < w->t->tri_count; t++) {
         if (w->seen[t]) continue;
-        face f = find_face(w, t);
+        face f = weigher_find_face(w, t);
         if (f.triangles == 1) continue;
         report->faces++;
         if (f.border > report->largest_face) report->largest_face = f.border;
@@ -462,7 +456,7 @@ static bool shorten_again(weigher *w)
     for (uint32_t t = 0; t < w->t->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) w->t->tri[t].link[k] = MW_NONE;
     if (!mw__connect(w->t->tri, w->t->tri_count, w->t->point_count, 1, NULL)) return false;
-    shorten(w);
+    weigher_shorten(w);
     return true;
 }
 
@@ -488,7 +482,7 @@ static bool make_faces(weigher *w, uint32_t limit, mw_kind_report *report)
     return report->optimal || shorten_again(w);
 }
 
-static bool prepare(weigher *w)
+static bool weigher_prepare(weigher *w)
 {
     uint32_t n = w->t->point_count;
     double most = 0;
@@ -508,7 +502,7 @@ static bool prepare(weigher *w)
     return true;
 }
 
-static void release(weigher *w)
+static void weigher_release(weigher *w)
 {
     free(w->scaled);
     free(w->at);
@@ -528,14 +522,14 @@ mw_status mw__make_min_weight(mw_triangulation *t, const mw_kind_options *option
     weigher w = {.t = t};
     mw_status status = mw__make_greedy(t, options, report, error);
     if (status) return status;
-    mw_lmt_result result = prepare(&w) ? MW_LMT_DONE : MW_LMT_MEMORY;
+    mw_lmt_result result = weigher_prepare(&w) ? MW_LMT_DONE : MW_LMT_MEMORY;
     if (result == MW_LMT_DONE) {
-        shorten(&w);
+        weigher_shorten(&w);
         index_vertices(&w);
         result = make_skeleton(&w, options->limit);
     }
     if (result == MW_LMT_SPENT) mark_all(&w);
     if (result != MW_LMT_MEMORY && !make_faces(&w, options->limit, report)) result = MW_LMT_MEMORY;
-    release(&w);
+    weigher_release(&w);
     return result == MW_LMT_MEMORY ? mw__fail_memory(error) : MW_OK;
 }

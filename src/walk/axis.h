@@ -16,30 +16,30 @@
 /* Of the walk's state: d is the heading; p.x the coordinate along it where the leg ends, p.y the coordinate to the left
  * of the line. */
 
-static MW_INLINE double along(const mw_walk *w, mw_point s)
+static MW_INLINE double axis_along(const mw_walk *w, mw_point s)
 {
     return w->d.x * s.x + w->d.y * s.y;
 }
 
-static MW_INLINE double aside(const mw_walk *w, mw_point s)
+static MW_INLINE double axis_aside(const mw_walk *w, mw_point s)
 {
     return w->d.x * s.y - w->d.y * s.x;
 }
 
-static MW_INLINE bool compared(mw_walk *w, bool result, mw_policy P)
+static MW_INLINE bool axis_compared(mw_walk *w, bool result, mw_policy P)
 {
     if (P.count) w->work->comparisons++;
     return result;
 }
 
-static MW_INLINE bool is_left(mw_walk *w, mw_point s, mw_policy P)
+static MW_INLINE bool axis_is_left(mw_walk *w, mw_point s, mw_policy P)
 {
-    return compared(w, aside(w, s) > w->p.y, P);
+    return axis_compared(w, axis_aside(w, s) > w->p.y, P);
 }
 
 static MW_INLINE bool is_past(mw_walk *w, mw_point s, mw_policy P)
 {
-    return compared(w, along(w, s) >= w->p.x, P);
+    return axis_compared(w, axis_along(w, s) >= w->p.x, P);
 }
 
 static MW_INLINE bool is_vertical(const mw_walk *w)
@@ -50,14 +50,14 @@ static MW_INLINE bool is_vertical(const mw_walk *w)
 /* From `from` along its horizontal line to the height of q, or along its vertical line. */
 static MW_INLINE void head_across(mw_walk *w, mw_point from, mw_policy P)
 {
-    double sign = compared(w, w->q.x > from.x, P) ? 1 : -1;
+    double sign = axis_compared(w, w->q.x > from.x, P) ? 1 : -1;
     w->d = (mw_point){sign, 0};
     w->p = (mw_point){sign * w->q.x, sign * from.y};
 }
 
 static MW_INLINE void head_upright(mw_walk *w, mw_point from, mw_policy P)
 {
-    double sign = compared(w, w->q.y > from.y, P) ? 1 : -1;
+    double sign = axis_compared(w, w->q.y > from.y, P) ? 1 : -1;
     w->d = (mw_point){0, sign};
     w->p = (mw_point){sign * w->q.y, -sign * from.x};
 }
@@ -80,9 +80,10 @@ static MW_INLINE mw_point inner_point(const mw_walk *w)
 }
 
 /* The edge over which the line leaves the tile: it runs from right to left. MW_NO_EDGE: the line misses the tile. */
-static MW_INLINE uint32_t exit_edge(mw_walk *w, mw_policy P)
+static MW_INLINE uint32_t axis_exit_edge(mw_walk *w, mw_policy P)
 {
-    bool left[3] = {is_left(w, corner(w, 0), P), is_left(w, corner(w, 1), P), is_left(w, corner(w, 2), P)};
+    bool left[3] = {axis_is_left(w, corner(w, 0), P), axis_is_left(w, corner(w, 1), P),
+                    axis_is_left(w, corner(w, 2), P)};
     if (!left[0] && left[1]) return 0;
     if (!left[1] && left[2]) return 1;
     if (!left[2] && left[0]) return 2;

@@ -24,7 +24,7 @@
 enum { FIRST, FOLLOW, ROUND_LEFT, ROUND_RIGHT, ROUND_ON }; /* phases; round: where the border's last vertex lies */
 
 /* > 0: s lies to the left of the line from p to q; < 0: to the right. */
-static MW_INLINE double side(mw_walk *w, mw_point s, mw_policy P)
+static MW_INLINE double border_side(mw_walk *w, mw_point s, mw_policy P)
 {
     return orient(w, w->p, w->q, s, P);
 }
@@ -55,7 +55,7 @@ static MW_INLINE mw_verdict turn_corner(mw_walk *w, uint32_t e, mw_policy P)
 }
 
 /* Leave over edge e, whose end lies strictly to the left: into the next tile, or along the border. */
-static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict border_go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (MW_LIKELY(w->tri[w->t].link[e] != MW_NONE)) return cross(w, e, P);
     if (!w->tiling->open && w->tiling->embedding) return MW_LEFT;
@@ -66,7 +66,7 @@ static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
 }
 
 /* The first tile: the first edge that q lies beyond, and p on it. */
-static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict border_aim(mw_walk *w, mw_policy P)
 {
     uint32_t e = 0;
     begin_run(w, FOLLOW, MW_STAGE_WALK, P);
@@ -74,15 +74,15 @@ static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
         if (++e == 3) return MW_FOUND;
     mw_point r = corner(w, e), l = corner(w, e + 1);
     w->p = (mw_point){r.x / 2 + l.x / 2, r.y / 2 + l.y / 2};
-    if (side(w, r, P) > 0 || side(w, l, P) <= 0) w->p = r;
-    return go_on(w, e, P);
+    if (border_side(w, r, P) > 0 || border_side(w, l, P) <= 0) w->p = r;
+    return border_go_on(w, e, P);
 }
 
 /* Entered over edge e = lr. */
-static MW_INLINE mw_verdict follow(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict border_follow(mw_walk *w, mw_policy P)
 {
-    uint32_t out = side(w, apex(w, w->e), P) > 0 ? mw__next(w->e) : mw__prev(w->e);
-    return beyond(w, out, P) ? go_on(w, out, P) : MW_FOUND;
+    uint32_t out = border_side(w, apex(w, w->e), P) > 0 ? mw__next(w->e) : mw__prev(w->e);
+    return beyond(w, out, P) ? border_go_on(w, out, P) : MW_FOUND;
 }
 
 /* An edge that the line crosses, by the ends on its right and left. */
@@ -100,7 +100,7 @@ static MW_INLINE bool is_behind(mw_walk *w, crossed here, crossed there, mw_poli
     return r != 0 ? r > 0 : orient(w, there.r, there.l, here.l, P) > 0;
 }
 
-static MW_INLINE mw_point end_of(const mw_walk *w, uint32_t half, uint32_t end)
+static MW_INLINE mw_point half_end(const mw_walk *w, uint32_t half, uint32_t end)
 {
     return w->point[w->tri[mw__link_triangle(half)].v[mw__link_edge(half) + end]];
 }
@@ -108,7 +108,7 @@ static MW_INLINE mw_point end_of(const mw_walk *w, uint32_t half, uint32_t end)
 /* Does the line come back over the border edge ab, behind the place where it left and not behind q? */
 static MW_INLINE bool comes_back(mw_walk *w, mw_point a, mw_point b, mw_policy P)
 {
-    crossed out = {end_of(w, w->exit, 0), end_of(w, w->exit, 1)};
+    crossed out = {half_end(w, w->exit, 0), half_end(w, w->exit, 1)};
     return orient(w, a, b, w->q, P) >= 0 && is_behind(w, out, (crossed){b, a}, P);
 }
 
@@ -116,11 +116,11 @@ static MW_INLINE bool comes_back(mw_walk *w, mw_point a, mw_point b, mw_policy P
 static MW_INLINE bool is_farthest(mw_walk *w, mw_point a, mw_point b, mw_policy P)
 {
     if (w->farthest == MW_NONE) return true;
-    crossed last = {end_of(w, w->farthest, 1), end_of(w, w->farthest, 0)};
+    crossed last = {half_end(w, w->farthest, 1), half_end(w, w->farthest, 0)};
     return is_behind(w, last, (crossed){b, a}, P);
 }
 
-static MW_INLINE bool is_between(mw_point a, mw_point q, mw_point b)
+static MW_INLINE bool point_is_between(mw_point a, mw_point q, mw_point b)
 {
     return fmin(a.x, b.x) <= q.x && q.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= q.y && q.y <= fmax(a.y, b.y);
 }
@@ -139,11 +139,11 @@ static MW_INLINE mw_verdict come_back(mw_walk *w, uint32_t half, mw_policy P)
 static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, bool all, mw_policy P)
 {
     mw_point a = corner(w, e), b = corner(w, e + 1);
-    double s = side(w, b, P);
+    double s = border_side(w, b, P);
     uint32_t half = mw__link(w->t, e);
     if (P.count) w->work->border_edges++;
     if (half < w->lowest) w->lowest = half;
-    if (MW_UNLIKELY(s == 0 && is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
+    if (MW_UNLIKELY(s == 0 && point_is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
     if (w->phase == ROUND_LEFT && s <= 0 && comes_back(w, a, b, P)) {
         if (!all) return come_back(w, half, P);
         if (is_farthest(w, a, b, P)) w->farthest = half;
@@ -154,7 +154,7 @@ static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, bool all, mw_pol
 
 /* Edge e begins at the border's last vertex: turn round that through tiles to the border's next edge. Ends: the turn began at
  * a border edge, and no tile has two tiles before it. */
-static MW_INLINE mw_verdict go_round(mw_walk *w, bool all, mw_policy P)
+static MW_INLINE mw_verdict border_go_round(mw_walk *w, bool all, mw_policy P)
 {
     while (w->tri[w->t].link[w->e] != MW_NONE) {
         cross(w, w->e, P);
@@ -164,21 +164,21 @@ static MW_INLINE mw_verdict go_round(mw_walk *w, bool all, mw_policy P)
     return all && w->farthest != MW_NONE ? come_back(w, w->farthest, P) : MW_LEFT;
 }
 
-static MW_INLINE mw_verdict step(mw_walk *w, bool all, mw_policy P)
+static MW_INLINE mw_verdict border_step(mw_walk *w, bool all, mw_policy P)
 {
-    if (MW_LIKELY(w->phase == FOLLOW)) return follow(w, P);
-    if (w->phase == FIRST) return aim(w, P);
-    return w->phase == MW_PHASE_AWAY ? MW_LEFT : go_round(w, all, P);
+    if (MW_LIKELY(w->phase == FOLLOW)) return border_follow(w, P);
+    if (w->phase == FIRST) return border_aim(w, P);
+    return w->phase == MW_PHASE_AWAY ? MW_LEFT : border_go_round(w, all, P);
 }
 
 static MW_INLINE mw_verdict border_walk_step(mw_walk *w, mw_policy P)
 {
-    return step(w, false, P);
+    return border_step(w, false, P);
 }
 
 static MW_INLINE mw_verdict border_sure_step(mw_walk *w, mw_policy P)
 {
-    return step(w, true, P);
+    return border_step(w, true, P);
 }
 
 MW_STAMP_WALK(border_walk, false)

@@ -19,13 +19,13 @@
 #include "walk/drive.h"
 #include "walk/value.h"
 
-static MW_INLINE double side(mw_walk *w, uint32_t e, double *off, mw_policy P)
+static MW_INLINE double direct_side(mw_walk *w, uint32_t e, double *off, mw_policy P)
 {
     return value(w, corner(w, e), corner(w, e + 1), w->q, off, P);
 }
 
 /* Twice the area of the tile. */
-static MW_INLINE double double_area(mw_walk *w, bool stored, double *off, mw_policy P)
+static MW_INLINE double direct_double_area(mw_walk *w, bool stored, double *off, mw_policy P)
 {
     if (!stored) return value(w, corner(w, 0), corner(w, 1), corner(w, 2), off, P);
     double area = w->tiling->area[w->t];
@@ -33,14 +33,14 @@ static MW_INLINE double double_area(mw_walk *w, bool stored, double *off, mw_pol
     return area;
 }
 
-static MW_INLINE mw_verdict step(mw_walk *w, bool stored, mw_policy P)
+static MW_INLINE mw_verdict direct_step_with(mw_walk *w, bool stored, mw_policy P)
 {
     double off = 0;
     bool first = w->e == MW_NO_EDGE;
     uint32_t e = first ? 0 : w->e, next = mw__next(e);
-    double known = first ? side(w, 0, &off, P) : w->c;
-    double tested = side(w, next, &off, P);
-    double area = double_area(w, stored, &off, P);
+    double known = first ? direct_side(w, 0, &off, P) : w->c;
+    double tested = direct_side(w, next, &off, P);
+    double area = direct_double_area(w, stored, &off, P);
     double last = area - known - tested;
     off += rounding(area, known, tested, P);
     bool turn = last < tested;
@@ -58,12 +58,12 @@ static MW_INLINE mw_verdict step(mw_walk *w, bool stored, mw_policy P)
 
 static MW_INLINE mw_verdict direct_step(mw_walk *w, mw_policy P)
 {
-    return step(w, false, P);
+    return direct_step_with(w, false, P);
 }
 
 static MW_INLINE mw_verdict direct_stored_step(mw_walk *w, mw_policy P)
 {
-    return step(w, true, P);
+    return direct_step_with(w, true, P);
 }
 
 MW_STAMP_WALK(direct, false)

@@ -22,56 +22,57 @@
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
 
 /* y'_s > y'_q = 0: s lies to the left of the line. */
-static MW_INLINE bool above(mw_walk *w, mw_point s, mw_policy P)
+static MW_INLINE bool hybrid_above(mw_walk *w, mw_point s, mw_policy P)
 {
     if (P.count) w->work->comparisons++;
     return leftward(w, w->p, s) > 0;
 }
 
 /* x'_s >= x'_q. Not a number counts as past it. */
-static MW_INLINE bool past(mw_walk *w, mw_point s, mw_policy P)
+static MW_INLINE bool hybrid_past(mw_walk *w, mw_point s, mw_policy P)
 {
     if (P.count) w->work->comparisons++;
     return !(ahead(w, w->p, s) < ahead(w, w->p, w->q));
 }
 
 /* The turn ends in this tile: the line leaves it through edge e, off p. Its vertex s was the last one tested. */
-static MW_INLINE mw_verdict follow(mw_walk *w, uint32_t e, mw_point s, mw_policy P)
+static MW_INLINE mw_verdict hybrid_follow(mw_walk *w, uint32_t e, mw_point s, mw_policy P)
 {
     w->phase = FOLLOW;
     begin_stage(w, MW_STAGE_WALK, P);
-    return past(w, s, P) ? MW_CLOSE : cross_unsure(w, e, P);
+    return hybrid_past(w, s, P) ? MW_CLOSE : cross_unsure(w, e, P);
 }
 
 /* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
-static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict hybrid_aim(mw_walk *w, mw_policy P)
 {
     initialise(w, P);
     w->p = corner(w, 0);
     if (MW_UNLIKELY(!set_direction(w, w->q.x - w->p.x, w->q.y - w->p.y))) return MW_CLOSE;
-    if (above(w, corner(w, 1), P)) {
+    if (hybrid_above(w, corner(w, 1), P)) {
         w->phase = TURN_RIGHT;
         return cross_unsure(w, 0, P);
     }
-    if (!above(w, corner(w, 2), P)) {
+    if (!hybrid_above(w, corner(w, 2), P)) {
         w->phase = TURN_LEFT;
         return cross_unsure(w, 2, P);
     }
-    return follow(w, 1, corner(w, 2), P);
+    return hybrid_follow(w, 1, corner(w, 2), P);
 }
 
 static MW_INLINE mw_verdict hybrid_step(mw_walk *w, mw_policy P)
 {
-    if (MW_UNLIKELY(w->phase == FIRST)) return aim(w, P);
+    if (MW_UNLIKELY(w->phase == FIRST)) return hybrid_aim(w, P);
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
     mw_point s = apex(w, w->e);
     if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
-        if (MW_UNLIKELY(past(w, s, P))) return MW_CLOSE;
-        return cross_guessed_unsure(w, above(w, s, P) ? next : prev, P);
+        if (MW_UNLIKELY(hybrid_past(w, s, P))) return MW_CLOSE;
+        return cross_guessed_unsure(w, hybrid_above(w, s, P) ? next : prev, P);
     }
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is s */
-        return above(w, s, P) ? cross_unsure(w, next, P) : follow(w, prev, s, P);
-    return above(w, s, P) ? follow(w, next, s, P) : cross_unsure(w, prev, P); /* entered over e = pr, the new l is s */
+        return hybrid_above(w, s, P) ? cross_unsure(w, next, P) : hybrid_follow(w, prev, s, P);
+    return hybrid_above(w, s, P) ? hybrid_follow(w, next, s, P)
+                                 : cross_unsure(w, prev, P); /* entered over e = pr, the new l is s */
 }
 
 MW_STAMP_WALK(hybrid, false)

@@ -30,7 +30,7 @@
 enum { START, SET_OUT, FOLLOW }; /* phases */
 
 /* The tile is past the end of the leg. */
-static MW_INLINE mw_verdict arrive(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict improved_arrive(mw_walk *w, mw_policy P)
 {
     if (is_vertical(w)) return MW_CLOSE;
     turn_upright(w, P);
@@ -38,7 +38,7 @@ static MW_INLINE mw_verdict arrive(mw_walk *w, mw_policy P)
     return MW_GO;
 }
 
-static MW_INLINE mw_verdict cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
     if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
@@ -49,33 +49,33 @@ static MW_INLINE mw_verdict cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
 }
 
 /* The vertex of the tile that is farthest along the heading. */
-static MW_INLINE mw_point farthest(mw_walk *w, mw_policy P)
+static MW_INLINE mw_point improved_farthest(mw_walk *w, mw_policy P)
 {
     mw_point s = corner(w, 0), b = corner(w, 1), c = corner(w, 2);
-    if (compared(w, along(w, b) > along(w, s), P)) s = b;
-    if (compared(w, along(w, c) > along(w, s), P)) s = c;
+    if (axis_compared(w, axis_along(w, b) > axis_along(w, s), P)) s = b;
+    if (axis_compared(w, axis_along(w, c) > axis_along(w, s), P)) s = c;
     return s;
 }
 
 /* In the first tile of a leg. */
-static MW_INLINE mw_verdict set_out(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict improved_set_out(mw_walk *w, mw_policy P)
 {
-    if (is_past(w, farthest(w, P), P)) return arrive(w, P);
-    uint32_t e = exit_edge(w, P);
+    if (is_past(w, improved_farthest(w, P), P)) return improved_arrive(w, P);
+    uint32_t e = axis_exit_edge(w, P);
     if (e == MW_NO_EDGE) return MW_CLOSE;
     w->phase = FOLLOW;
-    return cross_or_detour(w, e, P);
+    return improved_cross_or_detour(w, e, P);
 }
 
 static MW_INLINE mw_verdict improved_orthogonal_step(mw_walk *w, mw_policy P)
 {
     if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
         mw_point s = apex(w, w->e);
-        if (MW_UNLIKELY(is_past(w, s, P))) return arrive(w, P);
-        return cross_or_detour(w, is_left(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
+        if (MW_UNLIKELY(is_past(w, s, P))) return improved_arrive(w, P);
+        return improved_cross_or_detour(w, axis_is_left(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
     }
     if (w->phase == START) head_across(w, inner_point(w), P);
-    return set_out(w, P);
+    return improved_set_out(w, P);
 }
 
 MW_STAMP_WALK(improved_orthogonal, false)

@@ -48,7 +48,7 @@ static MW_INLINE uint32_t facing_nearest(const mw_walk *w)
 }
 
 /* The first tile. */
-static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict normal_aim(mw_walk *w, mw_policy P)
 {
     uint32_t e = facing_nearest(w);
     mw_point l = corner(w, e), r = corner(w, e + 1), s = apex(w, e);
@@ -62,7 +62,7 @@ static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
 
 static MW_INLINE mw_verdict normal_straight_step(mw_walk *w, mw_policy P)
 {
-    if (MW_UNLIKELY(w->e == MW_NO_EDGE)) return aim(w, P);
+    if (MW_UNLIKELY(w->e == MW_NO_EDGE)) return normal_aim(w, P);
     mw_point s = apex(w, w->e); /* entered over edge e = lr */
     if (past_normal(w, s, P)) return MW_CLOSE;
     return cross_unsure(w, left_of_line(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);

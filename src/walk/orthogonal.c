@@ -38,7 +38,7 @@
  * restarts. */
 enum { START, TURN_RIGHT, TURN_LEFT, SET_OUT, FOLLOW, STEP = 7, MOVED = 8, RESTART = 16, RESTARTS = 2 };
 
-static MW_INLINE void enter(mw_walk *w, uint32_t phase)
+static MW_INLINE void orthogonal_enter(mw_walk *w, uint32_t phase)
 {
     w->phase = (w->phase & ~(uint32_t)STEP) | phase;
 }
@@ -51,7 +51,7 @@ static MW_INLINE mw_point leg_end(const mw_walk *w)
 }
 
 /* The vertex of the tile that is nearest to q, or about. */
-static MW_INLINE uint32_t nearest(const mw_walk *w)
+static MW_INLINE uint32_t nearest_corner(const mw_walk *w)
 {
     double far[3];
     for (uint32_t k = 0; k < 3; k++) far[k] = fabs(corner(w, k).x - w->q.x) + fabs(corner(w, k).y - w->q.y);
@@ -60,7 +60,7 @@ static MW_INLINE uint32_t nearest(const mw_walk *w)
 }
 
 /* Run again from this tile. */
-static MW_INLINE mw_verdict restart(mw_walk *w)
+static MW_INLINE mw_verdict orthogonal_restart(mw_walk *w)
 {
     if (w->phase / RESTART == RESTARTS) return MW_CLOSE;
     w->phase = (w->phase / RESTART + 1) * RESTART + START;
@@ -68,97 +68,97 @@ static MW_INLINE mw_verdict restart(mw_walk *w)
 }
 
 /* The horizontal leg would leave the hull: a vertical one from here instead. */
-static MW_INLINE mw_verdict detour(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_detour(mw_walk *w, mw_policy P)
 {
-    mw_point c = inner_point(w), v = corner(w, nearest(w));
+    mw_point c = inner_point(w), v = corner(w, nearest_corner(w));
     head_upright(w, (mw_point){c.x / 2 + v.x / 2, c.y / 2 + v.y / 2}, P);
     if (w->stage == MW_STAGE_INIT) begin_stage(w, MW_STAGE_WALK, P);
     w->phase |= MOVED;
-    enter(w, SET_OUT);
+    orthogonal_enter(w, SET_OUT);
     return MW_GO;
 }
 
 /* Cross edge e; if it is on the hull, see on which side of it q lies. */
-static MW_INLINE mw_verdict cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
     if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
     if (beyond(w, e, P)) return MW_LEFT;
-    return is_vertical(w) ? restart(w) : detour(w, P);
+    return is_vertical(w) ? orthogonal_restart(w) : orthogonal_detour(w, P);
 }
 
 /* The tile holds the end of the leg. */
-static MW_INLINE mw_verdict arrive(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_arrive(mw_walk *w, mw_policy P)
 {
-    if (w->phase & MOVED) return restart(w);
+    if (w->phase & MOVED) return orthogonal_restart(w);
     if (is_vertical(w) || w->q.y == leg_end(w).y) return MW_FOUND;
     turn_upright(w, P);
-    enter(w, SET_OUT);
+    orthogonal_enter(w, SET_OUT);
     return MW_GO;
 }
 
 /* The line leaves the tile over edge e: so does the walk, unless the leg ends before. */
-static MW_INLINE mw_verdict go_on(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_point r = corner(w, e), l = corner(w, e + 1);
     bool r_past = is_past(w, r, P), l_past = is_past(w, l, P);
-    if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, leg_end(w), P) >= 0) return arrive(w, P);
-    return cross_or_detour(w, e, P);
+    if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, leg_end(w), P) >= 0) return orthogonal_arrive(w, P);
+    return orthogonal_cross_or_detour(w, e, P);
 }
 
 /* The line leaves the tile over edge e, off p: the turn ends here. */
 static MW_INLINE mw_verdict end_turn(mw_walk *w, uint32_t e, mw_policy P)
 {
-    enter(w, FOLLOW);
+    orthogonal_enter(w, FOLLOW);
     begin_stage(w, MW_STAGE_WALK, P);
-    return go_on(w, e, P);
+    return orthogonal_go_on(w, e, P);
 }
 
-static MW_INLINE mw_verdict turn(mw_walk *w, uint32_t phase, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_turn(mw_walk *w, uint32_t phase, uint32_t e, mw_policy P)
 {
-    enter(w, phase);
-    return cross_or_detour(w, e, P);
+    orthogonal_enter(w, phase);
+    return orthogonal_cross_or_detour(w, e, P);
 }
 
 /* In the first tile, or one to run again from: choose p, and so the heading, r and l. */
-static MW_INLINE mw_verdict start(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_start(mw_walk *w, mw_policy P)
 {
     bool first = w->phase == START;
     if (first)
         initialise(w, P);
     else
         begin_stage(w, MW_STAGE_INIT, P);
-    uint32_t k = first ? 0 : nearest(w);
+    uint32_t k = first ? 0 : nearest_corner(w);
     mw_point p = corner(w, k);
     if (w->q.x == p.x && w->q.y == p.y) return MW_FOUND;
     if (w->q.x != p.x)
         head_across(w, p, P);
     else
         head_upright(w, p, P);
-    if (is_left(w, corner(w, k + 1), P)) return turn(w, TURN_RIGHT, k, P);
-    if (!is_left(w, apex(w, k), P)) return turn(w, TURN_LEFT, mw__prev(k), P);
+    if (axis_is_left(w, corner(w, k + 1), P)) return orthogonal_turn(w, TURN_RIGHT, k, P);
+    if (!axis_is_left(w, apex(w, k), P)) return orthogonal_turn(w, TURN_LEFT, mw__prev(k), P);
     return end_turn(w, mw__next(k), P);
 }
 
 /* In the first tile of a vertical leg. */
-static MW_INLINE mw_verdict set_out(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_set_out(mw_walk *w, mw_policy P)
 {
-    uint32_t e = exit_edge(w, P);
+    uint32_t e = axis_exit_edge(w, P);
     if (e == MW_NO_EDGE) return MW_CLOSE; /* the inner point was rounded off the tile */
-    enter(w, FOLLOW);
-    return go_on(w, e, P);
+    orthogonal_enter(w, FOLLOW);
+    return orthogonal_go_on(w, e, P);
 }
 
 static MW_INLINE mw_verdict orthogonal_step(mw_walk *w, mw_policy P)
 {
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e), step = w->phase & STEP;
     if (MW_LIKELY(step == FOLLOW)) /* entered over edge e = lr */
-        return go_on(w, is_left(w, apex(w, w->e), P) ? next : prev, P);
+        return orthogonal_go_on(w, axis_is_left(w, apex(w, w->e), P) ? next : prev, P);
     if (step == TURN_RIGHT) /* entered over edge e = lp, the new r is off it */
-        return is_left(w, apex(w, w->e), P) ? cross_or_detour(w, next, P) : end_turn(w, prev, P);
+        return axis_is_left(w, apex(w, w->e), P) ? orthogonal_cross_or_detour(w, next, P) : end_turn(w, prev, P);
     if (step == TURN_LEFT) /* entered over edge e = pr, the new l is off it */
-        return is_left(w, apex(w, w->e), P) ? end_turn(w, next, P) : cross_or_detour(w, prev, P);
-    return step == SET_OUT ? set_out(w, P) : start(w, P);
+        return axis_is_left(w, apex(w, w->e), P) ? end_turn(w, next, P) : orthogonal_cross_or_detour(w, prev, P);
+    return step == SET_OUT ? orthogonal_set_out(w, P) : orthogonal_start(w, P);
 }
 
 MW_STAMP_WALK(orthogonal, false)

@@ -20,13 +20,13 @@
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
 
 /* > 0: s lies to the left of the line from p to q; < 0: to the right. */
-static MW_INLINE double side(mw_walk *w, mw_point s, mw_policy P)
+static MW_INLINE double straight_side(mw_walk *w, mw_point s, mw_policy P)
 {
     return orient(w, w->p, w->q, s, P);
 }
 
 /* The line leaves the tile through edge e, off p: the turn ends here. */
-static MW_INLINE mw_verdict follow(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict straight_follow(mw_walk *w, uint32_t e, mw_policy P)
 {
     w->phase = FOLLOW;
     begin_stage(w, MW_STAGE_WALK, P);
@@ -34,34 +34,34 @@ static MW_INLINE mw_verdict follow(mw_walk *w, uint32_t e, mw_policy P)
 }
 
 /* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
-static MW_INLINE mw_verdict aim(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict straight_aim(mw_walk *w, mw_policy P)
 {
     initialise(w, P);
     w->p = corner(w, 0);
-    if (side(w, corner(w, 1), P) > 0) {
+    if (straight_side(w, corner(w, 1), P) > 0) {
         w->phase = TURN_RIGHT;
         return cross(w, 0, P);
     }
-    if (side(w, corner(w, 2), P) < 0) {
+    if (straight_side(w, corner(w, 2), P) < 0) {
         w->phase = TURN_LEFT;
         return cross(w, 2, P);
     }
-    return follow(w, 1, P);
+    return straight_follow(w, 1, P);
 }
 
 static MW_INLINE mw_verdict straight_step(mw_walk *w, mw_policy P)
 {
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
     if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
-        double s = side(w, apex(w, w->e), P);
+        double s = straight_side(w, apex(w, w->e), P);
         if (MW_UNLIKELY(s == 0) && beyond(w, next, P)) return cross(w, next, P);
         return leave(w, s > 0 ? next : prev, P);
     }
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is off it */
-        return side(w, apex(w, w->e), P) > 0 ? cross(w, next, P) : follow(w, prev, P);
+        return straight_side(w, apex(w, w->e), P) > 0 ? cross(w, next, P) : straight_follow(w, prev, P);
     if (w->phase == TURN_LEFT) /* entered over edge e = pr, the new l is off it */
-        return side(w, apex(w, w->e), P) < 0 ? cross(w, prev, P) : follow(w, next, P);
-    return aim(w, P);
+        return straight_side(w, apex(w, w->e), P) < 0 ? cross(w, prev, P) : straight_follow(w, next, P);
+    return straight_aim(w, P);
 }
 
 MW_STAMP_WALK(straight, true)

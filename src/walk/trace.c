@@ -1,7 +1,7 @@
 /* trace.c - walks whose way is written down, tile by tile. */
 #include "walk/walk.h"
 
-static void record(mw_walk_trace *trace, const mw_triangle *tile)
+static void trace_record(mw_walk_trace *trace, const mw_triangle *tile)
 {
     if (tile->user & MW_GHOST) return;
     if (trace->count++ < trace->capacity) trace->triangle[trace->count - 1] = tile->user & MW_USER_MASK;
@@ -9,7 +9,7 @@ static void record(mw_walk_trace *trace, const mw_triangle *tile)
 
 void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk)
 {
-    record(trace, &walk->tri[walk->t]);
+    trace_record(trace, &walk->tri[walk->t]);
 }
 
 /* In one step the border walk turns round a vertex of the border: over edge e of tile t, then over each edge that follows
@@ -20,7 +20,7 @@ static void record_turn(mw_walk_trace *trace, const mw_walk *walk, uint32_t t, u
         uint32_t link = walk->tri[t].link[e];
         t = mw__link_triangle(link);
         e = mw__next(mw__link_edge(link));
-        record(trace, &walk->tri[t]);
+        trace_record(trace, &walk->tri[t]);
     }
     if (t != walk->t) mw__walk_record(trace, walk);
 }

@@ -18,7 +18,7 @@ static const mw_kernels *const kernels[MW_WALK_COUNT] = {
 #include <meshwalk/walks.def>
 };
 
-static const mw_walk_entry *entry(mw_walk_kind walk)
+static const mw_walk_entry *walk_entry(mw_walk_kind walk)
 {
     static const mw_walk_entry none = {NULL, NULL, NULL};
     return (unsigned)walk < MW_WALK_COUNT ? &entries[walk] : &none;
@@ -26,17 +26,17 @@ static const mw_walk_entry *entry(mw_walk_kind walk)
 
 const char *mw_walk_name(mw_walk_kind walk)
 {
-    return entry(walk)->name;
+    return walk_entry(walk)->name;
 }
 
 const char *mw_walk_source(mw_walk_kind walk)
 {
-    return entry(walk)->source;
+    return walk_entry(walk)->source;
 }
 
 const char *mw_walk_help(mw_walk_kind walk)
 {
-    return entry(walk)->help;
+    return walk_entry(walk)->help;
 }
 
 mw_walk_kind mw_walk_by_name(const char *name)
