@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "triangulate/constrain.h"
-#include "triangulate/delaunay.h"
+#include "triangulate/constrained/segment_insertion.h"
+#include "triangulate/delaunay/delaunay.h"
 
 enum { MAX_POINTS = 60, MAX_PIECES = 3 * MAX_POINTS };
 
@@ -18,8 +18,8 @@ typedef struct scene {
     uint32_t n;
     mw_triangle *tri;
     uint32_t tri_count;
-    mw_constrained net;
-    mw_piece piece[MAX_PIECES]; /* by number */
+    mw_segment_insertion net;
+    mw_subsegment piece[MAX_PIECES]; /* by number */
     uint64_t random;
 } scene;
 
@@ -53,9 +53,9 @@ static void assert_sound(const scene *s)
         assert_int_equal(tri->v[3], tri->v[0]);
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = tri->link[k], other = mw__link_triangle(link), e = mw__link_edge(link);
-            uint32_t piece = s->net.piece[3 * t + k];
+            uint32_t piece = s->net.subsegment[3 * t + k];
             if (piece != MW_NONE) {
-                const mw_piece *p = &s->piece[piece];
+                const mw_subsegment *p = &s->piece[piece];
                 assert_true((p->from == tri->v[k] && p->to == tri->v[k + 1]) ||
                             (p->to == tri->v[k] && p->from == tri->v[k + 1]));
             }
@@ -63,7 +63,7 @@ static void assert_sound(const scene *s)
             assert_int_equal(s->tri[other].link[e], mw__link(t, k));
             assert_int_equal(s->tri[other].v[e], tri->v[k + 1]);
             assert_int_equal(s->tri[other].v[e + 1], tri->v[k]);
-            assert_int_equal(s->net.piece[3 * other + e], piece);
+            assert_int_equal(s->net.subsegment[3 * other + e], piece);
             mw_point apex = s->point[s->tri[other].v[mw__prev(e)]];
             if (piece == MW_NONE)
                 assert_true(mw__incircle(s->point[tri->v[0]], s->point[tri->v[1]], s->point[tri->v[2]], apex) <= 0);
@@ -75,7 +75,7 @@ static void assert_sound(const scene *s)
     }
 }
 
-static bool crosses(const scene *s, uint32_t a, uint32_t b, const mw_piece *p)
+static bool crosses(const scene *s, uint32_t a, uint32_t b, const mw_subsegment *p)
 {
     return turn(s, a, b, p->from) * turn(s, a, b, p->to) < 0 &&
            turn(s, p->from, p->to, a) * turn(s, p->from, p->to, b) < 0;
@@ -84,18 +84,18 @@ static bool crosses(const scene *s, uint32_t a, uint32_t b, const mw_piece *p)
 /* Force a segment in; returns whether it met no other one. */
 static bool force(scene *s, uint32_t a, uint32_t b, uint32_t *made)
 {
-    uint32_t from = a, to = b, before = s->net.piece_count, last_from = a, last_to = b;
+    uint32_t from = a, to = b, before = s->net.subsegment_count, last_from = a, last_to = b;
     bool expected = true;
     for (uint32_t i = 0; i < before; i++) expected &= !crosses(s, a, b, &s->piece[i]);
     while (from != to) {
-        mw_piece piece;
-        mw_constrain_result result = mw__constrain(&s->net, &from, &to, &piece);
-        if (result == MW_CONSTRAIN_CROSSES) {
+        mw_subsegment piece;
+        mw_subsegment_result result = mw__insert_subsegment(&s->net, &from, &to, &piece);
+        if (result == MW_SUBSEGMENT_CROSSES) {
             assert_false(expected);
             assert_true(piece.number < before && crosses(s, a, b, &s->piece[piece.number]));
             return false;
         }
-        assert_int_equal(result, MW_CONSTRAIN_DONE);
+        assert_int_equal(result, MW_SUBSEGMENT_DONE);
         /* the piece is at one end, the segment is shorter by it, and no vertex lies inside */
         assert_true((piece.from == last_from && piece.to == from && to == last_to) ||
                     (piece.to == last_to && piece.from == to && from == last_from) ||
@@ -116,7 +116,7 @@ static void run_scene(scene *s, uint32_t *whole, uint32_t *stopped)
 {
     if (!make_points(s)) return;
     assert_int_equal(mw__delaunay_triangles(s->point, s->n, NULL, NULL, &s->tri, &s->tri_count, NULL), MW_OK);
-    assert_true(mw__constrained_create(&s->net, s->point, s->n, s->tri, s->tri_count));
+    assert_true(mw__segment_insertion_create(&s->net, s->point, s->n, s->tri, s->tri_count));
     assert_sound(s);
     uint32_t made = 0;
     for (uint32_t i = mw__random_below(&s->random, 30); i > 0; i--) {
@@ -126,10 +126,10 @@ static void run_scene(scene *s, uint32_t *whole, uint32_t *stopped)
             (*whole)++;
         else
             (*stopped)++;
-        assert_int_equal(made, s->net.piece_count);
+        assert_int_equal(made, s->net.subsegment_count);
         assert_sound(s);
     }
-    mw__constrained_release(&s->net);
+    mw__segment_insertion_release(&s->net);
     free(s->tri);
 }
 
@@ -160,21 +160,21 @@ static void test_long_channel(void **state)
     point[2 * N + 1] = (mw_point){N + 1, 1e-9};
     mw_triangle *tri;
     uint32_t tri_count, from = 2 * N, to = 2 * N + 1;
-    mw_constrained net;
-    mw_piece piece;
+    mw_segment_insertion net;
+    mw_subsegment piece;
     assert_int_equal(mw__delaunay_triangles(point, 2 * N + 2, NULL, NULL, &tri, &tri_count, NULL), MW_OK);
-    assert_true(mw__constrained_create(&net, point, 2 * N + 2, tri, tri_count));
-    assert_int_equal(mw__constrain(&net, &from, &to, &piece), MW_CONSTRAIN_DONE);
-    assert_true(from == to && piece.from == 2 * N && piece.to == 2 * N + 1 && net.piece_count == 1);
+    assert_true(mw__segment_insertion_create(&net, point, 2 * N + 2, tri, tri_count));
+    assert_int_equal(mw__insert_subsegment(&net, &from, &to, &piece), MW_SUBSEGMENT_DONE);
+    assert_true(from == to && piece.from == 2 * N && piece.to == 2 * N + 1 && net.subsegment_count == 1);
     uint32_t crossing = 0, sides = 0;
     for (uint32_t t = 0; t < tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
             mw_point a = point[tri[t].v[k]], b = point[tri[t].v[k + 1]];
             crossing += a.y * b.y < 0 && tri[t].v[k] < 2 * N && tri[t].v[k + 1] < 2 * N;
-            sides += net.piece[3 * t + k] == 0;
+            sides += net.subsegment[3 * t + k] == 0;
         }
     assert_true(crossing == 0 && sides == 2);
-    mw__constrained_release(&net);
+    mw__segment_insertion_release(&net);
     free(tri);
     free(point);
 }

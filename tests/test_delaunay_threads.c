@@ -9,7 +9,7 @@
 
 #include "delaunay.h"
 #include "memory.h"
-#include "triangulate/delaunay.h"
+#include "triangulate/delaunay/delaunay.h"
 
 typedef struct made {
     mw_status status;

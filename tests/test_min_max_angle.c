@@ -13,8 +13,8 @@
 #include "mesh/mesh.h"
 #include "meshes.h"
 #include "predicate_cases.h"
-#include "triangulate/edge_insertion.h"
-#include "triangulate/min_max_angle.h"
+#include "triangulate/kinds/edge_insertion.h"
+#include "triangulate/kinds/min_max_angle.h"
 
 #include <meshwalk/triangulate.h>
 
@@ -520,7 +520,7 @@ static mw_angle_limits random_limits(void)
 {
     mw_angle_limits limits = {UINT64_MAX, SIZE_MAX};
     if (below(2)) limits.most_work = UINT64_C(1) << below(24);
-    if (limits.most_work == UINT64_MAX || below(2)) limits.most_sights = (size_t)1 << below(16);
+    if (limits.most_work == UINT64_MAX || below(2)) limits.most_seen = (size_t)1 << below(16);
     return limits;
 }
 
@@ -600,13 +600,13 @@ static void check_attempt(const mw_mesh *mesh, mw_triangle *tri, mw_angle_limits
                        .tri = tri,
                        .reach = UINT32_MAX,
                        .most_work = limits.most_work,
-                       .most_sights = limits.most_sights};
+                       .most_seen = limits.most_seen};
     for (uint32_t i = 0; i < mesh->tri_count; i++) {
         memcpy(tri, mesh->tri, mesh->tri_count * sizeof *tri);
         for (uint32_t j = 0; j < mesh->tri_count; j++) tri[j].user = MW_INSERTION_FREE;
         in.work = 0;
         mw_insertion_result result = mw__insert_edge(&in, i, below(3));
-        assert_true(result != MW_INSERTION_MEMORY && in.sight_count <= limits.most_sights);
+        assert_true(result != MW_INSERTION_MEMORY && in.seen_count <= limits.most_seen);
         count->done += result == MW_INSERTION_DONE;
         count->none += result == MW_INSERTION_NONE;
         if (result != MW_INSERTION_SPENT) continue;

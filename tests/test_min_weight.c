@@ -12,7 +12,7 @@
 #include "memory.h"
 #include "meshes.h"
 #include "predicates/predicates.h"
-#include "triangulate/lmt.h"
+#include "triangulate/kinds/lmt.h"
 
 #define PI 3.14159265358979323846
 

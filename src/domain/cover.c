@@ -1,8 +1,8 @@
 /* cover.c - force the outline of a mesh into cells, and count the triangles over each cell. */
 #include "domain/cover.h"
 
-#include "triangulate/delaunay.h"
-#include "triangulate/rounds.h"
+#include "triangulate/delaunay/delaunay.h"
+#include "triangulate/constrained/brio.h"
 
 #include <stdlib.h>
 
@@ -88,12 +88,12 @@ static bool force_edge(mw_cover *c, uint32_t edge, mw_defects *defects)
     uint32_t to = mw__outline_to(c->outline, c->outline->half[edge]);
     while (from != to) {
         uint32_t before = from;
-        mw_piece piece;
-        mw_constrain_result result = mw__constrain(&c->net, &from, &to, &piece);
-        if (result == MW_CONSTRAIN_MEMORY) return false;
-        if (result == MW_CONSTRAIN_FAR) return leave_out(c, edge);
+        mw_subsegment piece;
+        mw_subsegment_result result = mw__insert_subsegment(&c->net, &from, &to, &piece);
+        if (result == MW_SUBSEGMENT_MEMORY) return false;
+        if (result == MW_SUBSEGMENT_FAR) return leave_out(c, edge);
         uint32_t *runs = &c->runs[2 * (size_t)piece.number];
-        if (result == MW_CONSTRAIN_CROSSES)
+        if (result == MW_SUBSEGMENT_CROSSES)
             return leave_out(c, edge) &&
                    mw__defects_add(defects, at_edges(c, MW_DEFECT_CROSSING, edge, runs[runs[0] == MW_NONE]));
         uint32_t *run = &runs[piece.from > piece.to];
@@ -119,7 +119,7 @@ static bool force_all(mw_cover *c, mw_defects *defects)
     c->runs = mw__alloc(most, sizeof *c->runs);
     if (!c->runs) return false;
     for (size_t i = 0; i < most; i++) c->runs[i] = MW_NONE;
-    uint32_t *order = mw__random_rounds(c->outline->half_count);
+    uint32_t *order = mw__brio_order(c->outline->half_count);
     bool done = order;
     for (uint32_t i = 0; i < c->outline->half_count && done; i++) {
         done = force_edge(c, order[i], defects);
@@ -170,7 +170,7 @@ static bool sort_splits(mw_cover *c)
 static uint32_t run_along(const mw_cover *c, uint32_t half, bool backwards)
 {
     const mw_triangle *t = &c->cell[mw__link_triangle(half)];
-    uint32_t k = mw__link_edge(half), piece = c->net.piece[3 * (size_t)mw__link_triangle(half) + k];
+    uint32_t k = mw__link_edge(half), piece = c->net.subsegment[3 * (size_t)mw__link_triangle(half) + k];
     if (piece == MW_NONE) return MW_NONE;
     uint32_t edge = c->runs[2 * (size_t)piece + ((t->v[k] > t->v[k + 1]) != backwards)];
     if (edge == MW_NONE || !c->left_out) return edge;
@@ -237,14 +237,14 @@ mw_status mw__cover_create(mw_cover *cover, const mw_outline *outline, mw_defect
                                               &cover->cell_count, error);
     if (status) return status;
     bool done =
-        mw__constrained_create(&cover->net, outline->point, outline->place_count, cover->cell, cover->cell_count) &&
+        mw__segment_insertion_create(&cover->net, outline->point, outline->place_count, cover->cell, cover->cell_count) &&
         force_all(cover, defects) && spread_left_out(cover) && sort_splits(cover) && find_degrees(cover);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
 void mw__cover_release(mw_cover *cover)
 {
-    mw__constrained_release(&cover->net);
+    mw__segment_insertion_release(&cover->net);
     free(cover->cell);
     free(cover->runs);
     free(cover->split);

@@ -8,7 +8,7 @@
 
 #include "mesh/defect.h"
 #include "domain/outline.h"
-#include "triangulate/constrain.h"
+#include "triangulate/constrained/segment_insertion.h"
 
 /* A place inside an outline edge. */
 typedef struct mw_split {
@@ -20,7 +20,7 @@ typedef struct mw_cover {
     const mw_outline *outline;
     mw_triangle *cell; /* vertices are places */
     uint32_t cell_count;
-    mw_constrained net; /* the outline in the cells */
+    mw_segment_insertion net; /* the outline in the cells */
     uint32_t *runs;     /* outline edges along piece p: at 2p the one from the lower place to the higher, at 2p + 1 the
                            one that comes back, as indices; MW_NONE if there is none */
     mw_split *split;    /* by outline edge, then along it */

@@ -15,7 +15,7 @@ typedef struct mw_survey {
 } mw_survey;
 
 /* Find all defects of a mesh, which must outlive the survey. O(n + b log^2 b) for b outline edges is
- * expected, if flips are as few as they are in practice (constrain.h). MW_ERROR_MEMORY, MW_ERROR_LIMIT; release it in
+ * expected, if flips are as few as they are in practice (segment_insertion.h). MW_ERROR_MEMORY, MW_ERROR_LIMIT; release it in
  * either case. */
 mw_status mw__survey_create(mw_survey *survey, const mw_mesh *mesh, mw_error *error);
 void mw__survey_release(mw_survey *survey);

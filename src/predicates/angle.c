@@ -6,7 +6,7 @@
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-__extension__ typedef __int128 wide;
+__extension__ typedef __int128 angle_wide;
 
 /* Expansions are exact in the range that incircle has: products of four differences here too, eight of them. */
 #define LOW 0x1p-216
@@ -60,8 +60,8 @@ static bool angle_on_grid(const arms *r, const arms *s, int *sign)
     double scale = largest > 0 ? ldexp(1, 29 - ilogb(largest)) : 1;
     int64_t v[4], w[4];
     if (!to_integers(r, scale, v) || !to_integers(s, scale, w)) return false;
-    wide left = (wide)(v[0] * v[3] - v[1] * v[2]) * (w[0] * w[2] + w[1] * w[3]);
-    wide right = (wide)(v[0] * v[2] + v[1] * v[3]) * (w[0] * w[3] - w[1] * w[2]);
+    angle_wide left = (angle_wide)(v[0] * v[3] - v[1] * v[2]) * (w[0] * w[2] + w[1] * w[3]);
+    angle_wide right = (angle_wide)(v[0] * v[2] + v[1] * v[3]) * (w[0] * w[3] - w[1] * w[2]);
     *sign = (left > right) - (left < right);
     return true;
 }

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-__extension__ typedef unsigned __int128 wide;
+__extension__ typedef unsigned __int128 big_wide;
 
 /* |v| = mantissa * 2^exponent. v is finite. */
 static uint64_t mantissa_of(double v, int *exponent)
@@ -52,7 +52,7 @@ static void big_set(mw_big *r, double v, int base)
         shift = 0;
     }
     int first = shift / 64;
-    wide shifted = (wide)m << shift % 64;
+    big_wide shifted = (big_wide)m << shift % 64;
     for (int i = 0; i < first; i++) r->limb[i] = 0;
     r->limb[first] = (uint64_t)shifted;
     r->limb[first + 1] = (uint64_t)(shifted >> 64);
@@ -90,7 +90,7 @@ static void add_magnitude(mw_big *r, const mw_big *a, const mw_big *b)
     int n = a->n, shorter = b->n;
     uint64_t carry = 0;
     for (int i = 0; i < n; i++) {
-        wide sum = (wide)a->limb[i] + (i < shorter ? b->limb[i] : 0) + carry;
+        big_wide sum = (big_wide)a->limb[i] + (i < shorter ? b->limb[i] : 0) + carry;
         r->limb[i] = (uint64_t)sum;
         carry = (uint64_t)(sum >> 64);
     }
@@ -104,7 +104,7 @@ static void subtract_magnitude(mw_big *r, const mw_big *a, const mw_big *b)
     int n = a->n, shorter = b->n;
     uint64_t borrow = 0;
     for (int i = 0; i < n; i++) {
-        wide difference = (wide)a->limb[i] - (i < shorter ? b->limb[i] : 0) - borrow;
+        big_wide difference = (big_wide)a->limb[i] - (i < shorter ? b->limb[i] : 0) - borrow;
         r->limb[i] = (uint64_t)difference;
         borrow = (uint64_t)(difference >> 64) & 1;
     }
@@ -142,7 +142,7 @@ void mw__big_multiply(mw_big *r, const mw_big *a, const mw_big *b)
     for (int i = 0; i < a->n; i++) {
         uint64_t carry = 0;
         for (int j = 0; j < b->n; j++) {
-            wide sum = (wide)a->limb[i] * b->limb[j] + r->limb[i + j] + carry;
+            big_wide sum = (big_wide)a->limb[i] * b->limb[j] + r->limb[i + j] + carry;
             r->limb[i + j] = (uint64_t)sum;
             carry = (uint64_t)(sum >> 64);
         }

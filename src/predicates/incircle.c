@@ -2,8 +2,8 @@
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-__extension__ typedef __int128 wide;
-#define LOW_BITS (((wide)1 << 42) - 1)
+__extension__ typedef __int128 incircle_wide;
+#define LOW_BITS (((incircle_wide)1 << 42) - 1)
 
 /* Expansions are exact for nonzero coordinates of magnitude 2^-216 to 2^253: products of four differences are multiples
  * of 2^(4 * (-216 - 52)) = 2^-1072, and the twelve of them are at most 12 * 2^(4 * 254) < 2^1020. */
@@ -35,7 +35,7 @@ static bool incircle_on_grid(const row p[3], double *det)
 {
     double largest = 0;
     int64_t x[3], y[3];
-    wide high = 0, low = 0;
+    incircle_wide high = 0, low = 0;
     for (int i = 0; i < 3; i++) {
         if (p[i].x.n == 1) largest = fmax(largest, fabs(p[i].x.part[0]));
         if (p[i].y.n == 1) largest = fmax(largest, fabs(p[i].y.part[0]));
@@ -46,7 +46,7 @@ static bool incircle_on_grid(const row p[3], double *det)
     }
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        wide lift = (wide)x[i] * x[i] + (wide)y[i] * y[i], minor = (wide)x[j] * y[k] - (wide)x[k] * y[j];
+        incircle_wide lift = (incircle_wide)x[i] * x[i] + (incircle_wide)y[i] * y[i], minor = (incircle_wide)x[j] * y[k] - (incircle_wide)x[k] * y[j];
         high += (lift >> 42) * minor;
         low += (lift & LOW_BITS) * minor;
     }

@@ -95,23 +95,23 @@ double mw__side_exact(const mw_line *line, const double a[3], const double b[3])
 /* --- hits --------------------------------------------------------------------------------------------------------- */
 
 /* A magnitude lies from low to high. */
-typedef struct range {
+typedef struct sign_range {
     double low, high;
-} range;
+} sign_range;
 
 /* A rounded value with its bound is off by bound + u |value|; what is rounded here, by less than 4u (|value| + bound). */
 #define WIDEN 0x1p-50
 
-static range range_of(double value, double bound)
+static sign_range range_of(double value, double bound)
 {
     double magnitude = fabs(value), off = bound + WIDEN * (magnitude + bound);
-    if (!(magnitude + off <= DBL_MAX)) return (range){0, INFINITY};
-    return (range){fmax(magnitude - off, 0), magnitude + off};
+    if (!(magnitude + off <= DBL_MAX)) return (sign_range){0, INFINITY};
+    return (sign_range){fmax(magnitude - off, 0), magnitude + off};
 }
 
 /* Where a plane is met: |N| and |M|. */
 typedef struct estimate {
-    range n, m;
+    sign_range n, m;
 } estimate;
 
 /* N, rounded: (a - q) . ((a - b) x (a - c)). */
@@ -227,10 +227,10 @@ static int compare_hit_to_exact(const mw_line *line, const mw_corners s, double 
 #define SHORT 0x1p-900
 #define LONG 0x1p1000
 
-static range length_of(const double m[3])
+static sign_range length_of(const double m[3])
 {
     double square = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
-    if (!(square >= SHORT && square <= LONG)) return (range){0, INFINITY};
+    if (!(square >= SHORT && square <= LONG)) return (sign_range){0, INFINITY};
     return range_of(sqrt(square), 0);
 }
 
@@ -238,7 +238,7 @@ int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d)
 {
     if (isinf(d)) return -1;
     estimate p = line_estimated(line, s);
-    range length = length_of(line->m);
+    sign_range length = length_of(line->m);
     if (surely_less(p.n.high, length.high, d, p.m.low)) return -1;
     if (surely_less(d, p.m.high, p.n.low, length.low)) return 1;
     return compare_hit_to_exact(line, s, d);

@@ -11,7 +11,7 @@
 
 #include "base/random.h"
 #include "start/start.h"
-#include "triangulate/delaunay.h"
+#include "triangulate/delaunay/delaunay.h"
 
 #include <stdlib.h>
 #include <string.h>

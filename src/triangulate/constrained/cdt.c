@@ -1,0 +1,371 @@
+/* cdt.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew 1989].
+ *
+ * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c), the triangles that are to be
+ * kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments cross and are to be split, points
+ * are put there (cdt_split.c) and all is made anew, until nothing crosses. */
+#include "triangulate/constrained/cdt.h"
+
+#include "base/hilbert.h"
+#include "triangulate/delaunay/delaunay.h"
+#include "triangulate/constrained/brio.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+/* --- what is given --- */
+
+static mw_status check_segments(const mw_constraints *given, mw_error *error)
+{
+    for (size_t i = 0; i < 2 * given->segment_count; i++)
+        if (given->segments[i] >= given->point_count)
+            return mw__fail(error, MW_ERROR_ARGUMENT, "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
+                            given->segments[i], given->point_count);
+    for (size_t i = 0; i < given->hole_count; i++)
+        if (!isfinite(given->holes[2 * i]) || !isfinite(given->holes[2 * i + 1]))
+            return mw__fail(error, MW_ERROR_ARGUMENT, "the place of hole %zu is not finite", i);
+    return MW_OK;
+}
+
+static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, mw_error *error)
+{
+    if (!given) return mw__fail(error, MW_ERROR_ARGUMENT, "constraints are NULL");
+    if ((unsigned)keep > MW_KEEP_INSIDE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
+    if (given->stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+    if ((given->point_count && !given->points) || (given->segment_count && !given->segments) ||
+        (given->hole_count && !given->holes))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
+    if (given->point_count > MW_MAX_TRIANGLES / 2)
+        return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", given->point_count);
+    if (given->segment_count >= MW_NONE)
+        return mw__fail(error, MW_ERROR_LIMIT, "too many segments: %zu", given->segment_count);
+    return check_segments(given, error);
+}
+
+static void cdt_release(mw_cdt *m)
+{
+    mw__segment_insertion_release(&m->net);
+    free(m->point);
+    free(m->twin);
+    free(m->tri);
+    free(m->stretches.item);
+    free(m->pieces.item);
+    free(m->crossing.item);
+    free(m->run);
+    free(m->kept);
+}
+
+/* --- lists --- */
+
+/* Room for one more record: the list, perhaps elsewhere now, or NULL when out of memory. */
+static void *list_grow(void *list, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity) return list;
+    size_t more = 2 * *capacity + 64;
+    void *grown = mw__realloc(list, more, size);
+    if (grown) *capacity = more;
+    return grown;
+}
+
+bool mw__stretches_add(mw_stretches *list, mw_stretch stretch)
+{
+    mw_stretch *item = list_grow(list->item, list->count, &list->capacity, sizeof *item);
+    if (!item) return false;
+    list->item = item;
+    item[list->count++] = stretch;
+    return true;
+}
+
+static bool add_run(mw_cdt *m, mw_run run)
+{
+    mw_run *list = list_grow(m->run, m->run_count, &m->run_capacity, sizeof *list);
+    if (!list) return false;
+    m->run = list;
+    list[m->run_count++] = run;
+    return true;
+}
+
+bool mw__runs_create(mw_runs *runs, const mw_cdt *m)
+{
+    size_t *first = mw__calloc(m->pieces.count + 1, sizeof *first);
+    uint32_t *segment = mw__alloc(m->run_count, sizeof *segment);
+    *runs = (mw_runs){first, segment};
+    if (!first || !segment) return false;
+    for (size_t i = 0; i < m->run_count; i++) first[m->run[i].piece]++;
+    size_t sum = 0;
+    for (size_t p = 0; p <= m->pieces.count; p++) {
+        sum += first[p];
+        first[p] = sum;
+    }
+    for (size_t i = m->run_count; i-- > 0;) segment[--first[m->run[i].piece]] = m->run[i].segment;
+    return true;
+}
+
+void mw__runs_release(mw_runs *runs)
+{
+    free(runs->first);
+    free(runs->segment);
+}
+
+/* --- forcing the stretches in --- */
+
+/* A piece is made, or one made before is a part of another stretch too. */
+static bool note_piece(mw_cdt *m, const mw_subsegment *piece, uint32_t segment)
+{
+    mw_stretch stretch = {piece->from, piece->to, segment};
+    if (piece->number == m->pieces.count) {
+        if (!mw__stretches_add(&m->pieces, stretch)) return false;
+    } else if (segment < m->pieces.item[piece->number].segment) {
+        m->pieces.item[piece->number] = stretch;
+    }
+    return add_run(m, (mw_run){piece->number, segment});
+}
+
+/* Force in a stretch, or as much of it as lies before what it crosses. Returns false when out of memory. */
+static bool stretch_force(mw_cdt *m, mw_stretch s)
+{
+    while (s.from != s.to) {
+        mw_subsegment piece;
+        mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &piece);
+        if (result == MW_SUBSEGMENT_CROSSES) return mw__stretches_add(&m->crossing, s);
+        if (result != MW_SUBSEGMENT_DONE || !note_piece(m, &piece, s.segment)) return false;
+    }
+    return true;
+}
+
+/* Stretches in random rounds, so that long ones are expected to be among the first, and to shield what lies behind them
+ * from those that follow; in each round along the Hilbert curve of the triangles, so that what is near is near in
+ * memory. NULL when out of memory. */
+static uint32_t *order_stretches(const mw_cdt *m)
+{
+    uint32_t n = (uint32_t)m->stretches.count, *order = mw__brio_order(n);
+    mw_key *along = mw__alloc(n, sizeof *along), *scratch = mw__alloc(n, sizeof *scratch);
+    bool done = order && along && scratch;
+    if (done) {
+        for (uint32_t i = 0; i < n; i++) along[i] = (mw_key){m->net.at[m->stretches.item[i].from], i};
+        mw__sort_keys(along, scratch, n);
+        for (uint32_t i = 0; i < n; i++) order[i] = along[order[i]].item;
+    }
+    free(along);
+    free(scratch);
+    if (done) return order;
+    free(order);
+    return NULL;
+}
+
+/* Triangulate the points and force the stretches in, as far as nothing crosses, or, if `all`, all that do not cross. */
+static mw_status cdt_make(mw_cdt *m, bool all, mw_triangulation_report *report, mw_error *error)
+{
+    uint32_t n = (uint32_t)m->point_count;
+    if (m->stretches.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
+    m->twin = mw__alloc(n, sizeof *m->twin);
+    if (!m->twin) return mw__fail_memory(error);
+    const mw_delaunay_setup setup = {.threads = m->threads};
+    mw_status status = mw__delaunay_set_up(m->point, n, &setup, m->twin, report, &m->tri, &m->tri_count, error);
+    if (status) return status;
+    if (!mw__segment_insertion_create(&m->net, m->point, n, m->tri, m->tri_count)) return mw__fail_memory(error);
+    for (size_t i = 0; i < m->stretches.count; i++) {
+        m->stretches.item[i].from = mw__vertex_of(m, m->stretches.item[i].from);
+        m->stretches.item[i].to = mw__vertex_of(m, m->stretches.item[i].to);
+    }
+    uint32_t *order = order_stretches(m);
+    bool done = order;
+    for (size_t i = 0; i < m->stretches.count && done && (all || !m->crossing.count); i++)
+        done = stretch_force(m, m->stretches.item[order[i]]);
+    m->crossed += m->net.crossed + m->net.wasted;
+    free(order);
+    return done ? MW_OK : mw__fail_memory(error);
+}
+
+/* Forget what was made, but not the points and stretches. */
+static void cdt_unmake(mw_cdt *m)
+{
+    mw__segment_insertion_release(&m->net);
+    free(m->twin);
+    free(m->tri);
+    m->twin = NULL;
+    m->tri = NULL;
+    m->pieces.count = m->crossing.count = m->run_count = 0;
+}
+
+/* --- segments that cross --- */
+
+typedef struct finder {
+    const mw_cdt *m;
+    uint32_t piece;
+} finder;
+
+static bool find_piece(void *context, uint32_t piece, uint32_t vertex)
+{
+    finder *f = context;
+    (void)vertex;
+    f->piece = piece;
+    return piece == MW_NONE;
+}
+
+/* Name the first pair found that crosses. */
+static mw_status fail_crossing(const mw_cdt *m, const char *why, mw_constrain_report *report, mw_error *error)
+{
+    const mw_stretch *s = &m->crossing.item[0];
+    finder f = {m, MW_NONE};
+    mw__segment_insertion_trace(&m->net, s->from, s->to, find_piece, &f);
+    const mw_stretch *p = &m->pieces.item[f.piece];
+    report->cross[0] = s->segment < p->segment ? s->segment : p->segment;
+    report->cross[1] = s->segment < p->segment ? p->segment : s->segment;
+    const uint32_t *a = &m->given->segments[2 * (size_t)report->cross[0]];
+    const uint32_t *b = &m->given->segments[2 * (size_t)report->cross[1]];
+    mw_point place = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
+    return mw__fail(error, MW_ERROR_INPUT,
+                    "segments %" PRIu32 " (from point %" PRIu32 " to %" PRIu32 ") and %" PRIu32 " (from point %" PRIu32
+                    " to %" PRIu32 ") cross near %.9g %.9g%s",
+                    report->cross[0], a[0], a[1], report->cross[1], b[0], b[1], place.x, place.y, why);
+}
+
+static mw_status make_all(mw_cdt *m, bool split, mw_triangulation_report *delaunay, mw_constrain_report *report,
+                          mw_error *error);
+
+/* The ends of stretches, in the order of their numbers: number[p] is the one of point p among them, or MW_NONE. */
+static uint32_t number_ends(const mw_cdt *m, uint32_t *number)
+{
+    uint32_t count = 0;
+    for (size_t p = 0; p < m->point_count; p++) number[p] = MW_NONE;
+    for (size_t i = 0; i < m->stretches.count; i++)
+        number[m->stretches.item[i].from] = number[m->stretches.item[i].to] = 0;
+    for (size_t p = 0; p < m->point_count; p++)
+        if (number[p] != MW_NONE) number[p] = count++;
+    return count;
+}
+
+/* Only the stretches and their ends, numbered as `number` says. */
+static bool take_ends(const mw_cdt *m, const uint32_t *number, uint32_t count, mw_cdt *ends)
+{
+    ends->point = mw__alloc_lines(count, sizeof *ends->point);
+    ends->stretches.item = mw__alloc(m->stretches.count, sizeof *ends->stretches.item);
+    if (!ends->point || !ends->stretches.item) return false;
+    ends->point_count = count;
+    ends->stretches.count = ends->stretches.capacity = m->stretches.count;
+    for (size_t p = 0; p < m->point_count; p++)
+        if (number[p] != MW_NONE) ends->point[number[p]] = m->point[p];
+    for (size_t i = 0; i < m->stretches.count; i++) {
+        mw_stretch s = m->stretches.item[i];
+        ends->stretches.item[i] = (mw_stretch){number[s.from], number[s.to], s.segment};
+    }
+    return true;
+}
+
+/* The other way: take the stretches of `ends`, and the points made there beyond the first `count`. */
+static bool take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
+{
+    size_t n = m->point_count, made = ends->point_count - count;
+    mw_point *point = mw__alloc_lines(n + made, sizeof *point);
+    if (!point) return false;
+    for (size_t p = 0; p < n + made; p++) point[p] = p < n ? m->point[p] : ends->point[count + (p - n)];
+    for (uint32_t p = 0; p < n; p++)
+        if (number[p] != MW_NONE)
+            number[number[p]] = p; /* no less than its own number, so read before it is overwritten */
+    for (size_t i = 0; i < ends->stretches.count; i++) {
+        mw_stretch *s = &ends->stretches.item[i];
+        s->from = s->from < count ? number[s->from] : (uint32_t)n + (s->from - count);
+        s->to = s->to < count ? number[s->to] : (uint32_t)n + (s->to - count);
+    }
+    free(m->point);
+    free(m->stretches.item);
+    m->point = point;
+    m->point_count = n + made;
+    m->stretches = ends->stretches;
+    ends->stretches = (mw_stretches){0};
+    return true;
+}
+
+/* Whether stretches cross has nothing to do with the other points. Where these are many, split the stretches without
+ * them, until nothing crosses. make_all, which calls this, does that, and may come here again; but not deep, as each
+ * time at most half the points remain. Hardly ever twice: nearly all points are ends then. */
+static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
+{
+    uint32_t *number = mw__alloc(m->point_count, sizeof *number);
+    if (!number) return mw__fail_memory(error);
+    uint32_t count = number_ends(m, number);
+    mw_cdt ends = {.given = m->given};
+    mw_status status = MW_OK;
+    if (count <= m->point_count / 2) {
+        status =
+            take_ends(m, number, count, &ends) ? make_all(&ends, true, NULL, report, error) : mw__fail_memory(error);
+        m->crossed += ends.crossed;
+        if (status == MW_OK && !take_back(m, number, count, &ends)) status = mw__fail_memory(error);
+    }
+    cdt_release(&ends);
+    free(number);
+    return status;
+}
+
+/* Each round puts points where stretches cross. Most are then done; but points are rounded, so a stretch may come to
+ * cross another by that, and of many that cross one another each round lets some in, and parts the others. */
+static mw_status make_all(mw_cdt *m, bool split, mw_triangulation_report *delaunay, mw_constrain_report *report,
+                          mw_error *error)
+{
+    enum { MOST_ROUNDS = 200 };
+    mw_status status = cdt_make(m, split, delaunay, error);
+    for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS; round++) {
+        status = mw__cdt_split_crossings(m, round, error);
+        if (status == MW_OK) {
+            cdt_unmake(m);
+            status = split_apart(m, report, error);
+        }
+        if (status == MW_OK) status = cdt_make(m, true, NULL, error);
+    }
+    if (status == MW_OK && m->crossing.count)
+        status =
+            fail_crossing(m, split ? ", and so close to others that rounding cannot part them" : "", report, error);
+    return status;
+}
+
+/* --- all together --- */
+
+static mw_status cdt_take(mw_cdt *m, mw_error *error)
+{
+    const mw_constraints *given = m->given;
+    size_t stride = given->stride ? given->stride : 2;
+    m->point = mw__alloc_lines(given->point_count, sizeof *m->point);
+    m->stretches.item = mw__alloc(given->segment_count, sizeof *m->stretches.item);
+    if (!m->point || !m->stretches.item) return mw__fail_memory(error);
+    m->point_count = given->point_count;
+    for (size_t i = 0; i < given->point_count; i++)
+        m->point[i] = (mw_point){given->points[i * stride], given->points[i * stride + 1]};
+    m->stretches.count = m->stretches.capacity = given->segment_count;
+    for (size_t i = 0; i < given->segment_count; i++)
+        m->stretches.item[i] = (mw_stretch){given->segments[2 * i], given->segments[2 * i + 1], (uint32_t)i};
+    return MW_OK;
+}
+
+static mw_status cdt_build(mw_cdt *m, const mw_constrain_options *options, uint32_t *duplicate_of,
+                           mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error)
+{
+    mw_status status = cdt_take(m, error);
+    if (status == MW_OK) status = make_all(m, options->split, &report->delaunay, report, error);
+    report->crossed = m->crossed;
+    if (status == MW_OK) status = mw__cdt_keep_triangles(m, options->keep, error);
+    if (status == MW_OK) status = mw__cdt_output(m, report, pieces, out, error);
+    if (duplicate_of && status == MW_OK)
+        for (size_t i = 0; i < m->given->point_count; i++) duplicate_of[i] = m->twin[i];
+    return status;
+}
+
+mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
+                                  uint32_t *duplicate_of, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out,
+                                  mw_error *error)
+{
+    static const mw_constrain_options defaults;
+    mw_constrain_report unread;
+    if (!report) report = &unread;
+    *report = (mw_constrain_report){.cross = {MW_NONE, MW_NONE}};
+    if (pieces) *pieces = (mw_pieces){0};
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    *out = NULL;
+    if (!options) options = &defaults;
+    mw_status status = cdt_check_arguments(constraints, options->keep, error);
+    if (status) return status;
+    mw_cdt m = {.given = constraints, .threads = options->threads};
+    status = cdt_build(&m, options, duplicate_of, report, pieces, out, error);
+    cdt_release(&m);
+    if (status && pieces) mw_pieces_release(pieces);
+    return status;
+}

@@ -1,0 +1,76 @@
+/* cdt.h - a constrained Delaunay triangulation in the making. Private.
+ *
+ * A segment is forced in as one stretch or, once it has been split, as several. A stretch is an edge of the
+ * triangulation, a piece, or a chain of pieces; a piece may be a part of many stretches. */
+#ifndef MW_SRC_CONSTRAINED_H
+#define MW_SRC_CONSTRAINED_H
+
+#include "triangulate/constrained/segment_insertion.h"
+
+#include <meshwalk/triangulate.h>
+
+/* Part of a segment, between two points; as a piece, of the lowest segment that runs along it. */
+typedef struct mw_stretch {
+    uint32_t from, to, segment;
+} mw_stretch;
+
+typedef struct mw_stretches {
+    mw_stretch *item;
+    size_t count, capacity;
+} mw_stretches;
+
+/* A segment runs along a piece. */
+typedef struct mw_run {
+    uint32_t piece, segment;
+} mw_run;
+
+typedef struct mw_cdt {
+    const mw_constraints *given;
+    uint32_t threads; /* of the Delaunay triangulation of the points */
+    mw_point *point;  /* the caller's, then those made where segments cross */
+    size_t point_count;
+    uint32_t *twin;   /* per point: the lowest-numbered one at its place, MW_NONE if it is that itself */
+    mw_triangle *tri; /* of the points, with the stretches */
+    uint32_t tri_count;
+    mw_segment_insertion net;
+    mw_stretches stretches; /* to be forced in                                               */
+    mw_stretches pieces;    /* by number                                                     */
+    mw_stretches crossing;  /* what could not be forced in of some of them: it crosses pieces */
+    mw_run *run;
+    size_t run_count, run_capacity;
+    uint64_t crossed; /* triangles: by the stretches of all rounds, those that crossed others too */
+    uint8_t *kept;    /* per triangle */
+} mw_cdt;
+
+/* Append; false when out of memory. */
+bool mw__stretches_add(mw_stretches *list, mw_stretch stretch);
+
+/* Point p, or the lowest-numbered one at its place. */
+static MW_INLINE uint32_t mw__vertex_of(const mw_cdt *m, uint32_t p)
+{
+    return m->twin[p] == MW_NONE ? p : m->twin[p];
+}
+
+/* The runs along each piece: those of piece p have the segments segment[first[p]] .. segment[first[p + 1] - 1]. */
+typedef struct mw_runs {
+    size_t *first;
+    uint32_t *segment;
+} mw_runs;
+bool mw__runs_create(mw_runs *runs, const mw_cdt *m); /* false when out of memory; release anyway */
+void mw__runs_release(mw_runs *runs);
+
+/* Where ab and cd cross, rounded, but in the boxes of both. */
+mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d);
+
+/* Some stretches cross: make points there, and cut all stretches at their points. Rounds count from 1; after the
+ * first, stretches are led through ends of others that they cross and pass close by. MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
+mw_status mw__cdt_split_crossings(mw_cdt *m, int round, mw_error *error);
+
+/* Set m->kept. MW_ERROR_INPUT: a polygon that is not closed; MW_ERROR_MEMORY. */
+mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error);
+
+/* Make the mesh and, unless NULL, the pieces; fills what concerns them in the report. m->point and m->tri may be moved
+ * into the mesh. MW_ERROR_INPUT: nothing is kept; MW_ERROR_MEMORY: the caller releases the pieces. */
+mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error);
+
+#endif

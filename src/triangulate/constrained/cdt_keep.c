@@ -1,0 +1,286 @@
+/* cdt_keep.c - which triangles of a constrained triangulation are kept: those inside polygons, or not reached
+ * from outside, and not in holes. */
+#include "triangulate/constrained/cdt.h"
+
+#include "base/hilbert.h"
+#include "base/random.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+static uint32_t piece_at(const mw_cdt *m, uint32_t half)
+{
+    return m->net.subsegment[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
+}
+
+/* --- polygons --- */
+
+/* The polygons as they were given have any numbers: here they count from 0. */
+typedef struct parity {
+    const mw_cdt *m;
+    mw_runs runs;
+    uint32_t *rank; /* per segment: its polygon, MW_NONE */
+    uint8_t *odd;   /* per polygon: has an odd number of its segments been crossed? */
+    uint32_t odd_count;
+} parity;
+
+static void parity_release(parity *p)
+{
+    mw__runs_release(&p->runs);
+    free(p->rank);
+    free(p->odd);
+}
+
+/* The segments that belong to polygons, by polygon. Returns NULL when out of memory. */
+static mw_key *sort_by_polygon(const mw_constraints *given, size_t *count)
+{
+    size_t n = given->segment_count;
+    mw_key *key = mw__alloc(n, sizeof *key), *scratch = mw__alloc(n, sizeof *scratch);
+    *count = 0;
+    if (key && scratch) {
+        for (size_t i = 0; i < n; i++)
+            if (given->polygon[i] != MW_NONE) key[(*count)++] = (mw_key){given->polygon[i], (uint32_t)i};
+        mw__sort_keys(key, scratch, *count);
+    } else {
+        free(key);
+        key = NULL;
+    }
+    free(scratch);
+    return key;
+}
+
+static bool rank_polygons(parity *p, const mw_key *key, size_t count)
+{
+    uint32_t polygons = 0;
+    p->rank = mw__alloc(p->m->given->segment_count, sizeof *p->rank);
+    if (!p->rank) return false;
+    for (size_t i = 0; i < p->m->given->segment_count; i++) p->rank[i] = MW_NONE;
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0 && key[i].key != key[i - 1].key) polygons++;
+        p->rank[key[i].item] = polygons;
+    }
+    p->odd = mw__calloc((size_t)polygons + 1, sizeof *p->odd);
+    return p->odd;
+}
+
+/* Inside and outside make sense where at each place an even number of a polygon's segments end. */
+static mw_status check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
+{
+    uint8_t *odd = mw__calloc(m->given->point_count, sizeof *odd);
+    mw_status status = odd ? MW_OK : mw__fail_memory(error);
+    for (size_t from = 0, to; from < count && status == MW_OK; from = to) {
+        for (to = from; to < count && key[to].key == key[from].key; to++)
+            for (size_t k = 0; k < 2; k++) odd[mw__vertex_of(m, m->given->segments[2 * (size_t)key[to].item + k])] ^= 1;
+        for (size_t i = 2 * from; i < 2 * to && status == MW_OK; i++) {
+            uint32_t v = mw__vertex_of(m, m->given->segments[2 * (size_t)key[i / 2].item + i % 2]);
+            if (odd[v])
+                status = mw__fail_at(error, -1, v, "polygon %" PRIu32 " is not closed: a ring ends at point %" PRIu32,
+                                     key[from].key, v);
+        }
+    }
+    free(odd);
+    return status;
+}
+
+static mw_status parity_prepare(parity *p, mw_error *error)
+{
+    size_t count;
+    mw_key *key = sort_by_polygon(p->m->given, &count);
+    mw_status status = key ? check_closed(p->m, key, count, error) : mw__fail_memory(error);
+    if (status == MW_OK && !(rank_polygons(p, key, count) && mw__runs_create(&p->runs, p->m)))
+        status = mw__fail_memory(error);
+    free(key);
+    return status;
+}
+
+/* Cross a half-edge, either way. */
+static void parity_cross(parity *p, uint32_t half)
+{
+    uint32_t piece = piece_at(p->m, half);
+    if (piece == MW_NONE) return;
+    for (size_t i = p->runs.first[piece]; i < p->runs.first[piece + 1]; i++) {
+        uint32_t rank = p->rank[p->runs.segment[i]];
+        if (rank == MW_NONE) continue;
+        p->odd[rank] ^= 1;
+        p->odd_count += p->odd[rank] ? 1 : UINT32_MAX; /* less one */
+    }
+}
+
+/* Half-edge of the hull, in the triangle inside. */
+static uint32_t hull_half(const mw_cdt *m)
+{
+    uint32_t t = 0, k = 0;
+    while (m->tri[t].link[k] != MW_NONE) {
+        k = mw__next(k);
+        t += k == 0;
+    }
+    return mw__link(t, k);
+}
+
+/* Go through all triangles depth first, from outside the hull, keeping the parities of where one is. The way back is
+ * the way in: entry[t] is the edge by which triangle t was entered. */
+static void keep_odd(parity *p, uint8_t *entry)
+{
+    enum { UNSEEN = 3 };
+    const mw_cdt *m = p->m;
+    for (uint32_t t = 0; t < m->tri_count; t++) entry[t] = UNSEEN;
+    uint32_t half = hull_half(m);
+    parity_cross(p, half);
+    for (;;) {
+        uint32_t t = mw__link_triangle(half);
+        if (entry[t] == UNSEEN) {
+            entry[t] = (uint8_t)mw__link_edge(half);
+            m->kept[t] = p->odd_count > 0;
+        }
+        half = mw__link(t, mw__next(mw__link_edge(half)));
+        uint32_t beyond = m->tri[t].link[mw__link_edge(half)];
+        bool back = entry[t] == mw__link_edge(half);
+        if (back && beyond == MW_NONE)
+            return; /* to where it began: the hull half-edge is the entry of one triangle only */
+        if (!back && (beyond == MW_NONE || entry[mw__link_triangle(beyond)] != UNSEEN)) continue;
+        parity_cross(p, half);
+        half = beyond;
+    }
+}
+
+static mw_status keep_polygons(mw_cdt *m, mw_error *error)
+{
+    parity p = {.m = m};
+    uint8_t *entry = mw__alloc(m->tri_count, sizeof *entry);
+    mw_status status = entry ? parity_prepare(&p, error) : mw__fail_memory(error);
+    if (status == MW_OK) keep_odd(&p, entry);
+    free(entry);
+    parity_release(&p);
+    return status;
+}
+
+/* --- floods --- */
+
+typedef struct flood {
+    const mw_cdt *m;
+    uint32_t *stack; /* room for all triangles: each is put there once */
+    uint32_t top;
+} flood;
+
+static void remove_triangle(flood *f, uint32_t t)
+{
+    if (!f->m->kept[t]) return;
+    f->m->kept[t] = 0;
+    f->stack[f->top++] = t;
+}
+
+/* Remove what hangs together with the triangles on the stack, and no piece parts from them. */
+static void flood_spread(flood *f)
+{
+    while (f->top > 0) {
+        uint32_t t = f->stack[--f->top];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t link = f->m->tri[t].link[k];
+            if (link != MW_NONE && piece_at(f->m, mw__link(t, k)) == MW_NONE)
+                remove_triangle(f, mw__link_triangle(link));
+        }
+    }
+}
+
+static void remove_outside(flood *f)
+{
+    for (uint32_t t = 0; t < f->m->tri_count; t++)
+        for (uint32_t k = 0; k < 3; k++)
+            if (f->m->tri[t].link[k] == MW_NONE && piece_at(f->m, mw__link(t, k)) == MW_NONE) remove_triangle(f, t);
+    flood_spread(f);
+}
+
+/* --- the places of holes --- */
+
+static double half_side(const mw_cdt *m, uint32_t half, mw_point q)
+{
+    const mw_triangle *t = &m->tri[mw__link_triangle(half)];
+    return mw__orient2d(m->point[t->v[mw__link_edge(half)]], m->point[t->v[mw__link_edge(half) + 1]], q);
+}
+
+/* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried from a random one on:
+ * the walk ends with probability 1 [Devillers, Pion, Teillaud 2002]. */
+static bool keep_walk(const mw_cdt *m, mw_point q, uint64_t *random, uint32_t *t)
+{
+    for (;;) {
+        uint32_t first = mw__random_below(random, 3), k = first;
+        while (half_side(m, mw__link(*t, k), q) >= 0) {
+            k = mw__next(k);
+            if (k == first) return true;
+        }
+        if (m->tri[*t].link[k] == MW_NONE) return false;
+        *t = mw__link_triangle(m->tri[*t].link[k]);
+    }
+}
+
+/* Remove the triangles round the vertex that a half-edge leaves. */
+static void remove_round(flood *f, uint32_t first)
+{
+    const mw_triangle *tri = f->m->tri;
+    uint32_t half = first;
+    do {
+        remove_triangle(f, mw__link_triangle(half));
+        half = tri[mw__link_triangle(half)].link[mw__prev(mw__link_edge(half))];
+    } while (half != first && half != MW_NONE);
+    if (half == first) return;
+    half = first;
+    while ((half = tri[mw__link_triangle(half)].link[mw__link_edge(half)]) != MW_NONE) {
+        half = mw__half_next(half);
+        remove_triangle(f, mw__link_triangle(half));
+    }
+}
+
+/* Remove all triangles that q touches, of which t is one. */
+static void remove_touched(flood *f, uint32_t t, mw_point q)
+{
+    bool on[3];
+    for (uint32_t k = 0; k < 3; k++) on[k] = half_side(f->m, mw__link(t, k), q) == 0;
+    remove_triangle(f, t);
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t link = f->m->tri[t].link[k];
+        if (on[k] && link != MW_NONE) remove_triangle(f, mw__link_triangle(link));
+        if (on[k] && on[mw__prev(k)]) remove_round(f, mw__link(t, k));
+    }
+}
+
+static void remove_holes(flood *f)
+{
+    const mw_constraints *given = f->m->given;
+    uint64_t random = 1;
+    uint32_t t = 0;
+    for (size_t i = 0; i < given->hole_count; i++) {
+        mw_point q = {given->holes[2 * i], given->holes[2 * i + 1]};
+        if (!keep_walk(f->m, q, &random, &t)) continue;
+        remove_touched(f, t, q);
+        flood_spread(f);
+    }
+}
+
+/* --- all together --- */
+
+static bool any_polygon(const mw_constraints *given)
+{
+    for (size_t i = 0; given->polygon && i < given->segment_count; i++)
+        if (given->polygon[i] != MW_NONE) return true;
+    return false;
+}
+
+mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error)
+{
+    bool polygons = any_polygon(m->given);
+    if (keep == MW_KEEP_AUTO) keep = polygons || m->given->hole_count ? MW_KEEP_INSIDE : MW_KEEP_HULL;
+    m->kept = mw__alloc(m->tri_count, sizeof *m->kept);
+    if (!m->kept) return mw__fail_memory(error);
+    for (uint32_t t = 0; t < m->tri_count; t++) m->kept[t] = 1;
+    if (keep == MW_KEEP_HULL) return MW_OK;
+    if (polygons) {
+        mw_status status = keep_polygons(m, error);
+        if (status) return status;
+    }
+    flood f = {.m = m, .stack = mw__alloc(m->tri_count, sizeof *f.stack)};
+    if (!f.stack) return mw__fail_memory(error);
+    if (!polygons) remove_outside(&f);
+    remove_holes(&f);
+    free(f.stack);
+    return MW_OK;
+}

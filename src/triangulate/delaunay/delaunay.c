@@ -1,0 +1,306 @@
+/* delaunay.c - from points to a Delaunay triangulation: order them, let it grow, hand out what has grown.
+ *
+ * All work is done on a copy of the points along a Hilbert curve ("places": place i holds point order[i]), so that what
+ * lies close in the plane lies close in memory; numbers are translated at the end. */
+#include "triangulate/delaunay/delaunay.h"
+
+#include "base/threads.h"
+#include "mesh/layout.h"
+#include "triangulate/delaunay/delaunay_collect.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PATCH = 1 << 14, /* points that with their facets fill a second-level cache, twice at most */
+    CHUNK = 1 << 14  /* points that a thread looks at at a time                                */
+};
+
+typedef struct delaunay {
+    const mw_point *given;
+    mw_delaunay_setup setup;
+    mw_extent extent;
+    mw_patch_arrays ground;
+    mw_patches patches;
+} delaunay;
+
+static void delaunay_release(delaunay *d)
+{
+    free(d->ground.order);
+    free(d->ground.sequence);
+    free(d->ground.point);
+    free(d->ground.facet);
+    free(d->patches.patch);
+}
+
+/* --- points --- */
+
+static void extent_extend(mw_extent *e, const mw_extent *by)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        if (by->low[axis] < e->low[axis]) e->low[axis] = by->low[axis];
+        if (by->high[axis] > e->high[axis]) e->high[axis] = by->high[axis];
+    }
+}
+
+/* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is none. */
+static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw_extent *extent)
+{
+    mw_extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    uint32_t i = from;
+    for (; i < to && isfinite(points[i].x) && isfinite(points[i].y); i++) {
+        mw_point p = points[i];
+        if (p.x < e.low[0]) e.low[0] = p.x;
+        if (p.x > e.high[0]) e.high[0] = p.x;
+        if (p.y < e.low[1]) e.low[1] = p.y;
+        if (p.y > e.high[1]) e.high[1] = p.y;
+    }
+    *extent = e;
+    return i;
+}
+
+enum { NO_LATTICE = INT_MIN, LATTICE_BITS = 40 };
+
+/* The exponent of the last bit of a finite number that is 1. INT_MAX for 0; NO_LATTICE for a number of more bits than the
+ * coordinates of a lattice have in practice. */
+static int last_bit(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    int exponent = (int)(bits >> (DBL_MANT_DIG - 1) & 0x7ff);
+    uint64_t fraction = bits & ((UINT64_C(1) << (DBL_MANT_DIG - 1)) - 1);
+    if (exponent > 0) fraction |= UINT64_C(1) << (DBL_MANT_DIG - 1);
+    if (fraction == 0) return INT_MAX;
+    int zeros = __builtin_ctzll(fraction);
+    if (zeros < DBL_MANT_DIG - LATTICE_BITS) return NO_LATTICE;
+    return (exponent > 0 ? exponent : 1) + DBL_MIN_EXP - 1 - DBL_MANT_DIG + zeros;
+}
+
+/* The exponent of the largest power of two that the coordinates of points from..to - 1 are multiples of. For most that are
+ * none the first tells. */
+static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
+{
+    int lattice = INT_MAX;
+    for (uint32_t i = from; i < to && lattice != NO_LATTICE; i++) {
+        int x = last_bit(points[i].x), y = last_bit(points[i].y);
+        if (x < lattice) lattice = x;
+        if (y < lattice) lattice = y;
+    }
+    return lattice;
+}
+
+/* What there is to know of the points before they are sorted: extent and lattice. */
+static mw_status delaunay_measure(delaunay *d, mw_error *error)
+{
+    uint32_t n = d->ground.n, bad = n;
+    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
+    int team = mw__team(d->setup.threads, chunks);
+    (void)team; /* unused without OpenMP */
+    int lattice = INT_MAX;
+    d->extent = (mw_extent){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(team) if (team > 1)
+#endif
+    for (int64_t i = 0; i < chunks; i++) {
+        mw_extent mine;
+        uint32_t from = (uint32_t)(i * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
+        uint32_t stop = extent_of(d->given, from, to, &mine);
+        int my_lattice = lattice_of(d->given, from, stop);
+#ifdef _OPENMP
+#pragma omp critical(mw_extent)
+#endif
+        {
+            extent_extend(&d->extent, &mine);
+            if (my_lattice < lattice) lattice = my_lattice;
+            if (stop < to && stop < bad) bad = stop;
+        }
+    }
+    if (bad < n) return mw__fail_at(error, -1, bad, "point %u is not finite", bad);
+    d->ground.width = d->extent.high[0] - d->extent.low[0];
+    d->ground.height = d->extent.high[1] - d->extent.low[1];
+    d->ground.unit = lattice == NO_LATTICE || lattice == INT_MAX ? 0 : ldexp(1, lattice);
+    return MW_OK;
+}
+
+/* Nothing has grown: no three of the points are the corners of a triangle. */
+static mw_status fail_flat(const delaunay *d, mw_error *error)
+{
+    const mw_point *p = d->ground.point;
+    uint32_t n = d->ground.n, second = 1, third;
+    while (second < n && mw__points_equal(p[0], p[second])) second++;
+    if (second == n) return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: all %u are equal", n);
+    for (third = second + 1; third < n; third++)
+        if (!mw__points_equal(p[third], p[0]) && !mw__points_equal(p[third], p[second]))
+            return mw__fail(error, MW_ERROR_INPUT, "all %u points lie on one line", n);
+    return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: only two among %u", n);
+}
+
+/* --- growth --- */
+
+/* Points in the order of their places. Where each lies is hard to foresee, but its number is known. */
+static void delaunay_copy_points(delaunay *d, const mw_key *keys)
+{
+    enum { AHEAD = 16 };
+    uint32_t n = d->ground.n;
+    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
+    int team = mw__team(d->setup.threads, chunks);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(team) if (team > 1)
+#endif
+    for (int64_t c = 0; c < chunks; c++) {
+        uint32_t from = (uint32_t)(c * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
+        for (uint32_t i = from; i < to; i++) {
+            if (i + AHEAD < n) __builtin_prefetch(&d->given[keys[i + AHEAD].item]);
+            d->ground.order[i] = keys[i].item;
+            d->ground.point[i] = d->given[keys[i].item];
+        }
+    }
+}
+
+/* The keys lie where the facets will grow. */
+static bool delaunay_order_points(delaunay *d)
+{
+    mw_patch_arrays *g = &d->ground;
+    _Static_assert(sizeof(mw_key) <= sizeof(mw_facet), "the facets have room for the keys");
+    mw_key *keys = (mw_key *)g->facet, *scratch = keys + g->n;
+    if (!mw__curve_sort(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
+    delaunay_copy_points(d, keys);
+    return mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
+}
+
+static mw_status delaunay_prepare(delaunay *d, mw_error *error)
+{
+    mw_patch_arrays *g = &d->ground;
+    if (g->n < 3) return mw__fail(error, MW_ERROR_INPUT, "fewer than three points: %u", g->n);
+    if (g->n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
+    mw_status status = delaunay_measure(d, error);
+    if (status != MW_OK) return status;
+    g->order = mw__alloc_lines(g->n, sizeof *g->order);
+    g->point = mw__alloc_lines(g->n, sizeof *g->point);
+    g->sequence = mw__alloc_lines(g->n, sizeof *g->sequence);
+    g->facet = mw__alloc_lines(2 * (size_t)g->n, sizeof *g->facet);
+    bool done = g->order && g->point && g->sequence && g->facet && delaunay_order_points(d);
+    return done ? MW_OK : mw__fail_memory(error);
+}
+
+static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
+{
+    const mw_patch_arrays *g = &d->ground;
+    for (uint32_t i = 0, twin; i < g->n; i++)
+        duplicate_of[g->order[i]] = mw__get_twin(g->point[i], &twin) ? g->order[twin] : MW_NONE;
+}
+
+/* The points are not needed any more: their room serves the harvest. */
+static bool delaunay_collect(delaunay *d, mw_triangle **tri, uint32_t *tri_count)
+{
+    free(d->ground.sequence);
+    d->ground.sequence = NULL;
+    uint32_t *scratch = (uint32_t *)d->ground.point;
+    return mw__delaunay_collect(&d->patches, &d->ground, d->setup.order != NULL, d->setup.threads, scratch, tri,
+                                tri_count);
+}
+
+mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
+                              uint32_t *duplicate_of, mw_triangulation_report *report, mw_triangle **tri,
+                              uint32_t *tri_count, mw_error *error)
+{
+    delaunay d = {.given = points, .setup = *setup, .ground = {.n = n}};
+    if (!d.setup.patch) d.setup.patch = PATCH;
+    *tri = NULL;
+    *tri_count = 0;
+    mw_status status = delaunay_prepare(&d, error);
+    if (status == MW_OK) {
+        mw__grow_patches(&d.patches, &d.ground, d.setup.threads);
+        if (d.patches.patch[0].ghost == MW_NONE) status = fail_flat(&d, error);
+    }
+    if (status == MW_OK) {
+        const mw_patch *whole = &d.patches.patch[0];
+        if (duplicate_of) report_duplicates(&d, duplicate_of);
+        if (report) *report = (mw_triangulation_report){n, whole->duplicates, whole->visited};
+        if (!delaunay_collect(&d, tri, tri_count)) status = mw__fail_memory(error);
+    }
+    if (d.setup.order) {
+        *d.setup.order = status == MW_OK ? d.ground.order : NULL;
+        if (status == MW_OK) d.ground.order = NULL;
+    }
+    delaunay_release(&d);
+    return status;
+}
+
+mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of,
+                                 mw_triangulation_report *report, mw_triangle **tri, uint32_t *tri_count,
+                                 mw_error *error)
+{
+    const mw_delaunay_setup alone = {.threads = 1};
+    return mw__delaunay_set_up(points, n, &alone, duplicate_of, report, tri, tri_count, error);
+}
+
+/* --- a mesh --- */
+
+/* The points as the library has them; the caller's own array if that is what it holds. *copy is to be released. */
+static const mw_point *delaunay_read_points(const double *from, size_t stride, uint32_t n, uint32_t threads,
+                                            mw_point **copy)
+{
+    *copy = NULL;
+    if (stride == 2) return (const mw_point *)from;
+    *copy = mw__alloc_lines(n, sizeof **copy);
+    int team = mw__team(threads, n / CHUNK + 1);
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(team) if (team > 1)
+#endif
+    for (int64_t i = 0; i < (int64_t)n; i++)
+        if (*copy) (*copy)[i] = (mw_point){from[(size_t)i * stride], from[(size_t)i * stride + 1]};
+    return *copy;
+}
+
+static mw_status delaunay_make_mesh(const mw_point *given, mw_delaunay_setup setup, bool laid_out,
+                                    uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh *mesh,
+                                    mw_error *error)
+{
+    uint32_t *order = NULL, n = mesh->point_count;
+    if (laid_out && mw__are_scattered(given, n)) setup.order = &order;
+    mw_status status = mw__delaunay_set_up(given, n, &setup, duplicate_of, report, &mesh->tri, &mesh->tri_count, error);
+    if (!status && !mw__give_points(mesh, given, order, setup.threads)) status = mw__fail_memory(error);
+    return status;
+}
+
+mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *points, size_t n, size_t stride,
+                            uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+{
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    *out = NULL;
+    if (!stride) stride = 2;
+    if (stride < 2) return mw__fail(error, MW_ERROR_ARGUMENT, "stride %zu is below 2", stride);
+    if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "points is NULL");
+    if (n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
+    mw_point *copy;
+    const mw_point *given = delaunay_read_points(points, stride, (uint32_t)n, threads, &copy);
+    mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
+    mw_status status = mesh && (given || !n) ? MW_OK : mw__fail_memory(error);
+    if (status == MW_OK) {
+        mesh->point_count = (uint32_t)n;
+        const mw_delaunay_setup setup = {.threads = threads};
+        status = delaunay_make_mesh(given, setup, laid_out, duplicate_of, report, mesh, error);
+    }
+    free(copy);
+    if (status == MW_OK)
+        *out = mesh;
+    else
+        mw_mesh_destroy(mesh);
+    return status;
+}
+
+mw_status mw_delaunay_with(const mw_delaunay_options *options, const double *points, size_t n, size_t stride,
+                           uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+{
+    return mw__delaunay_mesh(options ? options->threads : 0, true, points, n, stride, duplicate_of, report, out, error);
+}
+
+mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
+                      mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+{
+    return mw_delaunay_with(NULL, points, n, stride, duplicate_of, report, out, error);
+}

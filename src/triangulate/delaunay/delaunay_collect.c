@@ -1,0 +1,167 @@
+/* delaunay_collect.c - triangles are numbered by their lowest place: along the curve.
+ *
+ * It is a counting sort. Each part counts and numbers the facets in its own slice whose lowest place is its own; the
+ * others lie along seams, are few, and are done one after the other: they come last at their place. Numbers do not depend
+ * on the threads. */
+#include "triangulate/delaunay/delaunay_collect.h"
+
+#include "base/threads.h"
+
+#include <stdlib.h>
+
+/* Of a facet whose lowest place is another part's: FOREIGN + the number of the next such facet in its part. */
+#define FOREIGN UINT32_C(0x80000000)
+#define NO_MORE (MW_NONE - 1)
+
+/* A part without halves. */
+typedef struct slice {
+    uint32_t from, to; /* places                                            */
+    uint32_t foreign;  /* as the number of a foreign facet: the first, last */
+    uint32_t count;    /* triangles whose lowest place it has               */
+} slice;
+
+typedef struct collector {
+    const mw_patch_arrays *ground;
+    uint32_t *number; /* of each facet: MW_NONE: it is no triangle                                   */
+    uint32_t *next;   /* of each place: triangles whose lowest it is, then the number of the next one */
+    slice *slices;
+    int64_t slice_count;
+    mw_triangle *tri;
+    const uint32_t *vertex; /* of each place: its vertex; NULL: they are the same */
+} collector;
+
+static MW_INLINE uint32_t facet_lowest(const mw_facet *f)
+{
+    uint32_t low = f->v[0] < f->v[1] ? f->v[0] : f->v[1];
+    return low < f->v[2] ? low : f->v[2];
+}
+
+static MW_INLINE bool is_ghost(const collector *h, const mw_facet *f)
+{
+    return f->v[0] == h->ground->n || f->v[1] == h->ground->n || f->v[2] == h->ground->n;
+}
+
+static void slice_count(collector *h, slice *s)
+{
+    s->foreign = NO_MORE;
+    for (uint32_t i = s->from; i < s->to; i++) h->next[i] = 0;
+    for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
+        const mw_facet *facet = &h->ground->facet[f];
+        uint32_t low = facet_lowest(facet);
+        if (is_ghost(h, facet)) {
+            h->number[f] = MW_NONE;
+        } else if (low >= s->from && low < s->to) {
+            h->number[f] = low;
+            h->next[low]++;
+        } else {
+            h->number[f] = s->foreign;
+            s->foreign = FOREIGN + f;
+        }
+    }
+}
+
+static void count_foreign(collector *h, slice *s)
+{
+    for (uint32_t f = s->foreign; f != NO_MORE; f = h->number[f - FOREIGN])
+        h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
+}
+
+static void sum_up(collector *h, slice *s)
+{
+    s->count = 0;
+    for (uint32_t i = s->from; i < s->to; i++) s->count += h->next[i];
+}
+
+/* s->count has become the number of the first. */
+static void slice_number(collector *h, slice *s)
+{
+    uint32_t sum = s->count;
+    for (uint32_t i = s->from; i < s->to; i++) {
+        uint32_t here = h->next[i];
+        h->next[i] = sum;
+        sum += here;
+    }
+    for (uint32_t f = 2 * s->from; f < 2 * s->to; f++)
+        if (h->number[f] < FOREIGN) h->number[f] = h->next[h->number[f]]++;
+}
+
+static void number_foreign(collector *h, slice *s)
+{
+    for (uint32_t f = s->foreign, after; f != NO_MORE; f = after) {
+        after = h->number[f - FOREIGN];
+        h->number[f - FOREIGN] = h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
+    }
+}
+
+static void slice_copy(collector *h, slice *s)
+{
+    for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
+        if (h->number[f] == MW_NONE) continue;
+        const mw_facet *from = &h->ground->facet[f];
+        mw_triangle *t = &h->tri[h->number[f]];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t other = h->number[mw__link_triangle(from->link[k])];
+            t->v[k] = h->vertex ? h->vertex[from->v[k]] : from->v[k];
+            t->link[k] = other == MW_NONE ? MW_NONE : mw__link(other, mw__link_edge(from->link[k]));
+        }
+        t->v[3] = t->v[0];
+        t->user = h->number[f];
+    }
+}
+
+static void for_each_slice(collector *h, void (*step)(collector *h, slice *s), int team)
+{
+    (void)team; /* unused without OpenMP */
+#ifdef _OPENMP
+#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
+#endif
+    for (int64_t i = 0; i < h->slice_count; i++) step(h, &h->slices[i]);
+}
+
+static bool list_slices(collector *h, const mw_patches *patches)
+{
+    h->slices = mw__alloc(patches->count, sizeof *h->slices);
+    if (!h->slices) return false;
+    for (uint32_t i = 0; i < patches->count; i++)
+        if (patches->patch[i].half == MW_NONE)
+            h->slices[h->slice_count++] = (slice){.from = patches->patch[i].from, .to = patches->patch[i].to};
+    return true;
+}
+
+/* The slices lie in any order: that of parts. Numbers go along the places. */
+static int by_place(const void *left, const void *right)
+{
+    uint32_t i = ((const slice *)left)->from, j = ((const slice *)right)->from;
+    return (i > j) - (i < j);
+}
+
+static uint32_t number_all(collector *h, int team)
+{
+    uint32_t sum = 0;
+    qsort(h->slices, (size_t)h->slice_count, sizeof *h->slices, by_place);
+    for_each_slice(h, slice_count, team);
+    for_each_slice(h, count_foreign, 1);
+    for_each_slice(h, sum_up, team);
+    for (int64_t i = 0; i < h->slice_count; i++) {
+        uint32_t here = h->slices[i].count;
+        h->slices[i].count = sum;
+        sum += here;
+    }
+    for_each_slice(h, slice_number, team);
+    for_each_slice(h, number_foreign, 1);
+    return sum;
+}
+
+bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *ground, bool places, uint32_t threads,
+                          uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count)
+{
+    collector h = {.ground = ground, .number = scratch, .next = scratch + 2 * (size_t)ground->n};
+    if (!places) h.vertex = ground->order;
+    if (!list_slices(&h, patches)) return false;
+    int team = mw__team(threads, h.slice_count);
+    *tri_count = number_all(&h, team);
+    *tri = h.tri = mw__alloc_lines(*tri_count, sizeof *h.tri);
+    if (h.tri) for_each_slice(&h, slice_copy, team);
+    free(h.slices);
+    return h.tri;
+}

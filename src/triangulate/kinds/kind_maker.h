@@ -1,0 +1,28 @@
+/* kind_maker.h - what the kinds of triangulation work on: records of a Delaunay triangulation that they turn into their own.
+ * Private.
+ *
+ * All triangulations of a set of points have the same number of triangles. So each kind works in place, by exchanging
+ * diagonals or by writing all records anew. */
+#ifndef MW_SRC_KIND_H
+#define MW_SRC_KIND_H
+
+#include "mesh/mesh.h"
+
+#include <meshwalk/triangulate.h>
+
+typedef struct mw_triangulation {
+    const mw_point *point; /* points equal to an earlier one are in no triangle */
+    uint32_t point_count;
+    mw_triangle *tri; /* counter-clockwise, linked, filling the convex hull */
+    uint32_t tri_count;
+} mw_triangulation;
+
+/* Turn a Delaunay triangulation into one of the kind; order and `user` of the records are free. Fills what concerns the
+ * kind in the report: `optimal` (1 at first) and the faces. MW_ERROR_MEMORY. */
+typedef mw_status mw_make_kind(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
+                               mw_error *error);
+
+#define MW_KIND_ENTRY(id, symbol, name, source, help) mw_make_kind mw__make_##symbol;
+#include <meshwalk/kinds.def>
+
+#endif
