@@ -286,7 +286,7 @@ static uint32_t insert_point(coarsening *c, uint32_t point)
     const double *p = c->points + 3 * (size_t)point;
     mw_change change;
     mw_edit edit = {.kind = MW_EDIT_INSERT, .x = p[0], .y = p[1], .field = c->z, .value = p[2]};
-    return carry_out(c, &edit, &change) && change.vertex_made ? change.vertex : MW_NONE;
+    return carry_out(c, &edit, &change) && change.vertices_made ? change.vertex : MW_NONE;
 }
 
 #define MOST_ROUND 64
@@ -295,7 +295,7 @@ static uint32_t insert_point(coarsening *c, uint32_t point)
 static bool remove_beside(coarsening *c, uint32_t vertex)
 {
     uint32_t round[MOST_ROUND];
-    size_t count = mw_editor_around(c->editor, vertex, round, MOST_ROUND);
+    size_t count = mw_editor_adjacent_vertices(c->editor, vertex, round, MOST_ROUND);
     for (size_t i = 0; i < count && i < MOST_ROUND; i++) {
         if (!remove_vertex(c, round[i])) continue;
         if (largest_error(c, NULL) <= c->limit) return true;
@@ -365,7 +365,7 @@ static void prepare(coarsening *c)
 {
     mw_error error;
     mw_mesh *mesh = terrain_read(c->set.input);
-    mw_editor_options options = {.delaunay = 1, .undo = 4};
+    mw_editor_options options = {.delaunay = MW_DELAUNAY_MAKE, .undo = 4};
     if (mw_editor_create(mesh, &options, &c->editor, &error)) fail(END_INPUT, "%s: %s", c->set.input, error.message);
     take_points(c, mesh);
     c->triangle_room = mw_mesh_triangle_count(mesh);
@@ -375,9 +375,9 @@ static void prepare(coarsening *c)
     c->stamp = calloc(c->vertex_room, sizeof *c->stamp);
     if (!c->stamp) fail(END_FAILED, "out of memory");
     mw_mesh_destroy(mesh);
-    c->z = mw_editor_field(c->editor, "z");
+    c->z = mw_editor_field_by_name(c->editor, "z");
     c->locator = mw_editor_locator(c->editor);
-    if (mw_cursor_init(&c->cursor, c->locator, &(mw_query_options){.start = MW_START_LAST}, &error)) fail_with(&error);
+    if (mw_cursor_init(c->locator, &(mw_query_options){.start = MW_START_LAST}, &c->cursor, &error)) fail_with(&error);
     c->astray = MW_NONE;
     for (size_t t = 0; t < c->triangle_room; t++) {
         c->first[t] = MW_NONE;

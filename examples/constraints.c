@@ -12,21 +12,22 @@ int main(void)
     mw_constraints lake = {
         .points = points, .point_count = 11, .segments = segments, .segment_count = 10, .polygon = polygon};
     mw_constrain_report report;
-    mw_pieces pieces;
+    mw_constrained_edges edges;
     mw_error error;
     mw_mesh *mesh;
-    if (mw_constrained_delaunay(&lake, NULL, NULL, &report, &pieces, &mesh, &error)) {
-        if (report.cross[0] != MW_NONE) fprintf(stderr, "segments %u and %u cross\n", report.cross[0], report.cross[1]);
+    if (mw_constrained_delaunay(&lake, NULL, NULL, &report, &edges, &mesh, &error)) {
+        if (report.crossing_segments[0] != MW_NONE)
+            fprintf(stderr, "segments %u and %u cross\n", report.crossing_segments[0], report.crossing_segments[1]);
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }
-    printf("%u triangles, %zu removed, %zu constrained edges\n", mw_mesh_triangle_count(mesh), report.removed,
-           pieces.count);
-    mw_pieces_release(&pieces);
+    printf("%u triangles, %zu removed, %zu constrained edges\n", mw_mesh_triangle_count(mesh), report.triangles_removed,
+           edges.count);
+    mw_constrained_edges_release(&edges);
 
     mw_locator *locator;
     mw_cursor cursor;
-    if (mw_locator_create(mesh, NULL, &locator, &error) || mw_cursor_init(&cursor, locator, NULL, &error)) {
+    if (mw_locator_create(mesh, NULL, &locator, &error) || mw_cursor_init(locator, NULL, &cursor, &error)) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }

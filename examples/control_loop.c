@@ -81,7 +81,7 @@ static void *simulate(void *argument)
  * when the tool was found below it; each answer is of one frame. */
 static void pull(const sheet *s, const double tool[3], double force[3])
 {
-    mw_surface_hit proxy;
+    mw_nearest_surface_point proxy;
     mw_error error;
     if (mw_nearest_on_surface(s->prober, tool, INFINITY, &proxy, &error)) fail(error.message);
     for (int k = 0; k < 3; k++) force[k] = 400 * (proxy.point[k] - tool[k]);
@@ -93,7 +93,7 @@ static void control(const sheet *s)
     mw_error error;
     mw_probe_cursor cursor;
     mw_probe_options options = {.max_distance = 0.5, .certain = 1};
-    if (mw_probe_cursor_init(&cursor, s->prober, &options, &error)) fail(error.message);
+    if (mw_probe_cursor_init(s->prober, &options, &cursor, &error)) fail(error.message);
     unsigned below = 0, pushed = 0;
     const double down[3] = {0, 0, -1};
     for (int i = 0; i < STEPS; i++) {

@@ -23,7 +23,7 @@ static mw_mesh *make_mesh(void)
         points[i][0] = points[i][2] = i % SIDE;
         points[i][1] = i / SIDE;
     }
-    if (mw_delaunay(points[0], SIDE * SIDE, 3, NULL, NULL, &mesh, &error) ||
+    if (mw_delaunay(points[0], SIDE * SIDE, 3, NULL, NULL, NULL, &mesh, &error) ||
         mw_mesh_set_field(mesh, "z", &points[0][2], 3, &error))
         fail(error.message);
     return mesh;
@@ -72,7 +72,7 @@ static void where_is(const mw_editor *editor, mw_cursor *cursor, double x, doubl
 {
     double z;
     mw_location at = mw_locate(mw_editor_locator(editor), cursor, x, y);
-    mw_editor_interpolate(editor, mw_editor_field(editor, "z"), &at, 1, &z);
+    mw_editor_interpolate(editor, mw_editor_field_by_name(editor, "z"), &at, 1, &z);
     printf("%g %g: %s, height %g\n", x, y, mw_where_name((mw_where)at.where), z);
 }
 
@@ -80,14 +80,14 @@ static void where_is(const mw_editor *editor, mw_cursor *cursor, double x, doubl
 static void replay(const mw_editor *from, mw_editor *to)
 {
     static const char *const fields[] = {"z"};
-    const mw_edits_options names = {.fields = fields, .field_count = 1};
-    char text[MW_EDIT_TEXT];
+    const mw_edit_text_options names = {.fields = fields, .field_count = 1};
+    char text[MW_EDIT_TEXT_SIZE];
     mw_error error;
     mw_edit_line again;
     size_t count;
     const mw_edit *log = mw_editor_log(from, &count);
     for (size_t i = 0; i < count; i++) {
-        mw_edit_format(text, &(mw_edit_line){.kind = MW_EDIT_LINE_EDIT, .edit = log[i]}, &names);
+        mw_edit_format(&(mw_edit_line){.kind = MW_EDIT_LINE_EDIT, .edit = log[i]}, &names, text);
         printf("    %s\n", text);
         if (mw_edit_parse(text, &names, &again, &error) || mw_edit_apply(to, &again.edit, NULL, &error))
             fail(error.message);
@@ -118,7 +118,7 @@ int main(void)
     mw_error error;
     mw_editor_options options = {.log = 1, .undo = 10};
     if (mw_editor_create(mesh, &options, &editor, &error) || mw_editor_create(mesh, NULL, &other, &error) ||
-        mw_cursor_init(&cursor, mw_editor_locator(editor), NULL, &error))
+        mw_cursor_init(mw_editor_locator(editor), NULL, &cursor, &error))
         fail(error.message);
     mw_mesh_destroy(mesh); /* an editor has a copy */
     mw_editor_describe(editor, &info);

@@ -109,8 +109,8 @@ static double distance(const erosion *s, uint32_t a, uint32_t b)
 static ring look_round(const erosion *s, uint32_t v)
 {
     ring r;
-    r.count = mw_editor_around(s->editor, v, r.vertex, MOST_ROUND);
-    r.border = r.count == 0 || r.count > MOST_ROUND || mw_editor_edge(s->editor, v, r.vertex[0]) == 3;
+    r.count = mw_editor_adjacent_vertices(s->editor, v, r.vertex, MOST_ROUND);
+    r.border = r.count == 0 || r.count > MOST_ROUND || mw_editor_edge(s->editor, v, r.vertex[0]) == MW_EDGE_BORDER;
     if (r.count > MOST_ROUND) r.count = MOST_ROUND;
     return r;
 }
@@ -169,7 +169,7 @@ static uint32_t reshape(erosion *s, const mw_edit *edit, double *volume)
     *volume = inserts ? 0 : count_star(s, edit->vertex, -1);
     mw_status status = mw_edit_apply(s->editor, edit, &change, &error);
     if (status != MW_OK && status != MW_ERROR_INPUT) fail_with(&error);
-    if (status != MW_OK || (inserts && !change.vertex_made)) {
+    if (status != MW_OK || (inserts && !change.vertices_made)) {
         if (!inserts) count_star(s, edit->vertex, 1);
         return MW_NONE;
     }
@@ -181,7 +181,7 @@ static uint32_t reshape(erosion *s, const mw_edit *edit, double *volume)
         if (mw_editor_triangle(s->editor, t->triangle, after) && !has(after, change.vertex))
             *volume += count_triangle(s, after, 1);
     }
-    if (!change.vertex_freed) *volume += count_star(s, change.vertex, 1);
+    if (!change.vertices_freed) *volume += count_star(s, change.vertex, 1);
     s->reshaped += *volume;
     return change.vertex;
 }
@@ -462,13 +462,13 @@ static void prepare(erosion *s)
     mw_mesh_info info;
     mw_mesh *mesh = terrain_read(s->set.input);
     if (mw_mesh_describe(mesh, &info, &error)) fail_with(&error);
-    if (mw_editor_create(mesh, &(mw_editor_options){.delaunay = 1}, &s->editor, &error))
+    if (mw_editor_create(mesh, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &s->editor, &error))
         fail(END_INPUT, "%s: %s", s->set.input, error.message);
     choose(s, mesh, &info);
     mw_mesh_destroy(mesh);
-    s->z = mw_editor_field(s->editor, "z");
+    s->z = mw_editor_field_by_name(s->editor, "z");
     s->locator = mw_editor_locator(s->editor);
-    if (mw_cursor_init(&s->cursor, s->locator, NULL, &error)) fail_with(&error);
+    if (mw_cursor_init(s->locator, NULL, &s->cursor, &error)) fail_with(&error);
     s->random = s->set.seed;
 }
 

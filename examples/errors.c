@@ -23,7 +23,7 @@ static void overlapping_triangles(void)
     mw_check check;
     mw_error error;
     if (mw_check_arrays(&arrays, &check, &error)) return;
-    printf("%s\n", check.embedding ? "no defects" : "no embedding:");
+    printf("%s\n", check.valid ? "no defects" : "no embedding:");
     for (size_t i = 0; i < check.defect_count; i++) {
         char text[160];
         mw_defect_describe(&check.defects[i], text, sizeof text);

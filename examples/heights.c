@@ -12,8 +12,8 @@
 static double *read_points(const char *path, size_t *width, size_t *count, mw_error *error)
 {
     mw_point_reader *reader;
-    if (mw_points_open(path, NULL, &reader, error)) return NULL;
-    *width = mw_points_width(reader);
+    if (mw_point_reader_open(path, NULL, &reader, error)) return NULL;
+    *width = mw_point_reader_width(reader);
     *count = 0;
 
     double *values = NULL;
@@ -25,13 +25,13 @@ static double *read_points(const char *path, size_t *width, size_t *count, mw_er
             if (!more) goto failed;
             values = more;
         }
-        if (mw_points_read(reader, values + *count * *width, room - *count, &got, error)) goto failed;
+        if (mw_point_reader_read(reader, values + *count * *width, room - *count, &got, error)) goto failed;
     }
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     return values;
 
 failed:
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     free(values);
     return NULL;
 }
@@ -43,7 +43,7 @@ static int sample(const double *terrain, size_t vertices, size_t terrain_width, 
     mw_mesh *mesh = NULL;
     mw_locator *locator = NULL;
     mw_location *location = malloc(n * sizeof *location);
-    int failed = !location || mw_delaunay(terrain, vertices, terrain_width, NULL, NULL, &mesh, error) ||
+    int failed = !location || mw_delaunay(terrain, vertices, terrain_width, NULL, NULL, NULL, &mesh, error) ||
                  mw_mesh_set_field(mesh, "z", terrain + 2, terrain_width, error) ||
                  mw_locator_create(mesh, NULL, &locator, error) ||
                  mw_locate_batch(locator, positions, n, width, NULL, location, NULL, error);

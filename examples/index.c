@@ -26,7 +26,7 @@ static double visited(const mw_locator *locator, const mw_index *index, mw_locat
     static double queries[2 * QUERIES];
     mw_error error;
     mw_counters counters;
-    mw_query_options options = {.start = MW_START_GRID, .index = index, .count = 1};
+    mw_query_options options = {.start = MW_START_GRID, .index = index, .counters = 1};
     make_points(queries, QUERIES, 0.001);
     if (mw_locate_batch(locator, queries, QUERIES, 2, &options, found, &counters, &error)) fail(&error);
     return (double)counters.triangles_visited / QUERIES;
@@ -38,7 +38,8 @@ static mw_locator *make_locator(double moved, mw_mesh **mesh)
     mw_error error;
     mw_locator *locator = NULL;
     make_points(points, POINTS, moved);
-    if (mw_delaunay(points, POINTS, 2, NULL, NULL, mesh, &error) || mw_locator_create(*mesh, NULL, &locator, &error))
+    if (mw_delaunay(points, POINTS, 2, NULL, NULL, NULL, mesh, &error) ||
+        mw_locator_create(*mesh, NULL, &locator, &error))
         fail(&error);
     return locator;
 }

@@ -17,7 +17,7 @@ int main(void)
     mw_locator *locator = NULL;
     mw_cursor cursor;
     if (mw_mesh_create(&arrays, NULL, &mesh, &error) || mw_locator_create(mesh, NULL, &locator, &error) ||
-        mw_cursor_init(&cursor, locator, NULL, &error)) {
+        mw_cursor_init(locator, NULL, &cursor, &error)) {
         fprintf(stderr, "%s\n", error.message);
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);

@@ -15,7 +15,7 @@ int main(void)
     mw_locator *locator = NULL;
     mw_cursor cursor;
     if (mw_mesh_create(&arrays, NULL, &mesh, &error) || mw_locator_create(mesh, &with_border, &locator, &error) ||
-        mw_cursor_init(&cursor, locator, &within_a_tenth, &error)) {
+        mw_cursor_init(locator, &within_a_tenth, &cursor, &error)) {
         fprintf(stderr, "%s\n", error.message);
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);
@@ -27,7 +27,7 @@ int main(void)
         double x = queries[i][0], y = queries[i][1];
         mw_location at = mw_locate(locator, &cursor, x, y);
         printf("(%g, %g) %s", x, y, mw_where_name(at.where));
-        mw_border_hit hit;
+        mw_nearest_border_point hit;
         if (at.where >= MW_OUTSIDE && mw_nearest_border(locator, x, y, &hit, &error) == MW_OK)
             printf(", %g from edge %u of triangle %u", hit.distance, hit.edge, hit.triangle);
         printf("\n");

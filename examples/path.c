@@ -38,10 +38,10 @@ int main(void)
     mw_error error;
     mw_locator *locator = NULL;
     mw_cursor cursor;
-    mw_query_options options = {.walk = MW_WALK_STRAIGHT, .start = MW_START_LAST, .count = 1};
+    mw_query_options options = {.walk = MW_WALK_STRAIGHT, .start = MW_START_LAST, .counters = 1};
     mw_mesh *mesh = make_squares(100, &error);
     if (!mesh || mw_locator_create(mesh, NULL, &locator, &error) ||
-        mw_cursor_init(&cursor, locator, &options, &error)) {
+        mw_cursor_init(locator, &options, &cursor, &error)) {
         fprintf(stderr, "%s\n", error.message);
         mw_mesh_destroy(mesh);
         return 1;

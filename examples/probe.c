@@ -67,7 +67,7 @@ int main(void)
     mw_probe_cursor quick, complete;
     mw_probe_options certain = {.certain = 1}, near = {.max_distance = 0.3};
     if (mw_prober_create(surface, &(mw_prober_options){.boxes = 1}, &prober, &error) ||
-        mw_probe_cursor_init(&quick, prober, NULL, &error) || mw_probe_cursor_init(&complete, prober, &certain, &error))
+        mw_probe_cursor_init(prober, NULL, &quick, &error) || mw_probe_cursor_init(prober, &certain, &complete, &error))
         fail(&error);
 
     show(prober, &quick, 2.1, 1);    /* above the ring                                           */

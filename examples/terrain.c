@@ -60,18 +60,18 @@ static draft read_points(const char *path)
     mw_error error;
     mw_point_reader *reader;
     draft d = {0};
-    if (mw_points_open(path, NULL, &reader, &error)) fail_with(&error);
-    size_t width = mw_points_width(reader), room = 0, block = 4096;
+    if (mw_point_reader_open(path, NULL, &reader, &error)) fail_with(&error);
+    size_t width = mw_point_reader_width(reader), room = 0, block = 4096;
     if (width < 3) fail(END_INPUT, "%s: the points have no heights: x, y and z are wanted", path);
     double *values = grown(NULL, block, width * sizeof *values);
     for (size_t got = 1; got > 0;) {
-        if (mw_points_read(reader, values, block, &got, &error)) fail_with(&error);
+        if (mw_point_reader_read(reader, values, block, &got, &error)) fail_with(&error);
         while (room < d.point_count + got) d.points = grown(d.points, room = 2 * room + block, 3 * sizeof *d.points);
         for (size_t i = 0; i < got; i++, d.point_count++)
             memcpy(d.points + 3 * d.point_count, values + i * width, 3 * sizeof *values);
     }
     free(values);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     return d;
 }
 
@@ -120,16 +120,16 @@ static mw_mesh *triangulated(draft *d, const char *path)
 {
     mw_error error;
     mw_mesh *mesh;
-    mw_triangulation_report report;
+    mw_delaunay_report report;
     uint32_t *same = grown(NULL, d->point_count, sizeof *same);
     bool *first = grown(NULL, d->point_count, sizeof *first);
-    if (mw_delaunay(d->points, d->point_count, 3, same, &report, &mesh, &error))
+    if (mw_delaunay(d->points, d->point_count, 3, NULL, same, &report, &mesh, &error))
         fail(END_INPUT, "%s: %s", path, error.message);
     if (report.duplicates > 0) {
         for (size_t i = 0; i < d->point_count; i++) first[i] = same[i] == MW_NONE;
         keep_vertices(d, first);
         mw_mesh_destroy(mesh);
-        if (mw_delaunay(d->points, d->point_count, 3, NULL, NULL, &mesh, &error)) fail_with(&error);
+        if (mw_delaunay(d->points, d->point_count, 3, NULL, NULL, NULL, &mesh, &error)) fail_with(&error);
     }
     free(same);
     free(first);
@@ -169,7 +169,8 @@ int terrain_can_write(const char *path)
 {
     const char *dot = strrchr(path, '.');
     bool known = dot && strcasecmp(dot, ".ele") == 0;
-    for (size_t i = 0; mw_format_name(i) && dot && !known; i++) known = strcasecmp(dot + 1, mw_format_name(i)) == 0;
+    for (size_t i = 0; mw_mesh_format_name(i) && dot && !known; i++)
+        known = strcasecmp(dot + 1, mw_mesh_format_name(i)) == 0;
     return known;
 }
 
@@ -186,7 +187,7 @@ void terrain_write(const char *path, const mw_mesh *mesh)
         file.points[3 * (size_t)i + 2] = z[i];
     }
     for (uint32_t t = 0; t < triangles; t++) mw_mesh_triangle(mesh, t, file.triangles + 3 * (size_t)t);
-    if (mw_write_mesh(path, NULL, &file, &error)) fail(END_FAILED, "%s", error.message);
+    if (mw_write_mesh(path, &file, NULL, &error)) fail(END_FAILED, "%s", error.message);
     free(file.points);
     free(file.triangles);
 }

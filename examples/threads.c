@@ -25,7 +25,7 @@ static void *work(void *argument)
     const job *j = argument;
     mw_query_options options = {.start = MW_START_SAMPLE, .seed = j->seed};
     mw_cursor cursor;
-    if (mw_cursor_init(&cursor, j->locator, &options, NULL)) return "failed";
+    if (mw_cursor_init(j->locator, &options, &cursor, NULL)) return "failed";
     for (size_t i = 0; i < QUERIES; i++)
         j->triangle[i] = mw_locate(j->locator, &cursor, j->queries[2 * i], j->queries[2 * i + 1]).triangle;
     return NULL;
@@ -65,7 +65,7 @@ int main(void)
         uint64_t state = 1;
         for (size_t i = 0; i < 2 * POINTS; i++) points[i] = uniform(&state);
         for (size_t i = 0; i < 2 * QUERIES; i++) queries[i] = uniform(&state);
-        if (mw_delaunay(points, POINTS, 2, NULL, NULL, &mesh, &error) == MW_OK &&
+        if (mw_delaunay(points, POINTS, 2, NULL, NULL, NULL, &mesh, &error) == MW_OK &&
             mw_locator_create(mesh, NULL, &locator, &error) == MW_OK)
             wrong = race(locator, queries, triangle);
     }

@@ -8,10 +8,10 @@ int main(void)
     const double points[] = {0, 0, 5, 0, 5, 4, 0, 4, 5, 0, 2, 1};
     enum { N = 6 };
     uint32_t duplicate_of[N];
-    mw_triangulation_report report;
+    mw_delaunay_report report;
     mw_mesh *mesh;
     mw_error error;
-    if (mw_delaunay(points, N, 2, duplicate_of, &report, &mesh, &error)) {
+    if (mw_delaunay(points, N, 2, NULL, duplicate_of, &report, &mesh, &error)) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }

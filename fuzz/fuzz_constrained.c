@@ -19,10 +19,10 @@ static uint32_t next(input *in)
 }
 
 /* Is there a constrained edge between two vertices? */
-static int is_piece(const mw_pieces *pieces, uint32_t a, uint32_t b)
+static int is_piece(const mw_constrained_edges *edges, uint32_t a, uint32_t b)
 {
-    for (size_t i = 0; i < pieces->count; i++) {
-        uint32_t p = pieces->edge[2 * i], q = pieces->edge[2 * i + 1];
+    for (size_t i = 0; i < edges->count; i++) {
+        uint32_t p = edges->edge[2 * i], q = edges->edge[2 * i + 1];
         if ((p == a && q == b) || (p == b && q == a)) return 1;
     }
     return 0;
@@ -35,12 +35,12 @@ static int is_nearer(const double *points, uint32_t to, uint32_t v, uint32_t w)
 }
 
 /* Follow constrained edges along the segment from a to b, each nearer to b. */
-static void follow(const double *points, const mw_pieces *pieces, uint32_t a, uint32_t b)
+static void follow(const double *points, const mw_constrained_edges *edges, uint32_t a, uint32_t b)
 {
     while (a != b) {
         uint32_t found = MW_NONE;
-        for (size_t i = 0; i < pieces->count; i++) {
-            uint32_t p = pieces->edge[2 * i], q = pieces->edge[2 * i + 1];
+        for (size_t i = 0; i < edges->count; i++) {
+            uint32_t p = edges->edge[2 * i], q = edges->edge[2 * i + 1];
             uint32_t other = p == a ? q : q == a ? p : MW_NONE;
             if (other == MW_NONE || !is_nearer(points, b, other, a)) continue;
             if (mw_orient2d(points + 2 * a, points + 2 * b, points + 2 * other) == 0) found = other;
@@ -50,7 +50,7 @@ static void follow(const double *points, const mw_pieces *pieces, uint32_t a, ui
     }
 }
 
-static void check_delaunay(const mw_mesh *mesh, const mw_pieces *pieces)
+static void check_delaunay(const mw_mesh *mesh, const mw_constrained_edges *edges)
 {
     for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
         uint32_t v[3], w[3];
@@ -61,7 +61,7 @@ static void check_delaunay(const mw_mesh *mesh, const mw_pieces *pieces)
         for (unsigned k = 0; k < 3; k++) {
             unsigned edge;
             uint32_t other = mw_mesh_neighbour(mesh, t, k, &edge);
-            if (other == MW_NONE || is_piece(pieces, v[k], v[(k + 1) % 3])) continue;
+            if (other == MW_NONE || is_piece(edges, v[k], v[(k + 1) % 3])) continue;
             mw_mesh_triangle(mesh, other, w);
             mw_mesh_vertex(mesh, w[(edge + 2) % 3], q);
             if (mw_incircle(p[0], p[1], p[2], q) > 0) abort();
@@ -98,23 +98,23 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                             .segments = segments,
                             .segment_count = m,
                             .polygon = options & 2 ? polygon : NULL,
-                            .holes = holes,
-                            .hole_count = options >> 2 & 1 ? 2 : 0};
+                            .hole_seeds = holes,
+                            .hole_seed_count = options >> 2 & 1 ? 2 : 0};
     mw_constrain_options how = {.keep = (mw_keep)((options >> 3) % 3), .split = (int)(options >> 6 & 1)};
-    mw_pieces pieces;
+    mw_constrained_edges edges;
     mw_mesh *mesh;
-    if (mw_constrained_delaunay(&given, &how, duplicate_of, NULL, &pieces, &mesh, NULL)) {
+    if (mw_constrained_delaunay(&given, &how, duplicate_of, NULL, &edges, &mesh, NULL)) {
         if (mesh) abort();
         return 0;
     }
     check_embedding(mesh);
-    check_delaunay(mesh, &pieces);
-    for (size_t i = 0; i < m && how.keep == MW_KEEP_HULL && !how.split && !given.hole_count; i++) {
+    check_delaunay(mesh, &edges);
+    for (size_t i = 0; i < m && how.keep == MW_KEEP_HULL && !how.split && !given.hole_seed_count; i++) {
         uint32_t a = segments[2 * i], b = segments[2 * i + 1];
-        follow(points, &pieces, duplicate_of[a] == MW_NONE ? a : duplicate_of[a],
+        follow(points, &edges, duplicate_of[a] == MW_NONE ? a : duplicate_of[a],
                duplicate_of[b] == MW_NONE ? b : duplicate_of[b]);
     }
-    mw_pieces_release(&pieces);
+    mw_constrained_edges_release(&edges);
     mw_mesh_destroy(mesh);
     return 0;
 }

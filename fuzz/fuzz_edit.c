@@ -34,7 +34,7 @@ static mw_mesh *mesh_from(input *in)
         points[2 * i + 1] = coordinate(byte >> 4);
     }
     mw_mesh *whole, *mesh;
-    if (mw_delaunay(points, n, 2, NULL, NULL, &whole, NULL)) return NULL;
+    if (mw_delaunay(points, n, 2, NULL, NULL, NULL, &whole, NULL)) return NULL;
     uint32_t count = mw_mesh_triangle_count(whole);
     for (uint32_t t = 0; t < count; t++) {
         uint32_t what = how & 1 ? next(in) : 0, v[3];
@@ -44,7 +44,9 @@ static mw_mesh *mesh_from(input *in)
         kept++;
     }
     mw_arrays view = {.points = points, .point_count = n, .triangles = triangles, .triangle_count = kept};
-    if (mw_mesh_create(&view, &(mw_mesh_options){.layout = 1 + (int)(how >> 1 & 1)}, &mesh, NULL)) abort();
+    if (mw_mesh_create(&view, &(mw_mesh_options){.layout = how >> 1 & 1 ? MW_LAYOUT_AS_GIVEN : MW_LAYOUT_HILBERT},
+                       &mesh, NULL))
+        abort();
     mw_mesh_destroy(whole);
     return mesh;
 }
@@ -75,7 +77,7 @@ static void run(input *in, twin *t, const mw_editor_options *options)
     readers r;
     uint32_t kept = 0, steps = 0;
     bool compacted = false;
-    readers_open(&r, t, options->delaunay != 1, 1);
+    readers_open(&r, t, options->delaunay != MW_DELAUNAY_MAKE, 1);
     while (in->left > 0 && steps++ < STEPS) {
         uint32_t what = next(in);
         mw_editor_info was, is;
@@ -115,7 +117,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     input in = {data, size};
     twin t;
-    mw_editor_options options = {.delaunay = (int)(next(&in) % 3), .undo = KEPT, .log = 1};
+    mw_editor_options options = {.delaunay = (mw_delaunay_mode)(next(&in) % 3), .undo = KEPT, .log = 1};
     mw_mesh *mesh = mesh_from(&in);
     if (!mesh) return 0;
     uint32_t constraint[2], v[3], more = next(&in);
@@ -124,8 +126,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         mw_mesh_triangle(mesh, 0, v);
         constraint[0] = v[0];
         constraint[1] = v[1];
-        options.constraints = constraint;
-        options.constraint_count = 1;
+        options.constrained_edges = constraint;
+        options.constrained_edge_count = 1;
     }
     case_name = "input";
     twin_open(&t, mesh, &options);

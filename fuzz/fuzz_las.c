@@ -8,7 +8,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         "x,y,z,intensity,return,returns,classification,scan_angle,user_data,point_source,time,red,"
         "green,blue"};
     if (size < 5) return 0;
-    mw_points_options options = {.columns = selections[data[0] % 3]};
+    mw_point_reader_options options = {.columns = selections[data[0] % 3]};
     if (data[0] & 0x80) options.classes[data[0] & 31] = 1;
     uint8_t *file = malloc(size - 1);
     require(file != NULL);

@@ -51,7 +51,7 @@ static uint32_t by_force(const mw_mesh *mesh, const double q[2])
 }
 
 /* The triangulation less some of its triangles, in the input's order of corners. */
-static mw_mesh *damaged(input *in, const mw_mesh *whole, int layout)
+static mw_mesh *damaged(input *in, const mw_mesh *whole, mw_mesh_layout layout)
 {
     uint32_t n = mw_mesh_triangle_count(whole), points = mw_mesh_vertex_count(whole), kept = 0;
     uint32_t triangles[6 * MOST];
@@ -70,18 +70,19 @@ static mw_mesh *damaged(input *in, const mw_mesh *whole, int layout)
     return mesh;
 }
 
-static void query(const mw_mesh *mesh, const mw_locator *locator, mw_index *const *index, const double q[2], int layout)
+static void query(const mw_mesh *mesh, const mw_locator *locator, mw_index *const *index, const double q[2],
+                  mw_mesh_layout layout)
 {
     uint32_t want = by_force(mesh, q);
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
         for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
             mw_query_options options = {.walk = (mw_walk_kind)walk,
                                         .start = (mw_start_kind)start,
-                                        .arithmetic = (mw_arithmetic)((walk ^ start ^ layout) & 1),
+                                        .arithmetic = (mw_arithmetic)((walk ^ start ^ (int)layout) & 1),
                                         .seed = 7,
                                         .index = index[start]};
             mw_cursor cursor;
-            if (mw_cursor_init(&cursor, locator, &options, NULL)) abort();
+            if (mw_cursor_init(locator, &options, &cursor, NULL)) abort();
             mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
             if (at.triangle != want) abort();
         }
@@ -92,11 +93,11 @@ static void query_open(const mw_locator *open, const mw_locator *filled, const d
 {
     mw_query_options by_default = {.start = MW_START_RANDOM, .seed = 7};
     mw_cursor cursor;
-    if (mw_cursor_init(&cursor, filled, &by_default, NULL)) abort();
+    if (mw_cursor_init(filled, &by_default, &cursor, NULL)) abort();
     mw_location want = mw_locate(filled, &cursor, q[0], q[1]);
     for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
         mw_query_options options = {.start = MW_START_RANDOM, .seed = 7, .arithmetic = (mw_arithmetic)arithmetic};
-        if (mw_cursor_init(&cursor, open, &options, NULL)) abort();
+        if (mw_cursor_init(open, &options, &cursor, NULL)) abort();
         for (int i = 0; i < 4; i++) {
             mw_location at = mw_locate(open, &cursor, q[0], q[1]);
             if (at.triangle != want.triangle || at.where != want.where || at.hole != want.hole) abort();
@@ -114,13 +115,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     double scale = ldexp(1, (next(&in) & 7) * 90 - 360), offset = next(&in) & 1 ? 4096 : 0;
     for (size_t i = 0; i < 2 * n; i++) points[i] = (coordinate(&in, 0) + offset) * scale;
     mw_mesh *whole;
-    if (mw_delaunay(points, n, 2, NULL, NULL, &whole, NULL)) return 0; /* all on one line */
-    int layout = 1 + (next(&in) & 1);
+    if (mw_delaunay(points, n, 2, NULL, NULL, NULL, &whole, NULL)) return 0; /* all on one line */
+    mw_mesh_layout layout = next(&in) & 1 ? MW_LAYOUT_AS_GIVEN : MW_LAYOUT_HILBERT;
     mw_mesh *mesh = damaged(&in, whole, layout);
     mw_locator_options prepare = {0};
     mw_locator *locator, *open;
     if (mw_locator_create(mesh, &prepare, &locator, NULL)) abort(); /* a part of an embedding is one */
-    prepare.fill = 2;
+    prepare.fill = MW_FILL_NO;
     if (mw_locator_create(mesh, &prepare, &open, NULL)) abort();
     mw_index *index[MW_START_COUNT];
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) /* NULL for starts that have none */

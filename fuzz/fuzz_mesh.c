@@ -70,9 +70,9 @@ static bool read_input(input *in, const uint8_t *data, size_t size)
     read_points(in, data + 3, count, stride, data[0] >> 5 & 1);
     size_t triangles = (size - 3 - 2 * count) / 3;
     read_triangles(in, data + 3 + 2 * count, triangles < MAX_TRIANGLES ? triangles : MAX_TRIANGLES);
-    in->view.index_type = (mw_index_type)(data[0] % 3);
+    in->view.integer_type = (mw_integer_type)(data[0] % 3);
     const void *indices[] = {in->a.triangles, in->int32, in->int64};
-    in->view.triangles = indices[in->view.index_type];
+    in->view.triangles = indices[in->view.integer_type];
     return true;
 }
 
@@ -81,7 +81,7 @@ static bool try_check(const input *in, bool *usable)
 {
     mw_check check;
     require(mw_check_arrays(&in->view, &check, NULL) == MW_OK);
-    bool embedding = check.embedding, sound = true;
+    bool embedding = check.valid, sound = true;
     *usable = true;
     for (size_t i = 0; i < check.defect_count; i++) {
         const mw_defect *d = &check.defects[i];
@@ -90,7 +90,7 @@ static bool try_check(const input *in, bool *usable)
         require(d->kind < MW_DEFECT_COUNT && d->triangle < in->a.triangle_count);
         require(i == 0 || d->kind >= check.defects[i - 1].kind);
         if (d->kind != MW_DEFECT_FLAT) sound = false;
-        if (d->kind <= MW_DEFECT_EDGE_SHARED) *usable = false;
+        if (d->kind <= MW_DEFECT_NON_MANIFOLD_EDGE) *usable = false;
     }
     mw_check_release(&check);
     require(embedding == sound);
@@ -111,7 +111,7 @@ static void try_tiling(const input *in, const mw_mesh *mesh, bool embedding)
     mw__tiling_release(&tiling);
 }
 
-static void try_mesh(const input *in, bool tolerant, int layout, bool expected, bool embedding)
+static void try_mesh(const input *in, bool tolerant, mw_mesh_layout layout, bool expected, bool embedding)
 {
     mw_mesh *mesh;
     mw_mesh_options options = {.tolerant = tolerant, .layout = layout, .threads = 1};
@@ -131,9 +131,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     input in = {0};
     if (read_input(&in, data, size)) {
         bool usable, embedding = try_check(&in, &usable);
-        try_mesh(&in, false, 1, usable, embedding); /* laid out */
-        try_mesh(&in, false, 2, usable, embedding);
-        try_mesh(&in, true, 0, in.in_range, embedding);
+        try_mesh(&in, false, MW_LAYOUT_HILBERT, usable, embedding);
+        try_mesh(&in, false, MW_LAYOUT_AS_GIVEN, usable, embedding);
+        try_mesh(&in, true, MW_LAYOUT_AUTO, in.in_range, embedding);
         arrays_free(&in.a);
     }
     return 0;

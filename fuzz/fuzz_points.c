@@ -9,7 +9,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     while (length < size && data[length] != '\n') length++;
     if (length < sizeof columns) memcpy(columns, data, length);
     size_t skipped = length < size ? length + 1 : size;
-    mw_points_options options = {.columns = columns[0] ? columns : NULL};
+    mw_point_reader_options options = {.columns = columns[0] ? columns : NULL};
     size_t commas = 0;
     for (const char *p = columns; *p; p++) commas += *p == ',';
     /* a selection that is wrong in itself is no matter of the file */
@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_error error = {0};
     if (mw__source_memory(&source, "input.txt", "", 0, &error) != MW_OK) return 0;
     bool sound = mw__points_start(source, &options, &reader, &error) == MW_OK;
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     if (!sound) options.columns = NULL;
     fuzz_points("input.txt", &options, data + skipped, size - skipped);
     fuzz_points("input.node", &options, data + skipped, size - skipped);

@@ -98,7 +98,7 @@ static void check_probes(const triangles *s, const mw_prober *prober, input *in)
     mw_probe_cursor cursor[2];
     for (int i = 0; i < 2; i++) {
         mw_probe_options options = {.certain = i == 0};
-        if (mw_probe_cursor_init(&cursor[i], prober, &options, NULL)) abort();
+        if (mw_probe_cursor_init(prober, &options, &cursor[i], NULL)) abort();
     }
     for (int i = 0; i < PROBES; i++) check_probe(s, prober, cursor, in);
 }

@@ -71,14 +71,14 @@ static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const u
 static inline void require_constraints(const mw_constraint_file *file, size_t size)
 {
     require(file->point_count <= size && file->segment_count <= size && file->polygon_count <= size);
-    require(file->hole_count <= size && file->field_count <= MW_COLUMN_LIMIT && file->place_name != NULL);
+    require(file->hole_seed_count <= size && file->field_count <= MW_COLUMN_LIMIT && file->record_name != NULL);
     for (size_t i = 0; i < file->segment_count; i++) {
         require(file->segments[2 * i] < file->point_count && file->segments[2 * i + 1] < file->point_count);
         require(file->polygon[i] < file->polygon_count || file->polygon[i] == MW_NONE);
-        require(file->place[i] <= size);
+        require(file->record[i] <= size);
     }
     require_values(file->points, 3 * file->point_count);
-    require_values(file->holes, 2 * file->hole_count);
+    require_values(file->hole_seeds, 2 * file->hole_seed_count);
     for (size_t f = 0; f < file->field_count; f++) require_values(file->fields[f], file->point_count);
 }
 
@@ -103,7 +103,8 @@ static inline void fuzz_constraints(constraint_reader *read, const char *name, c
 }
 
 /* Run the reader of points that the contents choose. */
-static inline void fuzz_points(const char *name, const mw_points_options *options, const uint8_t *data, size_t size)
+static inline void fuzz_points(const char *name, const mw_point_reader_options *options, const uint8_t *data,
+                               size_t size)
 {
     enum { BLOCK = 7 };
     mw_error error = {0};
@@ -112,19 +113,19 @@ static inline void fuzz_points(const char *name, const mw_points_options *option
     if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
     mw_status status = mw__points_start(source, options, &reader, &error);
     if (!status) {
-        size_t width = mw_points_width(reader), count = BLOCK, total = 0;
+        size_t width = mw_point_reader_width(reader), count = BLOCK, total = 0;
         require(width >= 2 && width <= MW_COLUMN_LIMIT);
-        for (size_t i = 0; i < width; i++) require(mw_points_column(reader, i) != NULL);
+        for (size_t i = 0; i < width; i++) require(mw_point_reader_column(reader, i) != NULL);
         double *values = malloc(BLOCK * width * sizeof *values);
         require(values != NULL);
         while (!status && count > 0) {
-            status = mw_points_read(reader, values, BLOCK, &count, &error);
+            status = mw_point_reader_read(reader, values, BLOCK, &count, &error);
             require(count <= BLOCK && (total += count) <= size);
             require_values(values, count * width);
         }
         free(values);
     }
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     /* a column may turn out to be selected twice, by name and by number */
     if (status == MW_ERROR_ARGUMENT)
         require(options->columns != NULL);

@@ -368,8 +368,8 @@ static inline void fix_first(twin *t, const mw_editor_options *options)
 {
     size_t count;
     side *sides = all_sides(t, &count);
-    for (size_t i = 0; options && i < options->constraint_count; i++) {
-        uint32_t a = options->constraints[2 * i], b = options->constraints[2 * i + 1];
+    for (size_t i = 0; options && i < options->constrained_edge_count; i++) {
+        uint32_t a = options->constrained_edges[2 * i], b = options->constrained_edges[2 * i + 1];
         if (t->convex || (find_side(sides, count, a, b) && find_side(sides, count, b, a))) fix(t, a, b);
     }
     free(sides);
@@ -471,7 +471,7 @@ static inline void same_triangle(const twin *t, uint32_t k)
 static inline void same_constraints(const twin *t)
 {
     size_t count;
-    uint32_t *edge = mw_editor_constraints(t->editor, &count);
+    uint32_t *edge = mw_editor_constrained_edges(t->editor, &count);
     REQUIRE(edge != NULL && count == t->fixed_count);
     for (size_t i = 0; i < count; i++) {
         REQUIRE(is_fixed(t, edge[2 * i], edge[2 * i + 1]));
@@ -487,7 +487,7 @@ static inline void same_info(const twin *t)
     mw_editor_describe(t->editor, &info);
     REQUIRE(info.vertices == t->vertices && info.triangles == t->triangles);
     REQUIRE(info.vertex_range == t->vertex_range && info.triangle_range == t->triangle_range);
-    REQUIRE(info.constraints == t->fixed_count);
+    REQUIRE(info.constrained_edges == t->fixed_count);
     REQUIRE(info.delaunay == t->delaunay && info.convex == t->convex);
     REQUIRE(info.bytes > 0 && info.undo_bytes < info.bytes && info.index_bytes < info.bytes);
     for (int i = 0; i < 8; i++) REQUIRE(info.reserved[i] == 0);
@@ -524,11 +524,11 @@ static inline void check_around(const twin *t, uint32_t v, const side *sides, si
         if (sides[i].triangle < lowest) lowest = sides[i].triangle;
     }
     REQUIRE(mw_editor_triangle_of(t->editor, v) == lowest);
-    size_t degree = mw_editor_around(t->editor, v, NULL, 0);
+    size_t degree = mw_editor_adjacent_vertices(t->editor, v, NULL, 0);
     REQUIRE(degree == triangles + b[v].in);
     uint32_t *around = room(degree, sizeof *around);
     around[degree] = 4711;
-    REQUIRE(mw_editor_around(t->editor, v, around, degree) == degree && around[degree] == 4711);
+    REQUIRE(mw_editor_adjacent_vertices(t->editor, v, around, degree) == degree && around[degree] == 4711);
     for (size_t j = 0; j < degree; j++) {
         const side *s = find_side(sides, count, v, around[j]);
         REQUIRE(s != NULL || find_side(sides, count, around[j], v) != NULL);
@@ -537,22 +537,22 @@ static inline void check_around(const twin *t, uint32_t v, const side *sides, si
     REQUIRE(joined == triangles);
     if (degree > 1) {
         uint32_t two[2] = {0, 4711};
-        REQUIRE(mw_editor_around(t->editor, v, two, 1) == degree && two[0] == around[0] && two[1] == 4711);
+        REQUIRE(mw_editor_adjacent_vertices(t->editor, v, two, 1) == degree && two[0] == around[0] && two[1] == 4711);
     }
     free(around);
 }
 
-static inline int edge_of(const twin *t, const side *sides, size_t count, uint32_t a, uint32_t b)
+static inline mw_edge_kind edge_of(const twin *t, const side *sides, size_t count, uint32_t a, uint32_t b)
 {
     const side *s = find_side(sides, count, a, b), *r = find_side(sides, count, b, a);
-    if (!s && !r) return 0;
-    if (is_fixed(t, a, b)) return 2;
-    return s && r ? 1 : 3;
+    if (!s && !r) return MW_EDGE_NONE;
+    if (is_fixed(t, a, b)) return MW_EDGE_CONSTRAINED;
+    return s && r ? MW_EDGE_UNCONSTRAINED : MW_EDGE_BORDER;
 }
 
 static inline void check_edge(const twin *t, const side *sides, size_t count, uint32_t a, uint32_t b)
 {
-    int kind = edge_of(t, sides, count, a, b);
+    mw_edge_kind kind = edge_of(t, sides, count, a, b);
     REQUIRE(mw_editor_edge(t->editor, a, b) == kind && mw_editor_edge(t->editor, b, a) == kind);
 }
 
@@ -561,8 +561,9 @@ static inline void check_neighbours(const twin *t, const side *sides, size_t cou
     border_vertex *b = border_vertices(t, sides, count);
     for (uint32_t v = 0; v < t->vertex_range; v++) check_around(t, v, sides, count, b);
     for (uint32_t v = t->vertex_range; v < t->vertex_range + 2; v++) {
-        REQUIRE(mw_editor_triangle_of(t->editor, v) == MW_NONE && mw_editor_around(t->editor, v, NULL, 0) == 0);
-        REQUIRE(mw_editor_edge(t->editor, v, 0) == 0 && mw_editor_edge(t->editor, 0, v) == 0);
+        REQUIRE(mw_editor_triangle_of(t->editor, v) == MW_NONE &&
+                mw_editor_adjacent_vertices(t->editor, v, NULL, 0) == 0);
+        REQUIRE(mw_editor_edge(t->editor, v, 0) == MW_EDGE_NONE && mw_editor_edge(t->editor, 0, v) == MW_EDGE_NONE);
     }
     const size_t step = 1 + count / 5000; /* it takes as long as there are edges at the vertex */
     for (size_t i = 0; i < count; i += step) check_edge(t, sides, count, sides[i].from, sides[i].to);
@@ -615,7 +616,7 @@ static inline void check_rebuilt(const twin *t, const side *sides, size_t count)
     mw_mesh *mesh;
     mw_error error = {0};
     if (m == 0)
-        expect_ok(mw_delaunay(points, n, 2, NULL, NULL, &mesh, &error), "rebuild", &error);
+        expect_ok(mw_delaunay(points, n, 2, NULL, NULL, NULL, &mesh, &error), "rebuild", &error);
     else
         expect_ok(mw_constrained_delaunay(&given, NULL, NULL, NULL, NULL, &mesh, &error), "rebuild", &error);
     REQUIRE(mw_mesh_triangle_count(mesh) == t->triangles);
@@ -774,7 +775,7 @@ static inline void check_location(const twin *t, const mw_location *l, const dou
         if (expected.where == MW_BAD) REQUIRE(l->where == MW_BAD && l->hole == MW_NONE);
         if (expected.where == MW_BAD || t->border_moved) return;
         mw_cursor cursor;
-        REQUIRE(mw_cursor_init(&cursor, t->first_locator, NULL, NULL) == MW_OK);
+        REQUIRE(mw_cursor_init(t->first_locator, NULL, &cursor, NULL) == MW_OK);
         mw_location first = mw_locate(t->first_locator, &cursor, q[0], q[1]);
         if (t->convex) first.where = MW_OUTSIDE;
         REQUIRE(l->where == first.where && (t->convex || l->hole == first.hole));
@@ -812,9 +813,9 @@ static inline void open_cursor(readers *r, const twin *t, int walk)
     while (mw_start_has_index(options.start) && !r->index[options.start]);
     options.index = r->index[options.start];
     options.arithmetic = (mw_arithmetic)mw__random_below(&r->random, 2);
-    options.count = (int)mw__random_below(&r->random, 2);
+    options.counters = (int)mw__random_below(&r->random, 2);
     mw_error error = {0};
-    expect_ok(mw_cursor_init(&r->cursor[walk], mw_editor_locator(t->editor), &options, &error), "cursor", &error);
+    expect_ok(mw_cursor_init(mw_editor_locator(t->editor), &options, &r->cursor[walk], &error), "cursor", &error);
 }
 
 static inline void readers_open(readers *r, const twin *t, bool indexed, uint64_t seed)

@@ -253,13 +253,13 @@ static inline void absorb(twin *t, const mw_change *change, bool undone)
         absorb_triangle(t, c, made, freed);
         before = c->triangle;
     }
-    REQUIRE(!(change->vertex_made && change->vertex_freed));
-    if (change->vertex_made) {
+    REQUIRE(!(change->vertices_made && change->vertices_freed));
+    if (change->vertices_made) {
         REQUIRE(change->vertex < info.vertex_range && t->state[change->vertex] == IS_GONE);
         if (!undone) REQUIRE(change->vertex == vertex_range);
         t->state[change->vertex] = IS_USED;
     }
-    if (change->vertex_freed) {
+    if (change->vertices_freed) {
         REQUIRE(is_used(t, change->vertex));
         t->state[change->vertex] = IS_GONE;
     }
@@ -268,13 +268,13 @@ static inline void absorb(twin *t, const mw_change *change, bool undone)
         for (uint32_t k = info.triangle_range; k < triangle_range; k++) REQUIRE(!is_there(t, k));
         for (uint32_t v = info.vertex_range; v < vertex_range; v++) REQUIRE(t->state[v] == IS_GONE);
     } else {
-        REQUIRE(info.vertex_range == vertex_range + (change->vertex_made != 0));
+        REQUIRE(info.vertex_range == vertex_range + (change->vertices_made != 0));
         REQUIRE(info.triangle_range >= triangle_range + change->made);
     }
     t->vertex_range = info.vertex_range;
     t->triangle_range = info.triangle_range;
     t->triangles = (uint32_t)(t->triangles + change->made - change->freed);
-    t->vertices += (change->vertex_made != 0) - (uint32_t)(change->vertex_freed != 0);
+    t->vertices += (change->vertices_made != 0) - (uint32_t)(change->vertices_freed != 0);
     for (int i = 0; i < 6; i++) REQUIRE(change->reserved[i] == 0);
 }
 
@@ -287,7 +287,7 @@ static inline void read_vertex(twin *t, uint32_t v)
 
 static inline bool is_still(const mw_change *change)
 {
-    return change->made + change->reused + change->freed == 0 && !change->vertex_made && !change->vertex_freed &&
+    return change->made + change->reused + change->freed == 0 && !change->vertices_made && !change->vertices_freed &&
            change->flips == 0;
 }
 
@@ -347,7 +347,7 @@ static inline void after_insert(twin *t, const twin *before, const mw_edit *e, c
         REQUIRE(is_still(change) && change->vertex == corners_of(before, where.triangle)[where.local]);
         return;
     }
-    REQUIRE(change->vertex_made && change->freed == 0);
+    REQUIRE(change->vertices_made && change->freed == 0);
     read_vertex(t, change->vertex);
     REQUIRE(at(t, change->vertex)[0] == q[0] && at(t, change->vertex)[1] == q[1]);
     check_interpolated(t, before, e, change->vertex, where.triangle);
@@ -382,7 +382,7 @@ static inline uint32_t rank_in_star(const twin *t, const star *s, uint32_t i)
 static inline void after_remove(twin *t, const twin *before, const mw_edit *e, const mw_change *change)
 {
     star s = star_of(before, e->vertex);
-    REQUIRE(change->vertex == e->vertex && change->vertex_freed && change->made == 0);
+    REQUIRE(change->vertex == e->vertex && change->vertices_freed && change->made == 0);
     if (s.border_count == 0) REQUIRE(change->freed == 2);
     if (s.border_count > 0 && !t->convex) REQUIRE(change->freed == 1);
     uint32_t kept = 0;
@@ -404,7 +404,7 @@ static inline void after_move(twin *t, const twin *before, const mw_edit *e, con
 {
     const double q[2] = {e->x, e->y};
     uint32_t v = e->vertex;
-    REQUIRE(change->vertex == v && !change->vertex_made && !change->vertex_freed);
+    REQUIRE(change->vertex == v && !change->vertices_made && !change->vertices_freed);
     memcpy(t->point + 2 * (size_t)v, q, sizeof q);
     split_fixed(t, v);
     star s = star_of(before, v);
@@ -439,7 +439,7 @@ static inline void after_constrain(twin *t, const mw_edit *e, const mw_change *c
 {
     size_t count;
     uint32_t *way = way_of(t, e->vertex, e->other, &count);
-    REQUIRE(change->pieces == count - 1 && change->made == 0 && change->freed == 0);
+    REQUIRE(change->constrained_edges == count - 1 && change->made == 0 && change->freed == 0);
     for (size_t i = 1; i < count; i++) {
         if (e->kind == MW_EDIT_RELEASE)
             unfix(t, way[i - 1], way[i]);

@@ -71,7 +71,7 @@ static inline mw_mesh *delaunay_mesh(const double *points, uint32_t n)
 {
     mw_mesh *mesh;
     mw_error error;
-    expect_ok(mw_delaunay(points, n, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(points, n, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     return mesh;
 }
 
@@ -176,7 +176,8 @@ static inline mw_mesh *holed_mesh(uint32_t right, uint64_t *random)
     }
     a.triangle_count = kept;
     scramble(&a, 0, random);
-    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = 1 + (int)mw__random_below(random, 2)});
+    mw_mesh *mesh =
+        arrays_mesh(&a, (mw_mesh_options){.layout = (mw_mesh_layout)(MW_LAYOUT_HILBERT + mw__random_below(random, 2))});
     arrays_free(&a);
     return mesh;
 }

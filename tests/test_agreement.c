@@ -26,7 +26,7 @@ static arrays triangulated(const double *points, size_t n, size_t stride)
 {
     mw_mesh *mesh;
     mw_error error;
-    if (mw_delaunay(points, n, stride, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    if (mw_delaunay(points, n, stride, NULL, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
     arrays a = arrays_of(mesh);
     mw_mesh_destroy(mesh);
     return a;
@@ -62,7 +62,7 @@ static void expect_same(const mw_location *a, const mw_location *b, size_t n, co
 static void try_combinations(const arrays *a, const double *q, size_t n, const mw_location *want)
 {
     mw_location *at = malloc(n * sizeof *at);
-    for (int layout = 1; layout <= 2; layout++) {
+    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
         mw_locator *locator;
         mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){.layout = layout});
         assert_int_equal(mw_locator_create(mesh, NULL, &locator, NULL), MW_OK);
@@ -72,7 +72,7 @@ static void try_combinations(const arrays *a, const double *q, size_t n, const m
             for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
                 mw_query_options options = {.walk = (mw_walk_kind)walk,
                                             .start = (mw_start_kind)start,
-                                            .arithmetic = (mw_arithmetic)((walk + start + layout) % 2),
+                                            .arithmetic = (mw_arithmetic)((walk + start + (int)layout) % 2),
                                             .threads = 1 + (uint32_t)start % 3,
                                             .lanes = (uint32_t)(walk * 7 + start),
                                             .index = index[start]};
@@ -99,7 +99,7 @@ static void agree(arrays *a, uint64_t *random)
     mw_query_options options = {.walk = MW_WALK_CELESTIAL};
     if (mw_mesh_create(&view, NULL, &mesh, &error)) fail_msg("%s", error.message);
     if (mw_locator_create(mesh, NULL, &locator, &error)) fail_msg("%s", error.message);
-    assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
     size_t n;
     double *q = nasty_queries(a, 300, &n, random);
     mw_location *want = malloc(n * sizeof *want);
@@ -179,7 +179,7 @@ static void test_real_meshes(void **state)
         mw_arrays view = mw_mesh_file_arrays(&file);
         mw_check check;
         assert_int_equal(mw_check_arrays(&view, &check, NULL), MW_OK);
-        if (check.embedding) {
+        if (check.valid) {
             arrays a = arrays_make((uint32_t)file.point_count, (uint32_t)file.triangle_count);
             for (size_t v = 0; v < file.point_count; v++) arrays_point(&a, file.points[3 * v], file.points[3 * v + 1]);
             memcpy(a.triangles, file.triangles, 3 * file.triangle_count * sizeof *a.triangles);
@@ -205,11 +205,11 @@ static void test_real_points(void **state)
         if (!have(names[i], path)) continue;
         mw_point_reader *reader;
         mw_error error;
-        if (mw_points_open(path, NULL, &reader, &error)) fail_msg("%s", error.message);
-        size_t width = mw_points_width(reader), room = 200000, n;
+        if (mw_point_reader_open(path, NULL, &reader, &error)) fail_msg("%s", error.message);
+        size_t width = mw_point_reader_width(reader), room = 200000, n;
         double *points = malloc(width * room * sizeof *points);
-        assert_int_equal(mw_points_read(reader, points, room, &n, &error), MW_OK);
-        mw_points_close(reader);
+        assert_int_equal(mw_point_reader_read(reader, points, room, &n, &error), MW_OK);
+        mw_point_reader_close(reader);
         arrays a = triangulated(points, n, width);
         agree(&a, &random);
         free(points);

@@ -104,16 +104,16 @@ static void expect_auto(const ask *a)
     mw_location *want = malloc((a->n + 1) * sizeof *want), *got = malloc((a->n + 1) * sizeof *got);
     assert_non_null(want);
     assert_non_null(got);
-    answer(a, (mw_query_options){.start = MW_START_SAMPLE, .count = 1, .threads = 1}, want);
+    answer(a, (mw_query_options){.start = MW_START_SAMPLE, .counters = 1, .threads = 1}, want);
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
         answer(a, (mw_query_options){.threads = threads}, got);
         expect_same(want, got, a, "auto");
         answer(a, (mw_query_options){.threads = threads, .lanes = 5}, got);
         expect_same(want, got, a, "auto in 5 lanes");
     }
-    mw_counters one = answer(a, (mw_query_options){.count = 1, .threads = 1}, got);
+    mw_counters one = answer(a, (mw_query_options){.counters = 1, .threads = 1}, got);
     expect_same(want, got, a, "auto, counted");
-    mw_counters three = answer(a, (mw_query_options){.count = 1, .threads = 3}, got);
+    mw_counters three = answer(a, (mw_query_options){.counters = 1, .threads = 3}, got);
     assert_memory_equal(&one, &three, sizeof one);
     free(want);
     free(got);
@@ -140,7 +140,7 @@ static mw_mesh *refined_mesh(uint32_t n, uint64_t *random)
     draw_box(point, n - 100, 2, 40, 43, random);
     mw_mesh *drawn = delaunay_mesh(point, n);
     arrays a = mesh_arrays(drawn);
-    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = 1});
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = MW_LAYOUT_HILBERT});
     mw_mesh_destroy(drawn);
     arrays_free(&a);
     free(point);
@@ -159,7 +159,7 @@ static void test_answers(void **state)
                        arrays_mesh(&holed, (mw_mesh_options){0})};
     const mw_start_kind guide[] = {MW_START_GRID, MW_START_CURVE, MW_START_AUTO};
     for (int i = 0; i < 3; i++) {
-        mw_locator *locator = mesh_locator(mesh[i], (mw_locator_options){.fill = 2});
+        mw_locator *locator = mesh_locator(mesh[i], (mw_locator_options){.fill = MW_FILL_NO});
         assert_int_equal(locator->guide.start, guide[i]);
         expect_spreads(locator, i == 2 ? 700 : SIZE_MAX, &random);
         mw_locator_destroy(locator);

@@ -88,7 +88,7 @@ static bool close_to(double v, const mpf_t want, const mpf_t tolerance)
 }
 
 /* Is the hit's point as far from q as the edge is, up to a rounding of the coordinates? */
-static bool foot_is_right(const mw_border_hit *hit, const double q[2], const double a[2], const double b[2],
+static bool foot_is_right(const mw_nearest_border_point *hit, const double q[2], const double a[2], const double b[2],
                           const mpf_t want)
 {
     for (int k = 0; k < 2; k++)
@@ -138,7 +138,8 @@ static void scalar_product(mpq_t r, const double a[2], const double b[2], const 
 }
 
 /* The weights divide edge uv as the projection of q does, up to rounding in proportion to how far off q is. */
-static bool weights_are_right(const mw_border_hit *hit, const double q[2], const double u[2], const double v[2])
+static bool weights_are_right(const mw_nearest_border_point *hit, const double q[2], const double u[2],
+                              const double v[2])
 {
     mpq_t along, length;
     mpq_inits(along, length, NULL);
@@ -167,7 +168,7 @@ static void compare(const arrays *a, const mw_mesh *mesh, const mw_locator *loca
     mpf_set_q(want, least);
     mpf_sqrt(want, want);
     mpf_div_2exp(tolerance, want, 49);
-    mw_border_hit hit;
+    mw_nearest_border_point hit;
     assert_int_equal(mw_nearest_border(locator, q[0], q[1], &hit, NULL), MW_OK);
     if (hit.triangle != triangle || hit.edge != edge)
         fail_msg("(%.17g, %.17g): triangle %u edge %u, not %u %u", q[0], q[1], hit.triangle, hit.edge, triangle, edge);
@@ -267,7 +268,7 @@ static void test_widest(void **state)
     mw_locator *locator = locator_of(mesh);
     const double q[] = {0, -1e307, 0, 1e307, 1e308, -1e-300, -1e308, 1e308, 1.5e308, -1.5e308, 0.5, 1, 0, DBL_TRUE_MIN};
     for (size_t i = 0; i < sizeof q / sizeof *q; i += 2) compare(&a, mesh, locator, q + i);
-    mw_border_hit hit;
+    mw_nearest_border_point hit;
     assert_int_equal(mw_nearest_border(locator, 3e307, -1e307, &hit, NULL), MW_OK);
     assert_true(hit.edge == 0 && hit.distance == 1e307 && hit.point[1] == 0);
     assert_true(fabs(hit.point[0] - 3e307) < 1e293);
@@ -351,7 +352,7 @@ static void test_arguments(void **state)
     mw_arrays view = arrays_view(&a);
     mw_mesh *mesh;
     mw_locator *locator;
-    mw_border_hit hit;
+    mw_nearest_border_point hit;
     mw_cursor cursor;
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     assert_int_equal(mw_locator_create(mesh, NULL, &locator, NULL), MW_OK);
@@ -359,7 +360,7 @@ static void test_arguments(void **state)
     const double wrong[] = {1, -1, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
         mw_query_options options = {.tolerance = wrong[i]};
-        assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_ERROR_ARGUMENT);
     }
     mw_locator_destroy(locator);
     locator = locator_of(mesh);

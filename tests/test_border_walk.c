@@ -13,9 +13,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { OPEN = 2, FILLED = 1 };
-
-static mw_locator *locator_of(const mw_mesh *mesh, int fill)
+static mw_locator *locator_of(const mw_mesh *mesh, mw_fill_mode fill)
 {
     return mesh_locator(mesh, (mw_locator_options){.fill = fill});
 }
@@ -38,7 +36,7 @@ static bool is_refused(const arrays *a)
     mw_arrays view = arrays_view(a);
     mw_check check;
     assert_int_equal(mw_check_arrays(&view, &check, NULL), MW_OK);
-    bool refused = !check.embedding;
+    bool refused = !check.valid;
     mw_check_release(&check);
     return refused;
 }
@@ -46,7 +44,7 @@ static bool is_refused(const arrays *a)
 /* Answers in the filled mesh; of the first `exact` queries compared with brute force. */
 static mw_location *expect(const arrays *a, const mw_mesh *mesh, const double *q, size_t n, size_t exact)
 {
-    mw_locator *filled = locator_of(mesh, FILLED);
+    mw_locator *filled = locator_of(mesh, MW_FILL_YES);
     mw_location *want = malloc(n * sizeof *want);
     assert_int_equal(mw_locate_batch(filled, q, n, 2, NULL, want, NULL, NULL), MW_OK);
     for (size_t i = 0; i < n && i < exact; i++) {
@@ -62,7 +60,7 @@ static void try_singles(const mw_locator *open, const mw_query_options *options,
                         const mw_location *want, size_t n, const char *how)
 {
     mw_cursor cursor;
-    assert_int_equal(mw_cursor_init(&cursor, open, options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(open, options, &cursor, NULL), MW_OK);
     for (size_t i = 0; i < n; i++) {
         mw_location at = mw_locate(open, &cursor, q[2 * i], q[2 * i + 1]);
         compare(&at, &want[i], q + 2 * i, how);
@@ -81,9 +79,9 @@ static void try_batch(const mw_locator *open, const mw_query_options *options, c
 /* All starts and both arithmetics, single and in batches, in both layouts. */
 static void try_open(const arrays *a, const double *q, const mw_location *want, size_t n, uint64_t *random)
 {
-    for (int layout = 1; layout <= 2; layout++) {
+    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
         mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){.layout = layout});
-        mw_locator *open = locator_of(mesh, OPEN);
+        mw_locator *open = locator_of(mesh, MW_FILL_NO);
         mw_index *index[MW_START_COUNT];
         starts_open(open, index);
         for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)
@@ -94,7 +92,7 @@ static void try_open(const arrays *a, const double *q, const mw_location *want, 
                 mw_query_options options = {.start = (mw_start_kind)start,
                                             .arithmetic = (mw_arithmetic)arithmetic,
                                             .seed = mw__random(random),
-                                            .count = start % 2,
+                                            .counters = start % 2,
                                             .index = index[start]};
                 try_singles(open, &options, q, want, n, how);
                 options.lanes = 1 + mw__random_below(random, 40);
@@ -334,30 +332,30 @@ static void test_options(void **state)
     uint64_t random = 27;
     arrays a = nested(3);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN), *filled = locator_of(mesh, FILLED);
+    mw_locator *open = locator_of(mesh, MW_FILL_NO), *filled = locator_of(mesh, MW_FILL_YES);
     mw_locator_info info;
     mw_locator_describe(open, &info);
-    assert_int_equal(info.open, 1);
+    assert_int_equal(info.unfilled, 1);
     assert_int_equal(info.copied, 0);
     assert_int_equal(info.ghost_triangles, 0);
     assert_int_equal(info.fill_bytes, 0);
     assert_int_equal(info.holes, 3);
-    assert_int_equal(info.pieces, 3);
+    assert_int_equal(info.components, 3);
     size_t bytes = info.bytes;
     mw_locator_describe(filled, &info);
-    assert_int_equal(info.open, 0);
+    assert_int_equal(info.unfilled, 0);
     assert_int_equal(info.holes, 3);
     assert_true(info.fill_bytes > 0 && info.bytes >= info.fill_bytes && info.bytes > bytes);
     mw_cursor cursor;
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++) {
         mw_query_options options = {.walk = (mw_walk_kind)walk};
         bool taken = walk == MW_WALK_AUTO || walk == MW_WALK_BORDER;
-        assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), taken ? MW_OK : MW_ERROR_ARGUMENT);
-        assert_int_equal(mw_cursor_init(&cursor, filled, &options, NULL), MW_OK);
+        assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), taken ? MW_OK : MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_cursor_init(filled, &options, &cursor, NULL), MW_OK);
     }
     mw_locator_destroy(open);
     mw_locator_destroy(filled);
-    mw_locator_options wrong = {.fill = 3};
+    mw_locator_options wrong = {.fill = (mw_fill_mode)3};
     assert_int_equal(mw_locator_create(mesh, &wrong, &open, NULL), MW_ERROR_ARGUMENT);
     mw_mesh_destroy(mesh);
     arrays_free(&a);
@@ -368,7 +366,7 @@ static void test_options(void **state)
     for (int many = 0; many < 2; many++) { /* what few queries do not pay for */
         mw_locator *chosen = mesh_locator(mesh, (mw_locator_options){.queries = many ? 1000000 : 10});
         mw_locator_describe(chosen, &info);
-        assert_int_equal(info.open, !many);
+        assert_int_equal(info.unfilled, !many);
         mw_locator_destroy(chosen);
     }
     mw_mesh_destroy(mesh);
@@ -376,9 +374,9 @@ static void test_options(void **state)
 
     a = grid_mesh(4, 0, &random); /* convex: there is nothing to fill */
     mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    open = locator_of(mesh, OPEN);
+    open = locator_of(mesh, MW_FILL_NO);
     mw_locator_describe(open, &info);
-    assert_int_equal(info.open, 0);
+    assert_int_equal(info.unfilled, 0);
     mw_locator_destroy(open);
     mw_mesh_destroy(mesh);
     arrays_free(&a);
@@ -394,13 +392,13 @@ static void test_counters(void **state)
     punch(&a, 0.15, &random);
     scramble(&a, 1, &random);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN);
+    mw_locator *open = locator_of(mesh, MW_FILL_NO);
     double *q = malloc(2 * N * sizeof *q);
     mw_location *at = malloc(N * sizeof *at);
     for (int i = 0; i < 2 * N; i++) q[i] = 64 * random_unit(&random) - 2;
     mw_counters one, more;
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
-        mw_query_options options = {.start = MW_START_RANDOM, .count = 1, .threads = threads};
+        mw_query_options options = {.start = MW_START_RANDOM, .counters = 1, .threads = threads};
         assert_int_equal(mw_locate_batch(open, q, N, 2, &options, at, threads == 1 ? &one : &more, NULL), MW_OK);
     }
     assert_memory_equal(&one, &more, sizeof one);
@@ -444,15 +442,15 @@ static arrays cells_mesh(const char *const *row, uint32_t rows, uint32_t columns
 static void longest(const arrays *a, const double *q, size_t n, double most[2])
 {
     mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN);
+    mw_locator *open = locator_of(mesh, MW_FILL_NO);
     mw_mesh_info info;
     assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
-    mw_query_options options = {.start = MW_START_LAST, .count = 1};
+    mw_query_options options = {.start = MW_START_LAST, .counters = 1};
     most[0] = most[1] = 0;
     for (uint32_t t = 0; t < a->triangle_count; t++)
         for (size_t i = 0; i < n; i++) {
             mw_cursor cursor;
-            assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+            assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), MW_OK);
             cursor.last = t;
             mw_location at = mw_locate(open, &cursor, q[2 * i], q[2 * i + 1]);
             double share = (double)cursor.counters.border_edges / info.border_edges;
@@ -516,16 +514,16 @@ static void test_long_ways(void **state)
     double q[2 * N];
     arrays a = band(POINTS, long_spiral);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-    mw_locator *open = locator_of(mesh, OPEN);
+    mw_locator *open = locator_of(mesh, MW_FILL_NO);
     mw_mesh_info info;
     assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
     for (int i = 0; i < 2 * N; i++) q[i] = 800 * random_unit(&random) - 400;
     mw_location *want = expect(&a, mesh, q, N, 0);
     for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
         mw_query_options options = {
-            .start = MW_START_RANDOM, .arithmetic = (mw_arithmetic)arithmetic, .count = 1, .seed = 3};
+            .start = MW_START_RANDOM, .arithmetic = (mw_arithmetic)arithmetic, .counters = 1, .seed = 3};
         mw_cursor cursor;
-        assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+        assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), MW_OK);
         for (int i = 0; i < N; i++) {
             mw_location at = mw_locate(open, &cursor, q[2 * i], q[2 * i + 1]);
             compare(&at, &want[i], q + 2 * i, "long spiral");
@@ -550,10 +548,10 @@ static void test_short_ways(void **state)
     transform(&pieces, 0.5, 0, 0);
     for (int i = 0; i < 2; i++) {
         mw_mesh *mesh = arrays_mesh(i == 0 ? &pieces : &convex, (mw_mesh_options){0});
-        mw_locator *open = locator_of(mesh, OPEN);
-        mw_query_options options = {.walk = MW_WALK_BORDER, .start = MW_START_RANDOM, .count = 1};
+        mw_locator *open = locator_of(mesh, MW_FILL_NO);
+        mw_query_options options = {.walk = MW_WALK_BORDER, .start = MW_START_RANDOM, .counters = 1};
         mw_cursor cursor;
-        assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+        assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), MW_OK);
         for (int k = 0; k < 50; k++) {
             mw_location at = mw_locate(open, &cursor, 30 + 20 * random_unit(&random), 50 * random_unit(&random));
             assert_int_equal(at.where, MW_OUTSIDE);
@@ -578,10 +576,10 @@ static void test_centre(void **state)
         punch(&a, 0.1, &random);
         scramble(&a, 0, &random);
         mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
-        mw_locator *open = locator_of(mesh, OPEN);
-        mw_query_options options = {.start = MW_START_CENTRE, .count = 1};
+        mw_locator *open = locator_of(mesh, MW_FILL_NO);
+        mw_query_options options = {.start = MW_START_CENTRE, .counters = 1};
         mw_cursor cursor;
-        assert_int_equal(mw_cursor_init(&cursor, open, &options, NULL), MW_OK);
+        assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), MW_OK);
         mw_location at = mw_locate(open, &cursor, 15.5, 15.5);
         if (at.where == MW_INSIDE) assert_int_equal(cursor.counters.triangles_visited, 1);
         mw_locator_destroy(open);

@@ -26,7 +26,7 @@ static mw_check check_of(mw_arrays a)
         assert_true(p->kind < q->kind || (p->kind == q->kind && p->triangle <= q->triangle));
     }
     bool remarks = check.defect_count == 0 || check.defects[0].kind == MW_DEFECT_FLAT;
-    assert_int_equal(check.embedding, remarks);
+    assert_int_equal(check.valid, remarks);
     return check;
 }
 
@@ -92,17 +92,17 @@ static void test_index(void **state)
     (void)state;
     const double p[] = {0, 0, 4, 0, 0, 4, 4, 4};
     const uint32_t t[] = {0, 1, 2, 1, 3, 4};
-    assert_only(literal(p, 4, t, 2), expect(MW_DEFECT_INDEX, 1, MW_NONE, 4, NO_EDGE, NO_EDGE));
+    assert_only(literal(p, 4, t, 2), expect(MW_DEFECT_MISSING_VERTEX, 1, MW_NONE, 4, NO_EDGE, NO_EDGE));
     const int32_t negative[] = {0, 1, 2, -1, 3, 2};
-    mw_arrays a = {.points = p, .point_count = 4, .triangles = negative, .triangle_count = 2, .index_type = MW_INT32};
-    assert_only(a, expect(MW_DEFECT_INDEX, 1, MW_NONE, MW_NONE, NO_EDGE, NO_EDGE));
+    mw_arrays a = {.points = p, .point_count = 4, .triangles = negative, .triangle_count = 2, .integer_type = MW_INT32};
+    assert_only(a, expect(MW_DEFECT_MISSING_VERTEX, 1, MW_NONE, MW_NONE, NO_EDGE, NO_EDGE));
     const int64_t large[] = {0, 1, INT64_C(1) << 32, 1, 3, 2};
     a.triangles = large;
-    a.index_type = MW_INT64;
-    assert_only(a, expect(MW_DEFECT_INDEX, 0, MW_NONE, MW_NONE, NO_EDGE, NO_EDGE));
+    a.integer_type = MW_INT64;
+    assert_only(a, expect(MW_DEFECT_MISSING_VERTEX, 0, MW_NONE, MW_NONE, NO_EDGE, NO_EDGE));
     mw_check check = check_of(literal(NULL, 0, (const uint32_t[]){0, 8, 9}, 1));
     assert_int_equal(check.defect_count, 3);
-    assert_defect(&check.defects[2], expect(MW_DEFECT_INDEX, 0, MW_NONE, 9, NO_EDGE, NO_EDGE));
+    assert_defect(&check.defects[2], expect(MW_DEFECT_MISSING_VERTEX, 0, MW_NONE, 9, NO_EDGE, NO_EDGE));
     mw_check_release(&check);
 }
 
@@ -149,8 +149,8 @@ static void test_shared_edge(void **state)
     const double p[] = {0, 0, 4, 0, 0, 4, 0, -4, 1, 1};
     const uint32_t t[] = {0, 1, 2, 1, 0, 3, 4, 0, 1};
     mw_check check = check_of(literal(p, 5, t, 3));
-    assert_defect(&check.defects[0], expect(MW_DEFECT_EDGE_SHARED, 2, 0, MW_NONE, 1, NO_EDGE));
-    assert_int_equal(count_kind(&check, MW_DEFECT_EDGE_SHARED), 1);
+    assert_defect(&check.defects[0], expect(MW_DEFECT_NON_MANIFOLD_EDGE, 2, 0, MW_NONE, 1, NO_EDGE));
+    assert_int_equal(count_kind(&check, MW_DEFECT_NON_MANIFOLD_EDGE), 1);
     assert_int_equal(count_kind(&check, MW_DEFECT_OVERLAP), 1); /* it lies on triangle 0 */
     mw_check_release(&check);
 }
@@ -184,13 +184,13 @@ static void test_turn(void **state)
         memcpy(t + 3 * i, (const uint32_t[]){0, i + 1, (i + 1) % SPOKES + 1}, 3 * sizeof *t);
     }
     mw_check check = check_of(literal(p, SPOKES + 1, t, SPOKES));
-    assert_int_equal(count_kind(&check, MW_DEFECT_TURN), 1);
-    assert_defect(&check.defects[0], expect(MW_DEFECT_TURN, 0, MW_NONE, 0, NO_EDGE, NO_EDGE));
+    assert_int_equal(count_kind(&check, MW_DEFECT_WINDING), 1);
+    assert_defect(&check.defects[0], expect(MW_DEFECT_WINDING, 0, MW_NONE, 0, NO_EDGE, NO_EDGE));
     mw_check_release(&check);
     /* left open, it overlaps itself, but the vertex is on the border */
     check = check_of(literal(p, SPOKES + 1, t, SPOKES - 2));
-    assert_int_equal(count_kind(&check, MW_DEFECT_TURN), 0);
-    assert_false(check.embedding);
+    assert_int_equal(count_kind(&check, MW_DEFECT_WINDING), 0);
+    assert_false(check.valid);
     mw_check_release(&check);
 }
 
@@ -204,7 +204,7 @@ static void test_vertex_in_edge(void **state)
     /* filled with a flat triangle, the same is right */
     const uint32_t filled[] = {0, 1, 3, 2, 4, 5, 0, 2, 1};
     mw_check check = check_of(literal(p, 6, filled, 3));
-    assert_true(check.embedding);
+    assert_true(check.valid);
     assert_int_equal(check.defect_count, 1);
     mw_check_release(&check);
 }
@@ -301,8 +301,12 @@ static void test_all_at_once(void **state)
     mw_check check = check_of(literal(p, 14, t, 8));
     /* triangle 3 with its NaN is the second at edge 0-1 of triangle 0; so triangle 7 is no fold there, but one too
      * many */
-    const mw_defect_kind kinds[] = {MW_DEFECT_INDEX,       MW_DEFECT_NOT_FINITE, MW_DEFECT_REPEATED_VERTEX,
-                                    MW_DEFECT_EDGE_SHARED, MW_DEFECT_OVERLAP,    MW_DEFECT_OVERLAP,
+    const mw_defect_kind kinds[] = {MW_DEFECT_MISSING_VERTEX,
+                                    MW_DEFECT_NOT_FINITE,
+                                    MW_DEFECT_REPEATED_VERTEX,
+                                    MW_DEFECT_NON_MANIFOLD_EDGE,
+                                    MW_DEFECT_OVERLAP,
+                                    MW_DEFECT_OVERLAP,
                                     MW_DEFECT_FLAT};
     const uint32_t triangles[] = {6, 3, 4, 7, 2, 7, 5};
     assert_int_equal(check.defect_count, 7);
@@ -471,7 +475,7 @@ static void check_real(const real *expected)
     mw_check check = check_of(view);
     mw_mesh_info info = describe(view);
     print_message("%s: %zu triangles, %zu defects\n", expected->name, file.triangle_count, check.defect_count);
-    assert_int_equal(check.embedding, expected->embedding);
+    assert_int_equal(check.valid, expected->embedding);
     assert_int_equal(info.embedding, expected->embedding);
     assert_int_equal(info.convex, expected->convex);
     assert_int_equal(info.delaunay, expected->delaunay);

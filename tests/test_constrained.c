@@ -94,8 +94,8 @@ static mw_constraints view(const scene *s)
                             .segments = s->segment,
                             .segment_count = s->segments,
                             .polygon = s->polygon,
-                            .holes = s->hole,
-                            .hole_count = s->holes};
+                            .hole_seeds = s->hole,
+                            .hole_seed_count = s->holes};
 }
 
 static mw_point given_point(const scene *s, uint32_t p)
@@ -157,7 +157,7 @@ typedef struct result {
     mw_status status;
     mw_error error;
     mw_constrain_report report;
-    mw_pieces pieces;
+    mw_constrained_edges pieces;
     mw_mesh *mesh;
     uint32_t n, count;
     mw_point *point;
@@ -241,7 +241,7 @@ static result run(const scene *s, mw_keep keep, int split)
 
 static void release(result *r)
 {
-    mw_pieces_release(&r->pieces);
+    mw_constrained_edges_release(&r->pieces);
     mw_mesh_destroy(r->mesh);
     free(r->point);
     free(r->tri);
@@ -255,8 +255,8 @@ static void release(result *r)
 static void assert_sound(const scene *s, const result *r)
 {
     assert_int_equal(r->status, MW_OK);
-    assert_int_equal(r->n, s->points + r->report.added);
-    assert_int_equal(r->pieces.count, r->report.pieces);
+    assert_int_equal(r->n, s->points + r->report.vertices_added);
+    assert_int_equal(r->pieces.count, r->report.constrained_edges);
     for (uint32_t v = 0; v < s->points; v++) assert_true(equal(r->point[v], given_point(s, v)));
     for (uint32_t t = 0; t < r->count; t++) {
         const uint32_t *v = r->tri[t];
@@ -297,7 +297,7 @@ static void assert_fills_hull(const scene *s, const result *r)
     }
     free(seen);
     assert_int_equal(r->count, 2 * used - border - 2);
-    assert_int_equal(r->report.removed, 0);
+    assert_int_equal(r->report.triangles_removed, 0);
 }
 
 static const mw_point *sorted_points; /* of the comparison below */
@@ -448,7 +448,7 @@ static void assert_kept(const scene *s, const result *hull, int split)
     } else {
         assert_sound(s, &r);
         assert_in_range(r.count, count, count + unknown);
-        assert_int_equal(r.count + r.report.removed, hull->count);
+        assert_int_equal(r.count + r.report.triangles_removed, hull->count);
         for (uint32_t t = 0; t < hull->count; t++)
             if (kept[t] != 2) assert_int_equal(has_triangle(&r, hull->tri[t]), kept[t]);
         result chosen = run(s, MW_KEEP_AUTO, split);
@@ -466,7 +466,7 @@ static void check(const scene *s)
     assert_sound(s, &r);
     assert_fills_hull(s, &r);
     assert_forced(s, &r);
-    assert_int_equal(r.report.cross[0], MW_NONE);
+    assert_int_equal(r.report.crossing_segments[0], MW_NONE);
     assert_kept(s, &r, 0);
     release(&r);
 }
@@ -528,7 +528,7 @@ static size_t check_split(const scene *s, double tolerance)
                     tolerance;
         assert_true(near >= 2);
     }
-    size_t added = r.report.added;
+    size_t added = r.report.vertices_added;
     release(&r);
     return added;
 }
@@ -726,8 +726,8 @@ static void test_crossing_is_told(void **state)
     add_segment(s, 0, 3, MW_NONE);
     result r = run(s, MW_KEEP_HULL, 0);
     assert_int_equal(r.status, MW_ERROR_INPUT);
-    assert_int_equal(r.report.cross[0], 0);
-    assert_int_equal(r.report.cross[1], 1);
+    assert_int_equal(r.report.crossing_segments[0], 0);
+    assert_int_equal(r.report.crossing_segments[1], 1);
     assert_string_equal(r.error.message,
                         "segments 0 (from point 1 to 2) and 1 (from point 3 to 4) cross near 5.26315789 4.73684211");
     release(&r);
@@ -947,7 +947,7 @@ static void expect(const scene *s, const mw_constraints *given, mw_constrain_opt
     mw_constraints all = view(s);
     mw_mesh *mesh;
     mw_error error;
-    mw_pieces pieces;
+    mw_constrained_edges pieces;
     assert_int_equal(mw_constrained_delaunay(given ? given : &all, &options, NULL, NULL, &pieces, &mesh, &error),
                      status);
     assert_null(mesh);
@@ -989,7 +989,7 @@ static void test_wrong_arguments(void **state)
     expect(s, NULL, none, MW_ERROR_INPUT, "point 1 is not finite");
     for (uint32_t i = 0; i < 4; i++) s->point[2 * i] = s->point[2 * i + 1] = i;
     expect(s, NULL, none, MW_ERROR_INPUT, "all 4 points lie on one line");
-    mw_pieces_release(NULL);
+    mw_constrained_edges_release(NULL);
 }
 
 /* A stride, duplicates, and no segments at all. */
@@ -1001,7 +1001,7 @@ static void test_plain(void **state)
     mw_constraints given = {.points = points, .point_count = 5, .stride = 3, .segments = segments, .segment_count = 2};
     mw_mesh *mesh;
     mw_constrain_report report;
-    mw_pieces pieces;
+    mw_constrained_edges pieces;
     assert_int_equal(mw_constrained_delaunay(&given, NULL, duplicate_of, &report, &pieces, &mesh, NULL), MW_OK);
     assert_int_equal(mw_mesh_triangle_count(mesh), 2);
     assert_int_equal(duplicate_of[2], 0);
@@ -1010,7 +1010,7 @@ static void test_plain(void **state)
     assert_int_equal(pieces.edge[0], 3);
     assert_int_equal(pieces.edge[1], 0);
     assert_int_equal(report.delaunay.duplicates, 1);
-    mw_pieces_release(&pieces);
+    mw_constrained_edges_release(&pieces);
     mw_mesh_destroy(mesh);
     given.segment_count = 0;
     given.segments = NULL;
@@ -1047,13 +1047,13 @@ static void test_crossed(void **state)
     add_line(s, -1, 0.5, 2, 0.5);
     for (int i = 0; i < 3900; i++) add_point(s, uniform(s), uniform(s));
     result r = run(s, MW_KEEP_HULL, 0);
-    assert_in_range(r.report.crossed, 60, 400);
+    assert_in_range(r.report.triangles_crossed, 60, 400);
     release(&r);
     s = new_scene(0); /* what is crossed before the two are split counts, although nothing is in the end */
     add_line(s, 0, 0, 4, 4);
     add_line(s, 0, 4, 4, 0);
     r = run(s, MW_KEEP_HULL, 1);
-    assert_int_equal(r.report.crossed, 1);
+    assert_int_equal(r.report.triangles_crossed, 1);
     release(&r);
 }
 
@@ -1072,12 +1072,12 @@ static void test_memory(void **state)
     long k = 0;
     for (mw_status status = MW_ERROR_MEMORY; status != MW_OK; k++) {
         mw_mesh *mesh;
-        mw_pieces pieces;
+        mw_constrained_edges pieces;
         allocations_left = k;
         status = mw_constrained_delaunay(&given, &options, NULL, NULL, &pieces, &mesh, NULL);
         allocations_left = -1;
         if (status == MW_OK) {
-            mw_pieces_release(&pieces);
+            mw_constrained_edges_release(&pieces);
             mw_mesh_destroy(mesh);
         } else {
             assert_int_equal(status, MW_ERROR_MEMORY);
@@ -1143,7 +1143,7 @@ static void check_real(const scene *s, const char *name)
     }
     result r = run(s, MW_KEEP_HULL, 0);
     assert_int_equal(r.status, MW_ERROR_INPUT);
-    assert_int_not_equal(r.report.cross[0], MW_NONE);
+    assert_int_not_equal(r.report.crossing_segments[0], MW_NONE);
     release(&r);
     check_split(s, 1e-6);
 }

@@ -15,13 +15,14 @@
 #include <meshwalk/triangulate.h>
 
 /* Triangulate and check; returns the report. */
-static mw_triangulation_report triangulate(const mw_point *points, uint32_t n)
+static mw_delaunay_report triangulate(const mw_point *points, uint32_t n)
 {
     mw_mesh *mesh;
     mw_error error;
-    mw_triangulation_report report;
+    mw_delaunay_report report;
     uint32_t *duplicate_of = malloc((n + 1) * sizeof *duplicate_of);
-    if (mw_delaunay(&points->x, n, 0, duplicate_of, &report, &mesh, &error) != MW_OK) fail_msg("%s", error.message);
+    if (mw_delaunay(&points->x, n, 0, NULL, duplicate_of, &report, &mesh, &error) != MW_OK)
+        fail_msg("%s", error.message);
     assert_int_equal(mesh->point_count, n);
     for (uint32_t i = 0; i < n; i++) {
         double p[2];
@@ -48,7 +49,7 @@ static void test_sets(void **state)
         for (int k = 0; k < 3; k++) {
             if (k < 2 && sizes[k] >= sets[i].largest) continue;
             fill(&sets[i], 17, points, sizes[k]);
-            mw_triangulation_report report = triangulate(points, sizes[k]);
+            mw_delaunay_report report = triangulate(points, sizes[k]);
             double visits = (double)report.triangles_visited / sizes[k];
             if (visits > sets[i].visits) fail_msg("%s: %u points, %g visits each", sets[i].name, sizes[k], visits);
         }
@@ -71,7 +72,7 @@ static void triangulate_or_refuse(const mw_point *points, uint32_t n)
 {
     if (on_one_line(points, n)) {
         mw_mesh *mesh;
-        assert_int_equal(mw_delaunay(&points->x, n, 2, NULL, NULL, &mesh, NULL), MW_ERROR_INPUT);
+        assert_int_equal(mw_delaunay(&points->x, n, 2, NULL, NULL, NULL, &mesh, NULL), MW_ERROR_INPUT);
         assert_null(mesh);
     } else {
         triangulate(points, n);
@@ -132,7 +133,7 @@ static void test_lidar(void **state)
         snprintf(path, sizeof path, "%s/terrain/%s_ground.xyz.gz", MW_TEST_SHARED, names[i]);
         mw_point *points = read_points(path, &n);
         if (!points) skip();
-        mw_triangulation_report report = triangulate(points, n);
+        mw_delaunay_report report = triangulate(points, n);
         assert_true(report.triangles_visited < 10 * (uint64_t)n);
         free(points);
     }
@@ -144,7 +145,7 @@ static void refuses(const mw_point *points, size_t n, int64_t vertex, const char
 {
     mw_mesh *mesh = (mw_mesh *)1;
     mw_error error;
-    assert_int_equal(mw_delaunay(points ? &points->x : NULL, n, 2, NULL, NULL, &mesh, &error), MW_ERROR_INPUT);
+    assert_int_equal(mw_delaunay(points ? &points->x : NULL, n, 2, NULL, NULL, NULL, &mesh, &error), MW_ERROR_INPUT);
     assert_null(mesh);
     assert_int_equal(error.status, MW_ERROR_INPUT);
     assert_int_equal(error.vertex, vertex);
@@ -178,11 +179,11 @@ static void test_refused_calls(void **state)
     const double points[6] = {0, 0, 1, 0, 0, 1};
     mw_mesh *mesh = (mw_mesh *)1;
     mw_error error;
-    assert_int_equal(mw_delaunay(points, 3, 1, NULL, NULL, &mesh, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_delaunay(points, 3, 1, NULL, NULL, NULL, &mesh, &error), MW_ERROR_ARGUMENT);
     assert_null(mesh);
-    assert_int_equal(mw_delaunay(NULL, 3, 2, NULL, NULL, &mesh, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_delaunay(points, 3, 2, NULL, NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_delaunay(points, (size_t)1 << 40, 2, NULL, NULL, &mesh, &error), MW_ERROR_LIMIT);
+    assert_int_equal(mw_delaunay(NULL, 3, 2, NULL, NULL, NULL, &mesh, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_delaunay(points, 3, 2, NULL, NULL, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_delaunay(points, (size_t)1 << 40, 2, NULL, NULL, NULL, &mesh, &error), MW_ERROR_LIMIT);
     assert_null(mesh);
 }
 
@@ -192,7 +193,7 @@ static void test_stride(void **state)
     (void)state;
     const double points[] = {0, 0, NAN, 1, 0, 7, 0, 1};
     mw_mesh *mesh;
-    assert_int_equal(mw_delaunay(points, 3, 3, NULL, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_delaunay(points, 3, 3, NULL, NULL, NULL, &mesh, NULL), MW_OK);
     assert_int_equal(mw_mesh_triangle_count(mesh), 1);
     double corner[2];
     mw_mesh_vertex(mesh, 2, corner);
@@ -208,7 +209,7 @@ static void test_order_of_triangles(void **state)
     mw_point *points = malloc(N * sizeof *points);
     fill(&sets[0], 3, points, N);
     mw_mesh *mesh;
-    assert_int_equal(mw_delaunay(&points->x, N, 2, NULL, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_delaunay(&points->x, N, 2, NULL, NULL, NULL, &mesh, NULL), MW_OK);
     double jumps = 0;
     for (uint32_t t = 1; t < mesh->tri_count; t++) {
         mw_point a = mesh->point[mesh->tri[t - 1].v[0]], b = mesh->point[mesh->tri[t].v[0]];
@@ -230,7 +231,7 @@ static void test_memory_failures(void **state)
         mw_mesh *mesh = (mw_mesh *)1;
         mw_error error;
         allocations_left = allowed;
-        mw_status status = mw_delaunay(&points->x, 100, 2, duplicate_of, NULL, &mesh, &error);
+        mw_status status = mw_delaunay(&points->x, 100, 2, NULL, duplicate_of, NULL, &mesh, &error);
         allocations_left = -1;
         if (status == MW_OK) {
             assert_true(allowed > 5);

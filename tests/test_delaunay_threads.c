@@ -14,7 +14,7 @@
 typedef struct made {
     mw_status status;
     mw_error error;
-    mw_triangulation_report report;
+    mw_delaunay_report report;
     mw_mesh mesh;
     uint32_t *duplicate_of;
 } made;
@@ -50,7 +50,7 @@ static void expect_same(const made *a, const made *b, uint32_t n)
 }
 
 /* On one thread, and the same on others: some fewer than patches, some more. */
-static mw_triangulation_report triangulate(const mw_point *points, uint32_t n, uint32_t patch)
+static mw_delaunay_report triangulate(const mw_point *points, uint32_t n, uint32_t patch)
 {
     made one = make(points, n, patch, 1);
     if (one.status != MW_OK) fail_msg("%s", one.error.message);
@@ -60,7 +60,7 @@ static mw_triangulation_report triangulate(const mw_point *points, uint32_t n, u
         expect_same(&one, &more, n);
         release(&more);
     }
-    mw_triangulation_report report = one.report;
+    mw_delaunay_report report = one.report;
     release(&one);
     return report;
 }
@@ -74,7 +74,7 @@ static void test_sets(void **state)
             uint32_t n = sets[i].largest < 1500 ? sets[i].largest : 1500;
             mw_point *points = malloc(n * sizeof *points);
             fill(&sets[i], 23, points, n);
-            mw_triangulation_report report = triangulate(points, n, patches[k]);
+            mw_delaunay_report report = triangulate(points, n, patches[k]);
             assert_int_equal(report.points, n);
             free(points);
         }
@@ -132,7 +132,7 @@ static void test_crowd(void **state)
     }
     triangulate(points, N, 200);
     for (uint32_t i = 0; i < N; i++) points[i] = i < 3 ? (mw_point){i, i * i} : (mw_point){1.5, 0.25}; /* twins */
-    mw_triangulation_report report = triangulate(points, N, 200);
+    mw_delaunay_report report = triangulate(points, N, 200);
     assert_int_equal(report.duplicates, N - 4);
     free(points);
 }
@@ -165,9 +165,9 @@ static void test_options(void **state)
     fill(&sets[0], 31, points, N);
     const mw_delaunay_options two = {.threads = 2};
     const mw_kind_options three = {.threads = 3};
-    assert_int_equal(mw_delaunay(&points->x, N, 2, NULL, NULL, &mesh[0], NULL), MW_OK);
-    assert_int_equal(mw_delaunay_with(&two, &points->x, N, 2, NULL, NULL, &mesh[1], NULL), MW_OK);
-    assert_int_equal(mw_triangulate(MW_DELAUNAY, &points->x, N, 2, &three, NULL, NULL, &mesh[2], NULL), MW_OK);
+    assert_int_equal(mw_delaunay(&points->x, N, 2, NULL, NULL, NULL, &mesh[0], NULL), MW_OK);
+    assert_int_equal(mw_delaunay(&points->x, N, 2, &two, NULL, NULL, &mesh[1], NULL), MW_OK);
+    assert_int_equal(mw_triangulate(MW_KIND_DELAUNAY, &points->x, N, 2, &three, NULL, NULL, &mesh[2], NULL), MW_OK);
     for (int i = 1; i < 3; i++) assert_int_equal(mw_mesh_triangle_count(mesh[i]), mw_mesh_triangle_count(mesh[0]));
     for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh[0]); t++) {
         uint32_t v[3][3];

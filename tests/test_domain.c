@@ -212,9 +212,9 @@ static const char *compare(const arrays *a, counts *tally)
     mw_mesh *mesh;
     bool expected = oracle_embedding(a);
     const char *fault = mw_check_arrays(&view, &check, NULL) == MW_OK ? NULL : "check failed";
-    if (!fault && check.embedding != expected) fault = expected ? "an embedding is refused" : "taken for an embedding";
+    if (!fault && check.valid != expected) fault = expected ? "an embedding is refused" : "taken for an embedding";
     if (!fault) mw_check_release(&check);
-    for (int layout = 1; layout <= 2 && !fault; layout++) {
+    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN && !fault; layout++) {
         mw_mesh_options options = {.layout = layout, .threads = 1};
         if (mw_mesh_create(&view, &options, &mesh, NULL) == MW_OK) {
             fault = fault_of_mesh(mesh, a, expected, tally);

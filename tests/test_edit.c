@@ -101,27 +101,27 @@ static arrays pieces(void)
 typedef struct scene {
     const char *name;
     arrays (*make)(void);
-    int delaunay;         /* as in the options             */
-    uint32_t constraints; /* of these, so many are set     */
+    mw_delaunay_mode delaunay; /* as in the options             */
+    uint32_t constraints;      /* of these, so many are set     */
     uint32_t constraint[8];
 } scene;
 
 static const scene scenes[] = {
-    {"one triangle", one_triangle, 0, 0, {0}},
-    {"square", square, 0, 0, {0}},
-    {"lattice", lattice, 0, 0, {0}},
-    {"lattice with a cross", lattice, 0, 4, {1, 4, 4, 7, 3, 4, 4, 5}},
-    {"lattice with a line", lattice, 0, 2, {3, 4, 4, 5}},
-    {"mixed lattice", mixed_lattice, 2, 0, {0}},
-    {"hub", hub, 0, 0, {0}},
-    {"hub, not to be flipped", hub, 2, 2, {0, 1, 0, 5}},
-    {"hub, made Delaunay", hub, 1, 0, {0}},
-    {"long side", long_side, 0, 0, {0}},
-    {"long side, constrained", long_side, 0, 3, {1, 2, 2, 3, 2, 5}},
-    {"ring", ring, 0, 0, {0}},
-    {"bent", bent, 1, 0, {0}},
-    {"bent, not to be flipped", bent, 2, 0, {0}},
-    {"pieces", pieces, 0, 0, {0}},
+    {"one triangle", one_triangle, MW_DELAUNAY_AUTO, 0, {0}},
+    {"square", square, MW_DELAUNAY_AUTO, 0, {0}},
+    {"lattice", lattice, MW_DELAUNAY_AUTO, 0, {0}},
+    {"lattice with a cross", lattice, MW_DELAUNAY_AUTO, 4, {1, 4, 4, 7, 3, 4, 4, 5}},
+    {"lattice with a line", lattice, MW_DELAUNAY_AUTO, 2, {3, 4, 4, 5}},
+    {"mixed lattice", mixed_lattice, MW_DELAUNAY_NEVER, 0, {0}},
+    {"hub", hub, MW_DELAUNAY_AUTO, 0, {0}},
+    {"hub, not to be flipped", hub, MW_DELAUNAY_NEVER, 2, {0, 1, 0, 5}},
+    {"hub, made Delaunay", hub, MW_DELAUNAY_MAKE, 0, {0}},
+    {"long side", long_side, MW_DELAUNAY_AUTO, 0, {0}},
+    {"long side, constrained", long_side, MW_DELAUNAY_AUTO, 3, {1, 2, 2, 3, 2, 5}},
+    {"ring", ring, MW_DELAUNAY_AUTO, 0, {0}},
+    {"bent", bent, MW_DELAUNAY_MAKE, 0, {0}},
+    {"bent, not to be flipped", bent, MW_DELAUNAY_NEVER, 0, {0}},
+    {"pieces", pieces, MW_DELAUNAY_AUTO, 0, {0}},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -130,8 +130,8 @@ static mw_editor_options scene_options(const scene *s)
     return (mw_editor_options){.delaunay = s->delaunay,
                                .log = 1,
                                .undo = SIZE_MAX,
-                               .constraints = s->constraint,
-                               .constraint_count = s->constraints};
+                               .constrained_edges = s->constraint,
+                               .constrained_edge_count = s->constraints};
 }
 
 static void open_scene(const scene *s, twin *t)
@@ -247,9 +247,11 @@ static void edit_compacted(twin *t, uint64_t *random)
     mw_mesh *mesh, *first = t->first;
     mw_error error;
     expect_ok(mw_editor_mesh(t->editor, NULL, NULL, &mesh, &error), "mesh", &error);
-    uint32_t *constraints = mw_editor_constraints(t->editor, &count);
-    mw_editor_options options = {
-        .delaunay = t->delaunay ? 0 : 2, .log = 1, .constraints = constraints, .constraint_count = count};
+    uint32_t *constraints = mw_editor_constrained_edges(t->editor, &count);
+    mw_editor_options options = {.delaunay = t->delaunay ? MW_DELAUNAY_AUTO : MW_DELAUNAY_NEVER,
+                                 .log = 1,
+                                 .constrained_edges = constraints,
+                                 .constrained_edge_count = count};
     for (int i = 0; i < 8; i++) {
         mw_edit e = any_edit(t, random);
         twin_apply(t, &e, false);
@@ -319,7 +321,7 @@ static mw_mesh *spread_mesh(uint64_t *random, uint32_t n)
     mw_mesh *mesh;
     mw_error error;
     for (uint32_t i = 0; i < 2 * n; i++) places[i] = mw__random_below(random, span);
-    expect_ok(mw_delaunay(places, n, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(places, n, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     return mesh;
 }
 
@@ -330,7 +332,8 @@ static void lay_constraints(uint64_t seed)
     uint64_t random = case_seed = seed;
     uint32_t done = 0;
     case_name = "long constraints";
-    mw_editor_options options = {.delaunay = seed % 4 ? 0 : 2, .log = 1, .undo = SIZE_MAX};
+    mw_editor_options options = {
+        .delaunay = seed % 4 ? MW_DELAUNAY_AUTO : MW_DELAUNAY_NEVER, .log = 1, .undo = SIZE_MAX};
     twin_open(&t, spread_mesh(&random, 120), &options);
     for (case_step = 0; case_step < 60 && done < MOST; case_step++) {
         mw_edit e = {.kind = MW_EDIT_CONSTRAIN, .vertex = mw__random_below(&random, 120)};
@@ -363,7 +366,7 @@ static void lay_two_pieces(void)
     mw_mesh *mesh;
     mw_error error;
     twin t;
-    expect_ok(mw_delaunay(p, 11, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(p, 11, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     twin_open(&t, mesh, NULL);
     assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_CONSTRAIN, .vertex = 1, .other = 9}, false), MW_OK);
     check_all(&t);
@@ -401,13 +404,15 @@ static void test_bad_meshes(void **state)
     mw_error error;
     arrays a = lattice();
     assert_int_equal(create(&a, (mw_editor_options){0}, &error), MW_OK);
-    assert_int_equal(create(&a, (mw_editor_options){.delaunay = 3}, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(create(&a, (mw_editor_options){.constraint_count = 1}, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(create(&a, (mw_editor_options){.delaunay = (mw_delaunay_mode)3}, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(create(&a, (mw_editor_options){.constrained_edge_count = 1}, &error), MW_ERROR_ARGUMENT);
     const uint32_t none[] = {0, 4, 0, 8}, beyond[] = {0, 9};
-    assert_int_equal(create(&a, (mw_editor_options){.constraints = none + 2, .constraint_count = 1}, &error),
-                     MW_ERROR_INPUT);
+    assert_int_equal(
+        create(&a, (mw_editor_options){.constrained_edges = none + 2, .constrained_edge_count = 1}, &error),
+        MW_ERROR_INPUT);
     assert_true(error.vertex == 0 || error.vertex == 8);
-    assert_int_not_equal(create(&a, (mw_editor_options){.constraints = beyond, .constraint_count = 1}, &error), MW_OK);
+    assert_int_not_equal(
+        create(&a, (mw_editor_options){.constrained_edges = beyond, .constrained_edge_count = 1}, &error), MW_OK);
     a.points[2 * 4] = 7; /* the middle vertex is outside now */
     assert_int_equal(create(&a, (mw_editor_options){0}, &error), MW_ERROR_INPUT);
     assert_true(error.triangle >= 0);
@@ -449,8 +454,8 @@ static void test_arguments(void **state)
     assert_int_equal(mw_edit_apply(t.editor, &(mw_edit){.x = 1.1, .y = 1.3, .value = 5, .field = 9}, NULL, &error),
                      MW_ERROR_ARGUMENT); /* the value would be lost */
     assert_int_equal(mw_editor_index(t.editor, MW_START_LAST, NULL, &index, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_editor_field(t.editor, "mark"), 1);
-    assert_int_equal(mw_editor_field(t.editor, "no such"), MW_NONE);
+    assert_int_equal(mw_editor_field_by_name(t.editor, "mark"), 1);
+    assert_int_equal(mw_editor_field_by_name(t.editor, "no such"), MW_NONE);
     assert_true(isnan(mw_editor_value(t.editor, TWIN_FIELDS, 0)));
     check_same(&t);
     mw_editor_log(t.editor, &count);
@@ -583,7 +588,7 @@ static void grow_and_shrink(uint32_t count, const double *places)
     mw_error error;
     twin t;
     mw_editor_options options = {.undo = 5};
-    expect_ok(mw_delaunay(places, 3, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(places, 3, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     twin_open(&t, mesh, &options);
     readers r;
     readers_open(&r, &t, true, 9);
@@ -663,7 +668,7 @@ static void test_duplicates(void **state)
     mw_error error;
     twin t;
     case_name = "duplicates";
-    expect_ok(mw_delaunay(p, 7, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(p, 7, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     mw_editor_options options = {.undo = SIZE_MAX, .log = 1};
     twin_open(&t, mesh, &options);
     readers r;
@@ -746,7 +751,7 @@ static void test_around_a_notch(void **state)
     const uint32_t expected[] = {3, 4, 0, 1};
     mw_editor *editor = editor_of(points, 5, (uint32_t[]){0, 1, 2, 0, 2, 4, 2, 3, 4}, 3, NULL);
     uint32_t around[8];
-    assert_int_equal(mw_editor_around(editor, 2, around, 8), 4);
+    assert_int_equal(mw_editor_adjacent_vertices(editor, 2, around, 8), 4);
     assert_memory_equal(around, expected, sizeof expected);
     mw_editor_destroy(editor);
 }
@@ -758,7 +763,7 @@ static void test_no_flips_beside_a_star(void **state)
     enum { V, A, W, B, C, D, Z };
     const double points[] = {.1, 100, -1, 5, 0, 10, 0, 0, 1, 1, 1.5, 5, 0, -100};
     const uint32_t triangles[] = {V, A, W, V, W, B, V, B, C, V, C, D, A, B, W, Z, B, A, Z, C, B, Z, D, C};
-    mw_editor *editor = editor_of(points, 7, triangles, 8, &(mw_editor_options){.delaunay = 2});
+    mw_editor *editor = editor_of(points, 7, triangles, 8, &(mw_editor_options){.delaunay = MW_DELAUNAY_NEVER});
     mw_change change;
     REQUIRE(mw_edit_remove(editor, V, &change, NULL) == MW_OK);
     for (size_t i = change.made; i < change.made + change.reused + change.freed; i++) {

@@ -85,7 +85,7 @@ static uint32_t random_vertex(const mw_editor *editor, uint64_t *random)
 static uint32_t random_neighbour(const mw_editor *editor, uint32_t v, uint64_t *random)
 {
     uint32_t around[64];
-    size_t n = mw_editor_around(editor, v, around, 64);
+    size_t n = mw_editor_adjacent_vertices(editor, v, around, 64);
     return around[mw__random_below(random, (uint32_t)(n < 64 ? n : 64))];
 }
 
@@ -161,7 +161,7 @@ static fresh make_fresh(const mw_editor *editor, size_t n, uint64_t *random)
     fresh f = {.triangle = malloc(info.triangle_range * sizeof *f.triangle)};
     mw_error error;
     expect_ok(mw_editor_mesh(editor, f.triangle, NULL, &f.mesh, &error), "mesh", &error);
-    f.locator = mesh_locator(f.mesh, (mw_locator_options){.fill = 1});
+    f.locator = mesh_locator(f.mesh, (mw_locator_options){.fill = MW_FILL_YES});
     arrays a = mesh_arrays(f.mesh);
     f.q = nasty_queries(&a, n, &f.n, random);
     arrays_free(&a);
@@ -215,8 +215,8 @@ static void open_cursors(mw_editor *editor, const mw_index_options *kept, cursor
                                             .start = (mw_start_kind)start,
                                             .index = c->index[start],
                                             .arithmetic = (mw_arithmetic)((walk + start) % 2 && i),
-                                            .count = i};
-                expect_ok(mw_cursor_init(&c->of[walk][start][i], mw_editor_locator(editor), &options, &error), "cursor",
+                                            .counters = i};
+                expect_ok(mw_cursor_init(mw_editor_locator(editor), &options, &c->of[walk][start][i], &error), "cursor",
                           &error);
             }
 }
@@ -254,7 +254,7 @@ static void expect_batches(const mw_editor *editor, const cursors *c, const fres
                                         .start = (mw_start_kind)start,
                                         .index = c->index[start],
                                         .threads = 1 + (uint32_t)(walk + start) % 3,
-                                        .count = (walk + start) % 4 == 3};
+                                        .counters = (walk + start) % 4 == 3};
             expect_ok(mw_locate_batch(mw_editor_locator(editor), f->q, f->n, 2, &options, at, NULL, &error), how,
                       &error);
             for (size_t i = 0; i < f->n; i++) expect_same(f, i, &at[i], how);
@@ -324,7 +324,7 @@ static void test_sessions(void **state)
             session s = {.vertices = vertices[i % 4],
                          .rounds = 12,
                          .edits = edits[i % 3],
-                         .options = {.delaunay = i % 3, .undo = i % 2 ? SIZE_MAX : 5},
+                         .options = {.delaunay = (mw_delaunay_mode)(i % 3), .undo = i % 2 ? SIZE_MAX : 5},
                          .kept = {.ratio = i % 2 ? 0.4 : 0, .layers = i % 2 ? 4 : 0}};
             printf("%s, session %d\n", mesh_name[kind], i);
             run_session(kind, &s, &random);
@@ -447,8 +447,8 @@ static void test_cursors_recover(void **state)
     mw_editor *editor = make_editor(UNIFORM, VERTICES, (mw_editor_options){.undo = 1000}, &random);
     const mw_locator *locator = mw_editor_locator(editor);
     mw_cursor cursor;
-    mw_query_options options = {.walk = MW_WALK_REMEMBERING, .start = MW_START_LAST, .count = 1};
-    assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+    mw_query_options options = {.walk = MW_WALK_REMEMBERING, .start = MW_START_LAST, .counters = 1};
+    assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
     double q[2] = {1, 15}, far[2] = {15, 1};
     mw_cursor other = cursor;
     visits(editor, &cursor, q);
@@ -506,7 +506,7 @@ static void measure(const mw_editor *editor, const mw_index *const *index, const
     mw_location *at = malloc(QUERIES * sizeof *at);
     for (int start = 0; start < MW_START_COUNT; start++) {
         mw_query_options options = {
-            .walk = MW_WALK_REMEMBERING, .start = (mw_start_kind)start, .index = index[start], .count = 1};
+            .walk = MW_WALK_REMEMBERING, .start = (mw_start_kind)start, .index = index[start], .counters = 1};
         mw_counters counters;
         mw_error error;
         expect_ok(mw_locate_batch(mw_editor_locator(editor), q, QUERIES, 2, &options, at, &counters, &error), "batch",

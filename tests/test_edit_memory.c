@@ -99,7 +99,7 @@ static mw_status index_job(call *c, mw_error *error)
 static mw_status constraints_job(call *c, mw_error *error)
 {
     size_t count;
-    uint32_t *edge = mw_editor_constraints(c->t->editor, &count);
+    uint32_t *edge = mw_editor_constrained_edges(c->t->editor, &count);
     if (!edge) return mw__fail_memory(error);
     REQUIRE(count == c->t->fixed_count);
     free(edge);
@@ -148,12 +148,12 @@ static void run_session(bool hole, bool indexed, uint64_t seed)
     twin t;
     readers r = {0};
     uint64_t random = case_seed = seed;
-    mw_editor_options options = {.delaunay = 1, .undo = SIZE_MAX, .log = 1};
+    mw_editor_options options = {.delaunay = MW_DELAUNAY_MAKE, .undo = SIZE_MAX, .log = 1};
     case_name = "session";
     twin_open(&t, square_mesh(hole), &options);
     call c = {.t = &t, .options = &options};
     mw_editor *plain;
-    REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = 1}, &plain, NULL) == MW_OK);
+    REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &plain, NULL) == MW_OK);
     if (indexed) assert_int_equal(exhaust(index_job, &c), MW_OK);
     readers_open(&r, &t, indexed, seed);
     for (case_step = 0; case_step < STEPS; case_step++) {
@@ -202,8 +202,8 @@ static void test_create(void **state)
     (void)state;
     const uint32_t edges[] = {0, 1, 1, 2};
     for (int i = 0; i < 8; i++) {
-        mw_editor_options options = {.delaunay = i % 4 / 2, .log = 1, .undo = 4};
-        if (i >= 4) options.constraints = edges, options.constraint_count = 2;
+        mw_editor_options options = {.delaunay = i % 4 / 2 ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, .log = 1, .undo = 4};
+        if (i >= 4) options.constrained_edges = edges, options.constrained_edge_count = 2;
         call c = {.mesh = square_mesh(i % 2), .options = &options};
         set_fields(c.mesh);
         failures_seen = 0;
@@ -237,11 +237,11 @@ static void test_halves(void **state)
         twin t;
         mw_editor *plain;
         uint64_t random = case_seed = seed;
-        mw_editor_options options = {.delaunay = 1, .undo = SIZE_MAX, .log = 1};
+        mw_editor_options options = {.delaunay = MW_DELAUNAY_MAKE, .undo = SIZE_MAX, .log = 1};
         case_name = "halves";
         failures_seen = 0;
         twin_open(&t, square_mesh(seed % 2), &options);
-        REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = 1}, &plain, NULL) == MW_OK);
+        REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &plain, NULL) == MW_OK);
         for (case_step = 0; case_step < 300; case_step++) {
             mw_edit e = case_edit = halve_any(t.editor, &random);
             REQUIRE(edit_plainly(plain, &t, &e) == MW_OK);

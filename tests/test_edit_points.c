@@ -82,29 +82,29 @@ static void subnormal(uint64_t *random, double *q)
 typedef struct session {
     const char *name;
     void (*place)(uint64_t *random, double *q);
-    int delaunay;     /* as in the options                              */
-    bool constraints; /* a few edges are fixed                          */
-    bool hole;        /* the mesh is a lattice that has one             */
+    mw_delaunay_mode delaunay; /* as in the options                              */
+    bool constraints;          /* a few edges are fixed                          */
+    bool hole;                 /* the mesh is a lattice that has one             */
 } session;
 
 static const session sessions[] = {
-    {"uniform", uniform, 0, false, false},
-    {"lattice", lattice, 0, false, false},
-    {"cocircular", cocircular, 0, false, false},
-    {"clustered", clustered, 0, false, false},
-    {"near lattice", near_lattice, 0, false, false},
-    {"in line", in_line, 0, false, false},
-    {"huge", huge, 0, false, false},
-    {"subnormal", subnormal, 0, false, false},
-    {"uniform, constraints", uniform, 0, true, false},
-    {"lattice, constraints", lattice, 0, true, false},
-    {"cocircular, constraints", cocircular, 0, true, false},
-    {"uniform, a hole", uniform, 1, false, true},
-    {"lattice, a hole, constraints", lattice, 1, true, true},
-    {"near lattice, a hole", near_lattice, 1, false, true},
-    {"uniform, not to be flipped", uniform, 2, true, false},
-    {"lattice, not to be flipped", lattice, 2, true, false},
-    {"cocircular, not to be flipped, a hole", cocircular, 2, true, true},
+    {"uniform", uniform, MW_DELAUNAY_AUTO, false, false},
+    {"lattice", lattice, MW_DELAUNAY_AUTO, false, false},
+    {"cocircular", cocircular, MW_DELAUNAY_AUTO, false, false},
+    {"clustered", clustered, MW_DELAUNAY_AUTO, false, false},
+    {"near lattice", near_lattice, MW_DELAUNAY_AUTO, false, false},
+    {"in line", in_line, MW_DELAUNAY_AUTO, false, false},
+    {"huge", huge, MW_DELAUNAY_AUTO, false, false},
+    {"subnormal", subnormal, MW_DELAUNAY_AUTO, false, false},
+    {"uniform, constraints", uniform, MW_DELAUNAY_AUTO, true, false},
+    {"lattice, constraints", lattice, MW_DELAUNAY_AUTO, true, false},
+    {"cocircular, constraints", cocircular, MW_DELAUNAY_AUTO, true, false},
+    {"uniform, a hole", uniform, MW_DELAUNAY_MAKE, false, true},
+    {"lattice, a hole, constraints", lattice, MW_DELAUNAY_MAKE, true, true},
+    {"near lattice, a hole", near_lattice, MW_DELAUNAY_MAKE, false, true},
+    {"uniform, not to be flipped", uniform, MW_DELAUNAY_NEVER, true, false},
+    {"lattice, not to be flipped", lattice, MW_DELAUNAY_NEVER, true, false},
+    {"cocircular, not to be flipped, a hole", cocircular, MW_DELAUNAY_NEVER, true, true},
 };
 enum { SESSIONS = sizeof sessions / sizeof *sessions };
 
@@ -260,7 +260,7 @@ static void take_over_all(twin *t, const mw_change *change)
         read_vertex(t, v);
         split_fixed(t, v);
     }
-    REQUIRE((uint32_t)change->vertex_made == made && (uint32_t)change->vertex_freed == freed);
+    REQUIRE(change->vertices_made == made && change->vertices_freed == freed);
     REQUIRE(change->vertex == first);
     t->vertices += made - freed;
     t->vertex_range = info.vertex_range;
@@ -295,8 +295,8 @@ static void insert_all(twin *t, const points *p, uint32_t *vertices)
     expect_ok(mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error), "points", &error);
     REQUIRE(vertices[p->n] == 4711);
     take_over_all(t, &change);
-    REQUIRE(change.freed == 0 && change.vertex_freed == 0);
-    REQUIRE(t->vertex_range == range + (uint32_t)change.vertex_made && edits_of(t) == edits + p->n);
+    REQUIRE(change.freed == 0 && change.vertices_freed == 0);
+    REQUIRE(t->vertex_range == range + change.vertices_made && edits_of(t) == edits + p->n);
     for (size_t i = 0; i < p->n; i++) {
         REQUIRE(is_used(t, vertices[i]));
         for (int k = 0; k < 2; k++) REQUIRE(at(t, vertices[i])[k] == point_of(p, i)[k]);
@@ -325,7 +325,7 @@ static void ask_some(const session *s, const twin *t, readers *r, uint64_t *rand
     for (int i = 0; i < 60; i++) {
         double q[2];
         uint32_t v = mw__random_below(random, t->vertex_range), around[8];
-        size_t n = mw_editor_around(t->editor, v, around, 8);
+        size_t n = mw_editor_adjacent_vertices(t->editor, v, around, 8);
         s->place(random, q);
         for (int k = 0; k < 2 && n > 0 && i % 3 < 2; k++)
             q[k] = i % 3 ? at(t, v)[k] : at(t, v)[k] / 2 + at(t, around[n < 8 ? n - 1 : 7])[k] / 2;
@@ -396,11 +396,11 @@ static void run_session(const session *s, uint64_t seed)
     uint64_t random = mw__random_seed(seed, 11);
     mw_mesh *mesh = first_mesh(s, &random);
     mw_editor_options options = {.delaunay = s->delaunay, .undo = SIZE_MAX, .log = 1};
-    uint32_t *edges = some_edges(mesh, &options.constraint_count);
+    uint32_t *edges = some_edges(mesh, &options.constrained_edge_count);
     twin t;
     readers r;
-    options.constraints = edges;
-    if (!s->constraints) options.constraint_count = 0;
+    options.constrained_edges = edges;
+    if (!s->constraints) options.constrained_edge_count = 0;
     case_name = s->name;
     case_seed = seed;
     twin_open(&t, mesh, &options);
@@ -468,9 +468,9 @@ static void test_refused(void **state)
 {
     (void)state;
     for (int hole = 0; hole < 2; hole++) {
-        session s = {"refused", hole ? lattice : uniform, hole, false, hole};
+        session s = {"refused", hole ? lattice : uniform, hole ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, false, hole};
         uint64_t random = mw__random_seed(first_seed(), 5);
-        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = hole};
+        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = s.delaunay};
         twin t;
         readers r;
         case_name = s.name;
@@ -522,7 +522,7 @@ static void test_arguments(void **state)
     assert_int_equal(info.undoable, 2);
     for (int i = 3; i > 1; i--) {
         assert_int_equal(mw_edit_undo(editor, &change, &error), MW_OK);
-        assert_true(change.vertex_freed == 2 && change.vertex == 2 + 2 * (uint32_t)i && !change.vertex_made);
+        assert_true(change.vertices_freed == 2 && change.vertex == 2 + 2 * (uint32_t)i && !change.vertices_made);
     }
     assert_int_equal(mw_edit_undo(editor, &change, &error), MW_ERROR_INPUT);
     mw_editor_describe(editor, &info);
@@ -599,9 +599,10 @@ static void test_memory(void **state)
 {
     (void)state;
     for (int i = 0; i < 6; i++) {
-        session s = {"memory", i % 2 ? lattice : uniform, i / 2 == 1, false, i / 2 == 1};
+        session s = {"memory", i % 2 ? lattice : uniform, i / 2 == 1 ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, false,
+                     i / 2 == 1};
         uint64_t random = mw__random_seed(first_seed(), (uint32_t)i);
-        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = i / 2 == 1};
+        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = s.delaunay};
         long failures = 0;
         twin t;
         readers r;

@@ -82,26 +82,26 @@ static void scattered(uint64_t *random, double *q)
 typedef struct stream {
     const char *name;
     void (*place)(uint64_t *random, double *q);
-    uint32_t vertices; /* about so many are there           */
-    int delaunay;      /* as in the options                 */
-    bool constraints;  /* are set and released              */
-    bool hole;         /* the mesh begins with a square hole */
+    uint32_t vertices;         /* about so many are there           */
+    mw_delaunay_mode delaunay; /* as in the options                 */
+    bool constraints;          /* are set and released              */
+    bool hole;                 /* the mesh begins with a square hole */
 } stream;
 
 static const stream streams[] = {
-    {"uniform", uniform, 400, 0, false, false},
-    {"grid", grid, 160, 0, false, false},
-    {"cocircular", cocircular, 90, 0, false, false},
-    {"clustered", clustered, 300, 0, false, false},
-    {"subnormal", subnormal, 120, 0, true, false},
-    {"huge", huge, 120, 0, true, false},
-    {"scattered", scattered, 100, 0, true, false},
-    {"uniform, constraints", uniform, 200, 0, true, false},
-    {"grid, constraints", grid, 120, 0, true, false},
-    {"grid with a hole", grid, 160, 1, false, true},
-    {"uniform with a hole, constraints", uniform, 200, 1, true, true},
-    {"uniform, not to be flipped", uniform, 150, 2, true, false},
-    {"cocircular, not to be flipped, a hole", cocircular, 80, 2, true, true},
+    {"uniform", uniform, 400, MW_DELAUNAY_AUTO, false, false},
+    {"grid", grid, 160, MW_DELAUNAY_AUTO, false, false},
+    {"cocircular", cocircular, 90, MW_DELAUNAY_AUTO, false, false},
+    {"clustered", clustered, 300, MW_DELAUNAY_AUTO, false, false},
+    {"subnormal", subnormal, 120, MW_DELAUNAY_AUTO, true, false},
+    {"huge", huge, 120, MW_DELAUNAY_AUTO, true, false},
+    {"scattered", scattered, 100, MW_DELAUNAY_AUTO, true, false},
+    {"uniform, constraints", uniform, 200, MW_DELAUNAY_AUTO, true, false},
+    {"grid, constraints", grid, 120, MW_DELAUNAY_AUTO, true, false},
+    {"grid with a hole", grid, 160, MW_DELAUNAY_MAKE, false, true},
+    {"uniform with a hole, constraints", uniform, 200, MW_DELAUNAY_MAKE, true, true},
+    {"uniform, not to be flipped", uniform, 150, MW_DELAUNAY_NEVER, true, false},
+    {"cocircular, not to be flipped, a hole", cocircular, 80, MW_DELAUNAY_NEVER, true, true},
 };
 enum { STREAMS = sizeof streams / sizeof *streams };
 
@@ -112,7 +112,7 @@ static mw_mesh *first_mesh(const stream *s, uint64_t *random)
     if (s->hole) return holed_mesh(10, random);
     double *places = room(2 * (size_t)s->vertices, sizeof *places);
     for (uint32_t i = 0; i < s->vertices; i++) s->place(random, places + 2 * (size_t)i);
-    expect_ok(mw_delaunay(places, s->vertices, 2, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(places, s->vertices, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     free(places);
     return mesh;
 }
@@ -130,7 +130,7 @@ static uint32_t near_vertex(const twin *t, uint32_t v, uint64_t *random)
 {
     uint32_t around[16];
     for (uint32_t steps = 1 + mw__random_below(random, 3); steps > 0; steps--) {
-        size_t n = mw_editor_around(t->editor, v, around, 16);
+        size_t n = mw_editor_adjacent_vertices(t->editor, v, around, 16);
         if (n == 0) break;
         v = around[mw__random_below(random, (uint32_t)(n < 16 ? n : 16))];
     }
@@ -151,8 +151,9 @@ static mw_edit_kind any_kind(const stream *s, const twin *t, uint64_t *random)
     uint32_t chance = mw__random_below(random, 100);
     if (chance < (t->vertices < s->vertices ? 42 : 25)) return MW_EDIT_INSERT;
     if (chance < 65) return MW_EDIT_REMOVE;
-    if (chance < 88 || (!s->constraints && s->delaunay != 2)) return chance < 97 ? MW_EDIT_MOVE : MW_EDIT_VALUE;
-    if (chance < 91) return s->delaunay == 2 ? MW_EDIT_FLIP : MW_EDIT_MOVE;
+    if (chance < 88 || (!s->constraints && s->delaunay != MW_DELAUNAY_NEVER))
+        return chance < 97 ? MW_EDIT_MOVE : MW_EDIT_VALUE;
+    if (chance < 91) return s->delaunay == MW_DELAUNAY_NEVER ? MW_EDIT_FLIP : MW_EDIT_MOVE;
     if (chance < 92) return MW_EDIT_VALUE;
     bool many = t->fixed_count > s->vertices / 8;
     return chance < (many ? 93 : 97) ? MW_EDIT_CONSTRAIN : MW_EDIT_RELEASE;
@@ -201,7 +202,7 @@ static void back_and_forth(const stream *s, twin *t, uint64_t *random)
     uint32_t done = 0, wanted = 1 + mw__random_below(random, 8);
     while (done < wanted) {
         mw_edit e = any_edit(s, t, random);
-        if (s->delaunay != 2 && mw__random_below(random, 4) == 0) e.kind = MW_EDIT_FLIP;
+        if (s->delaunay != MW_DELAUNAY_NEVER && mw__random_below(random, 4) == 0) e.kind = MW_EDIT_FLIP;
         then[done] = twin_copy(t);
         if (twin_apply(t, &e, false) == MW_OK)
             done++;
@@ -284,7 +285,7 @@ static void large_edit(twin *t, mw_edit e)
         uint32_t k = change.triangle[i].triangle, around[64];
         const uint32_t *v = corners_of(t, k);
         REQUIRE(turn_of(t, k) > 0);
-        size_t n = mw_editor_around(t->editor, v[i % 3], around, 64);
+        size_t n = mw_editor_adjacent_vertices(t->editor, v[i % 3], around, 64);
         for (size_t j = 0; j < n && j < 64; j++)
             REQUIRE(exact_incircle(at(t, v[0]), at(t, v[1]), at(t, v[2]), at(t, around[j])) <= 0);
     }
@@ -293,7 +294,7 @@ static void large_edit(twin *t, mw_edit e)
 static void test_large(void **state)
 {
     (void)state;
-    const stream s = {"large", uniform, is_long() ? 100000 : 6000, 0, false, false};
+    const stream s = {"large", uniform, is_long() ? 100000 : 6000, MW_DELAUNAY_AUTO, false, false};
     uint64_t random = mw__random_seed(stream_seed(), 4), edits = is_long() ? 1000000 : 12000;
     twin t;
     readers r;
@@ -332,7 +333,7 @@ static void test_memory(void **state)
 {
     (void)state;
     enum { SLACK = 65536 };
-    const stream s = {"memory", uniform, 2000, 0, false, false};
+    const stream s = {"memory", uniform, 2000, MW_DELAUNAY_AUTO, false, false};
     uint64_t random = 6, cycles = is_long() ? 1000000 : 60000;
     mw_mesh *mesh = first_mesh(&s, &random);
     mw_editor *editor;
@@ -345,7 +346,7 @@ static void test_memory(void **state)
         mw_change change;
         uniform(&random, q);
         expect_ok(mw_edit_insert(editor, q[0], q[1], &change, &error), "insert", &error);
-        if (!change.vertex_made) continue;
+        if (!change.vertices_made) continue;
         if (i % 3 == 0) expect_ok(mw_edit_move(editor, change.vertex, q[1], q[0], &change, &error), "move", &error);
         expect_ok(mw_edit_remove(editor, change.vertex, &change, &error), "remove", &error);
     }

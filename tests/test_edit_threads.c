@@ -40,7 +40,7 @@ static void open_reader(reader *r, mw_editor *editor, const double *query, uint6
             .walk = (mw_walk_kind)walk, .start = starts[(seed + (uint64_t)walk) % 4], .seed = seed};
         if (mw_start_has_index(options.start))
             assert_int_equal(mw_editor_index(editor, options.start, NULL, &options.index, NULL), MW_OK);
-        assert_int_equal(mw_cursor_init(&r->cursor[walk], mw_editor_locator(editor), &options, NULL), MW_OK);
+        assert_int_equal(mw_cursor_init(mw_editor_locator(editor), &options, &r->cursor[walk], NULL), MW_OK);
     }
 }
 

@@ -11,25 +11,25 @@
 
 typedef struct scene {
     const char *name;
-    uint32_t span; /* places are multiples of 16 / span                  */
-    bool near;     /* but for a rounding                                 */
-    uint32_t hub;  /* this degree and less: vertices on a circle round one */
-    double scale;  /* of all coordinates                                 */
-    int delaunay;  /* as in the options                                  */
-    bool hole;     /* the mesh has two holes and a pocket                */
+    uint32_t span;             /* places are multiples of 16 / span                  */
+    bool near;                 /* but for a rounding                                 */
+    uint32_t hub;              /* this degree and less: vertices on a circle round one */
+    double scale;              /* of all coordinates                                 */
+    mw_delaunay_mode delaunay; /* as in the options                                  */
+    bool hole;                 /* the mesh has two holes and a pocket                */
 } scene;
 
 static const scene scenes[] = {
-    {"lattice", 8, false, 0, 1, 0, false},
-    {"nearly a lattice", 8, true, 0, 1, 0, false},
-    {"hubs", 16, false, 20, 1, 0, false},
-    {"hubs, nearly", 16, true, 20, 1, 0, false},
-    {"tiny", 8, false, 12, 0x1p-1060, 0, false},
-    {"huge", 8, false, 12, 0x1p1019, 0, false},
-    {"holes", 16, false, 0, 1, 1, true},
-    {"holes, nearly", 16, true, 12, 1, 1, true},
-    {"not to be flipped", 8, false, 12, 1, 2, false},
-    {"holes, not to be flipped", 16, false, 0, 1, 2, true},
+    {"lattice", 8, false, 0, 1, MW_DELAUNAY_AUTO, false},
+    {"nearly a lattice", 8, true, 0, 1, MW_DELAUNAY_AUTO, false},
+    {"hubs", 16, false, 20, 1, MW_DELAUNAY_AUTO, false},
+    {"hubs, nearly", 16, true, 20, 1, MW_DELAUNAY_AUTO, false},
+    {"tiny", 8, false, 12, 0x1p-1060, MW_DELAUNAY_AUTO, false},
+    {"huge", 8, false, 12, 0x1p1019, MW_DELAUNAY_AUTO, false},
+    {"holes", 16, false, 0, 1, MW_DELAUNAY_MAKE, true},
+    {"holes, nearly", 16, true, 12, 1, MW_DELAUNAY_MAKE, true},
+    {"not to be flipped", 8, false, 12, 1, MW_DELAUNAY_NEVER, false},
+    {"holes, not to be flipped", 16, false, 0, 1, MW_DELAUNAY_NEVER, true},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -90,16 +90,16 @@ static mw_edit random_edit(const scene *s, const mw_editor *editor, uint64_t *ra
     uint32_t around[32], tries = 0;
     do e.vertex = mw__random_below(random, info.vertex_range);
     while (mw_editor_triangle_of(editor, e.vertex) == MW_NONE && tries++ < 1000);
-    size_t n = mw_editor_around(editor, e.vertex, around, 32);
+    size_t n = mw_editor_adjacent_vertices(editor, e.vertex, around, 32);
     e.other = n ? around[mw__random_below(random, (uint32_t)(n < 32 ? n : 32))] : 0;
-    if (e.kind == MW_EDIT_CONSTRAIN && info.constraints > 6) e.kind = MW_EDIT_RELEASE;
+    if (e.kind == MW_EDIT_CONSTRAIN && info.constrained_edges > 6) e.kind = MW_EDIT_RELEASE;
     if (e.kind == MW_EDIT_RELEASE) {
         size_t count;
-        uint32_t *edge = mw_editor_constraints(editor, &count);
+        uint32_t *edge = mw_editor_constrained_edges(editor, &count);
         if (count) e.vertex = edge[0], e.other = edge[1];
         free(edge);
     }
-    if (s->delaunay == 2 && mw__random_below(random, 8) == 0) e.kind = MW_EDIT_FLIP;
+    if (s->delaunay == MW_DELAUNAY_NEVER && mw__random_below(random, 8) == 0) e.kind = MW_EDIT_FLIP;
     if (s->hub && e.kind == MW_EDIT_INSERT && mw__random_below(random, 8) == 0) e.x = e.y = 8 * s->scale;
     return e;
 }
@@ -139,7 +139,7 @@ static void run_scene(const scene *s, uint64_t seed, uint32_t edits)
     for (case_step = 0; case_step < edits; case_step++) {
         there_and_back(s, t.editor, &random);
         mw_edit e = random_edit(s, t.editor, &random);
-        size_t degree = e.kind == MW_EDIT_REMOVE ? mw_editor_around(t.editor, e.vertex, NULL, 0) : 0;
+        size_t degree = e.kind == MW_EDIT_REMOVE ? mw_editor_adjacent_vertices(t.editor, e.vertex, NULL, 0) : 0;
         mw_status status = twin_apply(&t, &e, false);
         REQUIRE(mw_edit_apply(plain, &e, NULL, &error) == status);
         done += status == MW_OK;

@@ -11,9 +11,9 @@
 #include <math.h>
 
 static const char *const names[] = {"temp", "z", "wind speed", "12", "say \"hi\"", "a#b", "z"};
-static const mw_edits_options named = {.fields = names, .field_count = sizeof names / sizeof *names};
+static const mw_edit_text_options named = {.fields = names, .field_count = sizeof names / sizeof *names};
 
-static mw_edit_line parse(const char *text, const mw_edits_options *options)
+static mw_edit_line parse(const char *text, const mw_edit_text_options *options)
 {
     mw_edit_line line;
     mw_error error;
@@ -165,7 +165,7 @@ static void test_fields(void **state)
     assert_int_equal(mw_edit_parse("value 1 2 z", NULL, &line, &error), MW_ERROR_INPUT);
     assert_int_equal(mw_edit_parse("value 1 2 4294967295", NULL, &line, &error), MW_ERROR_INPUT);
     static const char *const salt[] = {"salt"};
-    const mw_edits_options no_z = {.fields = salt, .field_count = 1};
+    const mw_edit_text_options no_z = {.fields = salt, .field_count = 1};
     assert_int_equal(mw_edit_parse("insert 1 2 3", &no_z, &line, &error), MW_ERROR_INPUT);
     expect_error(&error, MW_ERROR_INPUT, -1, "the mesh has no z");
     assert_int_equal(parse("insert 1 2 3 salt", &no_z).edit.field, 0);
@@ -174,8 +174,8 @@ static void test_fields(void **state)
 
 static void expect_text(const char *wanted, mw_edit_line line)
 {
-    char text[MW_EDIT_TEXT];
-    size_t length = mw_edit_format(text, &line, &named);
+    char text[MW_EDIT_TEXT_SIZE];
+    size_t length = mw_edit_format(&line, &named, text);
     assert_string_equal(text, wanted);
     assert_int_equal(length, strlen(wanted));
     if (length == 0) return;
@@ -203,15 +203,15 @@ static void test_format(void **state)
     expect_text("", (mw_edit_line){.kind = MW_EDIT_LINE_NONE});
     expect_text("", EDIT(.kind = MW_EDIT_KIND_COUNT));
     /* the longest line there is */
-    char name[64], text[MW_EDIT_TEXT];
+    char name[64], text[MW_EDIT_TEXT_SIZE];
     for (size_t length = 1; length < sizeof name; length++) {
         memset(name, ',', length);
         name[length] = 0;
         const char *const field = name;
-        const mw_edits_options options = {.fields = &field, .field_count = 1};
+        const mw_edit_text_options options = {.fields = &field, .field_count = 1};
         mw_edit_line line = EDIT(.kind = MW_EDIT_INSERT, .x = -1.2345678901234567e-300, .y = -1.2345678901234567e-300,
                                  .value = -1e-300);
-        size_t used = mw_edit_format(text, &line, &options);
+        size_t used = mw_edit_format(&line, &options, text);
         assert_true(used < sizeof text && strlen(text) == used);
         mw_edit_line again = parse(text, &options);
         expect_same(&line, &again, text);
@@ -238,9 +238,9 @@ static void test_round_trip(void **state)
                  .y = any_double(&random), .value = any_double(&random), .vertex = (uint32_t)mw__random(&random),
                  .other = (uint32_t)mw__random(&random), .field = (uint32_t)(mw__random(&random) % 6));
         if (line.edit.vertex == MW_NONE || line.edit.other == MW_NONE) continue;
-        char text[MW_EDIT_TEXT];
-        const mw_edits_options *options = i % 2 ? &named : NULL;
-        mw_edit_format(text, &line, options);
+        char text[MW_EDIT_TEXT_SIZE];
+        const mw_edit_text_options *options = i % 2 ? &named : NULL;
+        mw_edit_format(&line, options, text);
         mw_edit_line again = parse(text, options);
         expect_same(&line, &again, text);
     }
@@ -259,41 +259,41 @@ static void test_reader(void **state)
             files_write_gzip("e.txt", BYTES(text));
         else
             files_write("e.txt", BYTES(text));
-        assert_int_equal(mw_edits_open("e.txt", &named, &reader, &error), MW_OK);
-        assert_int_equal(mw_edits_read(reader, &line, &error), MW_OK);
+        assert_int_equal(mw_edit_reader_open("e.txt", &named, &reader, &error), MW_OK);
+        assert_int_equal(mw_edit_reader_read(reader, &line, &error), MW_OK);
         assert_int_equal(line.line, 3);
         assert_int_equal(line.edit.field, 0);
-        assert_int_equal(mw_edits_read(reader, &line, &error), MW_ERROR_INPUT);
+        assert_int_equal(mw_edit_reader_read(reader, &line, &error), MW_ERROR_INPUT);
         assert_int_equal(line.line, 4);
         expect_error(&error, MW_ERROR_INPUT, 4, "e.txt:4: unknown edit 'remve'");
-        assert_int_equal(mw_edits_read(reader, &line, &error), MW_OK);
+        assert_int_equal(mw_edit_reader_read(reader, &line, &error), MW_OK);
         assert_int_equal(line.kind, MW_EDIT_LINE_LOCATE);
         assert_int_equal(line.line, 5);
-        assert_int_equal(mw_edits_read(reader, &line, &error), MW_OK);
+        assert_int_equal(mw_edit_reader_read(reader, &line, &error), MW_OK);
         assert_int_equal(line.kind, MW_EDIT_LINE_UNDO);
         for (int i = 0; i < 2; i++) {
-            assert_int_equal(mw_edits_read(reader, &line, &error), MW_OK);
+            assert_int_equal(mw_edit_reader_read(reader, &line, &error), MW_OK);
             assert_int_equal(line.kind, MW_EDIT_LINE_NONE);
         }
-        mw_edits_close(reader);
+        mw_edit_reader_close(reader);
     }
     mw_edit_reader *reader;
     mw_edit_line line;
     mw_error error;
     files_write("e.txt", BYTES("undo\nun\0do\nundo\n"));
-    assert_int_equal(mw_edits_open("e.txt", NULL, &reader, &error), MW_OK);
-    assert_int_equal(mw_edits_read(reader, &line, &error), MW_OK);
+    assert_int_equal(mw_edit_reader_open("e.txt", NULL, &reader, &error), MW_OK);
+    assert_int_equal(mw_edit_reader_read(reader, &line, &error), MW_OK);
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(mw_edits_read(reader, &line, &error), MW_ERROR_INPUT);
+        assert_int_equal(mw_edit_reader_read(reader, &line, &error), MW_ERROR_INPUT);
         assert_int_equal(line.line, 0);
         expect_error(&error, MW_ERROR_INPUT, 2, "e.txt:2: ");
     }
-    mw_edits_close(reader);
-    assert_int_equal(mw_edits_open("missing.txt", NULL, &reader, &error), MW_ERROR_SYSTEM);
+    mw_edit_reader_close(reader);
+    assert_int_equal(mw_edit_reader_open("missing.txt", NULL, &reader, &error), MW_ERROR_SYSTEM);
     assert_null(reader);
-    assert_int_equal(mw_edits_open(NULL, NULL, &reader, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_edits_open("e.txt", NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    mw_edits_close(NULL);
+    assert_int_equal(mw_edit_reader_open(NULL, NULL, &reader, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_edit_reader_open("e.txt", NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    mw_edit_reader_close(NULL);
     files_clear();
 }
 

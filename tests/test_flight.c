@@ -28,7 +28,7 @@ static void expect_portable(const mw_locator *locator, const mw_query_options *o
                             const mw_location *want, mw_location *at)
 {
     mw_cursor cursor;
-    assert_int_equal(mw_cursor_init(&cursor, locator, options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(locator, options, &cursor, NULL), MW_OK);
     mw_batch queries = {.points = q, .locations = at, .stride = 2};
     for (int chained = 0; chained < 2; chained++)
         for (uint32_t lanes = 4; lanes <= 64; lanes *= 4) {
@@ -54,7 +54,7 @@ static void expect_start(const mw_locator *locator, mw_query_options options, co
         expect_same(want, at, q, n, how);
     }
     mw_cursor cursor;
-    expect_ok(mw_cursor_init(&cursor, locator, &options, &error), "cursor", &error);
+    expect_ok(mw_cursor_init(locator, &options, &cursor, &error), "cursor", &error);
     for (size_t i = 0; i < n; i++) at[i] = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
     expect_same(want, at, q, n, mw_start_name(options.start));
     expect_portable(locator, &options, q, n, want, at);
@@ -70,7 +70,7 @@ static void expect_flight(const arrays *a, size_t random_queries, uint64_t *rand
     mw_index *index[MW_START_COUNT];
     mw_counters counters;
     mw_error error;
-    mw_query_options counted = {.walk = MW_WALK_CELESTIAL, .start = MW_START_SAMPLE, .count = 1};
+    mw_query_options counted = {.walk = MW_WALK_CELESTIAL, .start = MW_START_SAMPLE, .counters = 1};
     expect_ok(mw_locate_batch(locator, q, n, 2, &counted, want, &counters, &error), "counted", &error);
     starts_open(locator, index);
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)

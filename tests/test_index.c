@@ -56,11 +56,11 @@ static void expect_guide(const mw_locator *locator, const mw_index *index, const
                                         .arithmetic = (mw_arithmetic)arithmetic,
                                         .index = index,
                                         .lanes = (uint32_t)(walk + arithmetic) % 9,
-                                        .count = 1};
+                                        .counters = 1};
             assert_int_equal(answers(locator, &options, q, n, at).queries, points);
             for (size_t i = 0; i < n; i++) expect_same(&want[i], &at[i], q + 2 * i, how);
             mw_cursor cursor;
-            assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+            assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
             for (size_t i = 0; i < n; i += 3) {
                 mw_location single = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
                 expect_same(&want[i], &single, q + 2 * i, how);
@@ -95,7 +95,7 @@ static arrays triangulated(const double *points, uint32_t n)
 {
     mw_mesh *mesh;
     mw_error error;
-    if (mw_delaunay(points, n, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    if (mw_delaunay(points, n, 2, NULL, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
     arrays a = arrays_make(mw_mesh_vertex_count(mesh), mw_mesh_triangle_count(mesh));
     a.point_count = mw_mesh_vertex_count(mesh);
     a.triangle_count = mw_mesh_triangle_count(mesh);
@@ -294,7 +294,7 @@ static void test_guides_well(void **state)
         mw_index *index[MW_START_COUNT];
         starts_open(locator, index);
         for (int start = MW_START_RANDOM; start < MW_START_COUNT; start++) {
-            mw_query_options options = {.start = (mw_start_kind)start, .index = index[start], .count = 1};
+            mw_query_options options = {.start = (mw_start_kind)start, .index = index[start], .counters = 1};
             visited[start] = (double)answers(locator, &options, q, N, at).triangles_visited / N;
         }
         if (!clustered) assert_true(visited[MW_START_GRID] < 5);
@@ -325,11 +325,11 @@ static void test_stretched(void **state)
         }
         mw_mesh *mesh;
         mw_error error;
-        if (mw_delaunay(p, N, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+        if (mw_delaunay(p, N, 2, NULL, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
-        mw_query_options options = {.count = 1};
+        mw_query_options options = {.counters = 1};
         mw_cursor cursor;
-        assert_int_equal(mw_cursor_init(&cursor, locator, &options, &error), MW_OK);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), MW_OK);
         for (size_t i = 0; i < QUERIES; i++) {
             double x = random_unit(&random) + (i % 2 ? 0 : 1.5), y = 0.8 * random_unit(&random);
             mw_locate(locator, &cursor, 0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y);
@@ -355,7 +355,7 @@ static mw_mesh *hull_mesh(int kind, uint32_t n, uint64_t *random)
     }
     mw_mesh *mesh;
     mw_error error;
-    if (mw_delaunay(p, n, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    if (mw_delaunay(p, n, 2, NULL, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
     free(p);
     return mesh;
 }
@@ -378,7 +378,7 @@ static void test_outside(void **state)
             q[2 * i + 1] = i & 2 ? along : out;
         }
         for (int own = 0; own < 2; own++) {
-            mw_query_options options = {.index = own ? grid : NULL, .count = 1};
+            mw_query_options options = {.index = own ? grid : NULL, .counters = 1};
             mw_counters counters = answers(locator, &options, q, QUERIES, at);
             for (size_t k = 0; k < QUERIES; k++) assert_int_equal(at[k].where, MW_OUTSIDE);
             printf("outside, mesh %d: %.3f triangles a query\n", kind, (double)counters.triangles_visited / QUERIES);
@@ -406,7 +406,7 @@ static void test_crowded(void **state)
     }
     mw_mesh *mesh;
     mw_error error;
-    if (mw_delaunay(p, N, 2, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    if (mw_delaunay(p, N, 2, NULL, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
     mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     double *q = malloc(2 * QUERIES * sizeof *q);
     mw_location *at = malloc(2 * QUERIES * sizeof *at), *want = at + QUERIES;
@@ -414,7 +414,7 @@ static void test_crowded(void **state)
         for (size_t i = 0; i < QUERIES; i++)
             for (size_t k = 0; k < 2; k++)
                 q[2 * i + k] = at_vertices ? p[2 * i + k] + 1e-6 * random_unit(&random) : random_unit(&random);
-        mw_counters counters = answers(locator, &(mw_query_options){.count = 1}, q, QUERIES, at);
+        mw_counters counters = answers(locator, &(mw_query_options){.counters = 1}, q, QUERIES, at);
         double visited = (double)counters.triangles_visited / QUERIES;
         printf("%s clusters: %.2f triangles a query\n", at_vertices ? "in" : "between", visited);
         assert_true(visited < 8);
@@ -495,10 +495,10 @@ static void test_refuses(void **state)
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
         mw_query_options options = {.start = (mw_start_kind)start};
         bool needs = mw_start_has_index((mw_start_kind)start);
-        assert_int_equal(mw_cursor_init(&cursor, locator, &options, &error), needs ? MW_ERROR_ARGUMENT : MW_OK);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), needs ? MW_ERROR_ARGUMENT : MW_OK);
         options.index = grid;
         bool fits = start == MW_START_AUTO || start == MW_START_GRID;
-        assert_int_equal(mw_cursor_init(&cursor, locator, &options, &error), fits ? MW_OK : MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), fits ? MW_OK : MW_ERROR_ARGUMENT);
         if (fits) assert_int_equal(cursor.start, MW_START_GRID);
         mw_location at;
         assert_int_equal(mw_locate_batch(locator, (double[2]){1, 1}, 1, 2, &options, &at, NULL, &error),
@@ -523,7 +523,7 @@ static void test_auto(void **state)
     double q[2 * N];
     mw_location at[N];
     for (int i = 0; i < 2 * N; i++) q[i] = 30 * random_unit(&random);
-    mw_query_options options = {.index = index, .count = 1};
+    mw_query_options options = {.index = index, .counters = 1};
     mw_counters as_auto = answers(locator, &options, q, N, at);
     options.start = MW_START_GRID;
     options.lanes = 7; /* not chained: no difference */

@@ -38,7 +38,7 @@ static void expect_segment(const mw_constraint_file *file, size_t i, uint32_t a,
     assert_int_equal(file->segments[2 * i], a);
     assert_int_equal(file->segments[2 * i + 1], b);
     assert_int_equal(file->polygon[i], polygon);
-    assert_int_equal(file->place[i], place);
+    assert_int_equal(file->record[i], place);
 }
 
 static void expect_counts(const mw_constraint_file *file, size_t points, size_t segments, size_t polygons, size_t holes)
@@ -46,7 +46,7 @@ static void expect_counts(const mw_constraint_file *file, size_t points, size_t 
     assert_int_equal(file->point_count, points);
     assert_int_equal(file->segment_count, segments);
     assert_int_equal(file->polygon_count, polygons);
-    assert_int_equal(file->hole_count, holes);
+    assert_int_equal(file->hole_seed_count, holes);
     for (size_t i = 0; i < 2 * segments; i++) assert_true(file->segments[i] < points);
 }
 
@@ -63,12 +63,12 @@ static void test_poly(void **state)
     expect_point(&file, 2, 0, 4.5, NAN);
     expect_segment(&file, 0, 0, 1, MW_NONE, 9);
     expect_segment(&file, 1, 1, 2, MW_NONE, 10);
-    assert_string_equal(file.place_name, "line");
+    assert_string_equal(file.record_name, "line");
     assert_int_equal(file.has_z, 0);
     assert_int_equal(file.field_count, 2);
     assert_string_equal(file.field_names[1], "attribute2");
     assert_true(file.fields[0][0] == 5 && file.fields[1][2] == 10);
-    assert_true(file.holes[0] == 0.5 && file.holes[1] == -10);
+    assert_true(file.hole_seeds[0] == 0.5 && file.hole_seeds[1] == -10);
     mw_constraint_file_release(&file);
     mw_constraint_file_release(&file); /* empty */
     mw_constraint_file_release(NULL);
@@ -201,7 +201,7 @@ static void test_geojson(void **state)
     expect_point(&file, 0, 1, 2, NAN);
     expect_point(&file, 2, 1, 0, 5);
     assert_int_equal(file.has_z, 1);
-    assert_string_equal(file.place_name, "feature");
+    assert_string_equal(file.record_name, "feature");
     assert_int_equal(file.field_count, 0);
     expect_segment(&file, 0, 1, 2, MW_NONE, 2);
     expect_segment(&file, 2, 3, 4, MW_NONE, 2);

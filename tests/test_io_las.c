@@ -94,12 +94,12 @@ static void make(las *l, unsigned minor, unsigned format, size_t extra, const vo
     l->size = header + between_size + POINTS * record;
 }
 
-static mw_point_reader *open_las(const las *l, const mw_points_options *options)
+static mw_point_reader *open_las(const las *l, const mw_point_reader_options *options)
 {
     mw_point_reader *reader;
     mw_error error;
     files_write("p.las", (bytes){(const char *)l->bytes, l->size});
-    if (mw_points_open("p.las", options, &reader, &error) != MW_OK) fail_msg("%s", error.message);
+    if (mw_point_reader_open("p.las", options, &reader, &error) != MW_OK) fail_msg("%s", error.message);
     return reader;
 }
 
@@ -111,13 +111,13 @@ static void test_every_format(void **state)
         for (unsigned format = 0; format < (minor == 4 ? 11 : 6); format++)
             for (size_t extra = 0; extra < 8; extra += 7) {
                 make(&l, minor, format, extra, "some bytes between", extra ? 18 : 0);
-                mw_points_options options = {.columns = all_columns};
+                mw_point_reader_options options = {.columns = all_columns};
                 mw_point_reader *reader = open_las(&l, &options);
-                assert_int_equal(mw_points_width(reader), COLUMNS);
-                assert_string_equal(mw_points_column(reader, 13), "blue");
+                assert_int_equal(mw_point_reader_width(reader), COLUMNS);
+                assert_string_equal(mw_point_reader_column(reader, 13), "blue");
                 double values[COLUMNS * POINTS], wanted[COLUMNS];
                 size_t count;
-                assert_int_equal(mw_points_read(reader, values, POINTS, &count, NULL), MW_OK);
+                assert_int_equal(mw_point_reader_read(reader, values, POINTS, &count, NULL), MW_OK);
                 assert_int_equal(count, POINTS);
                 for (int i = 0; i < POINTS; i++) {
                     expected(i, format, wanted);
@@ -128,9 +128,9 @@ static void test_every_format(void **state)
                                      wanted[k]);
                     }
                 }
-                assert_int_equal(mw_points_read(reader, values, POINTS, &count, NULL), MW_OK);
+                assert_int_equal(mw_point_reader_read(reader, values, POINTS, &count, NULL), MW_OK);
                 assert_int_equal(count, 0);
-                mw_points_close(reader);
+                mw_point_reader_close(reader);
             }
     files_clear();
 }
@@ -141,26 +141,26 @@ static void test_columns(void **state)
     static las l;
     make(&l, 2, 3, 0, "", 0);
     mw_point_reader *reader = open_las(&l, NULL);
-    assert_int_equal(mw_points_width(reader), 3);
-    assert_string_equal(mw_points_column(reader, 2), "z");
-    mw_points_close(reader);
-    mw_points_options options = {.columns = "Classification, 2,1"};
+    assert_int_equal(mw_point_reader_width(reader), 3);
+    assert_string_equal(mw_point_reader_column(reader, 2), "z");
+    mw_point_reader_close(reader);
+    mw_point_reader_options options = {.columns = "Classification, 2,1"};
     reader = open_las(&l, &options);
     double values[3 * POINTS], wanted[COLUMNS];
     size_t count;
-    assert_int_equal(mw_points_read(reader, values, POINTS, &count, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, POINTS, &count, NULL), MW_OK);
     expected(9, 3, wanted);
     assert_true(values[27] == wanted[6] && values[28] == wanted[1] && values[29] == wanted[0]);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     static const char *const none[] = {"x,height", "x,15", "x,0", "x,4x"};
     for (int i = 0; i < 4; i++) {
         mw_error error;
         options.columns = none[i];
-        assert_int_equal(mw_points_open("p.las", &options, &reader, &error), MW_ERROR_INPUT);
+        assert_int_equal(mw_point_reader_open("p.las", &options, &reader, &error), MW_ERROR_INPUT);
         expect_error(&error, MW_ERROR_INPUT, -1, "LAS has no column");
     }
     options.columns = "x,1";
-    assert_int_equal(mw_points_open("p.las", &options, &reader, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_open("p.las", &options, &reader, NULL), MW_ERROR_ARGUMENT);
     files_clear();
 }
 
@@ -171,7 +171,7 @@ static void test_classes(void **state)
     static las l;
     for (unsigned format = 0; format <= 6; format += 6) {
         make(&l, 4, format, 0, "", 0);
-        mw_points_options options = {.columns = "user_data,classification"};
+        mw_point_reader_options options = {.columns = "user_data,classification"};
         size_t wanted = 0;
         unsigned other = format < 6 ? 9 : 198;
         options.classes[2] = options.classes[other] = 1;
@@ -183,19 +183,19 @@ static void test_classes(void **state)
         mw_point_reader *reader = open_las(&l, &options);
         double values[2 * POINTS];
         size_t count;
-        assert_int_equal(mw_points_read(reader, values, POINTS, &count, NULL), MW_OK);
+        assert_int_equal(mw_point_reader_read(reader, values, POINTS, &count, NULL), MW_OK);
         assert_int_equal(count, wanted);
         for (size_t i = 0; i < count; i++) assert_true(values[2 * i + 1] == 2 || values[2 * i + 1] == other);
-        mw_points_close(reader);
+        mw_point_reader_close(reader);
         /* one by one, points that do not count in between are no end */
         reader = open_las(&l, &options);
         size_t total = 0;
         do {
-            assert_int_equal(mw_points_read(reader, values, 1, &count, NULL), MW_OK);
+            assert_int_equal(mw_point_reader_read(reader, values, 1, &count, NULL), MW_OK);
             total += count;
         } while (count > 0);
         assert_int_equal(total, wanted);
-        mw_points_close(reader);
+        mw_point_reader_close(reader);
     }
     files_clear();
 }
@@ -207,10 +207,10 @@ static mw_status read_through(const las *l, mw_error *error)
     double values[3 * POINTS];
     size_t count = 1;
     files_write("p.las", (bytes){(const char *)l->bytes, l->size});
-    mw_status status = mw_points_open("p.las", NULL, &reader, error);
+    mw_status status = mw_point_reader_open("p.las", NULL, &reader, error);
     if (status) return status;
-    while (!status && count > 0) status = mw_points_read(reader, values, POINTS, &count, error);
-    mw_points_close(reader);
+    while (!status && count > 0) status = mw_point_reader_read(reader, values, POINTS, &count, error);
+    mw_point_reader_close(reader);
     return status;
 }
 
@@ -311,10 +311,10 @@ static void test_gzip(void **state)
     mw_point_reader *reader;
     double values[3 * POINTS];
     size_t count;
-    assert_int_equal(mw_points_open("p.las.gz", NULL, &reader, NULL), MW_OK);
-    assert_int_equal(mw_points_read(reader, values, POINTS, &count, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_open("p.las.gz", NULL, &reader, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, POINTS, &count, NULL), MW_OK);
     assert_int_equal(count, POINTS);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     files_clear();
 }
 

@@ -105,12 +105,12 @@ static mw_status read_mesh(const char *path, mw_error *error)
 static mw_status read_points(const char *path, mw_error *error)
 {
     mw_point_reader *reader;
-    mw_points_options options = {.columns = strstr(path, "named") ? "y,x" : NULL};
-    mw_status status = mw_points_open(path, &options, &reader, error);
+    mw_point_reader_options options = {.columns = strstr(path, "named") ? "y,x" : NULL};
+    mw_status status = mw_point_reader_open(path, &options, &reader, error);
     double values[64];
     size_t count = 1;
-    while (!status && count > 0) status = mw_points_read(reader, values, 8, &count, error);
-    mw_points_close(reader);
+    while (!status && count > 0) status = mw_point_reader_read(reader, values, 8, &count, error);
+    mw_point_reader_close(reader);
     return status;
 }
 
@@ -118,9 +118,9 @@ static mw_status read_edits(const char *path, mw_error *error)
 {
     mw_edit_reader *reader;
     mw_edit_line line = {.kind = MW_EDIT_LINE_UNDO};
-    mw_status status = mw_edits_open(path, NULL, &reader, error);
-    while (!status && line.kind != MW_EDIT_LINE_NONE) status = mw_edits_read(reader, &line, error);
-    mw_edits_close(reader);
+    mw_status status = mw_edit_reader_open(path, NULL, &reader, error);
+    while (!status && line.kind != MW_EDIT_LINE_NONE) status = mw_edit_reader_read(reader, &line, error);
+    mw_edit_reader_close(reader);
     return status;
 }
 
@@ -139,7 +139,7 @@ static mw_status write_mesh(const char *path, mw_error *error)
                          .field_names = names,
                          .fields = fields,
                          .field_count = 1};
-    return mw_write_mesh(path, NULL, &file, error);
+    return mw_write_mesh(path, &file, NULL, error);
 }
 
 static void test_read_meshes(void **state)

@@ -43,7 +43,7 @@ static void expect_text(double v)
 {
     char text[32], wanted[64];
     memset(text, 'x', sizeof text);
-    size_t length = mw_format_double(text, v);
+    size_t length = mw_format_double(v, text);
     library_text(wanted, v);
     if (strcmp(text, wanted) != 0 || strlen(text) != length)
         fail_msg("%a is written as '%s' instead of '%s'", v, text, wanted);
@@ -164,7 +164,7 @@ static void test_written_text(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[32];
-        assert_int_equal(mw_format_double(text, cases[i].value), strlen(cases[i].text));
+        assert_int_equal(mw_format_double(cases[i].value, text), strlen(cases[i].text));
         assert_string_equal(text, cases[i].text);
     }
     for (int e = -1074; e <= 1023; e++) {
@@ -303,7 +303,7 @@ static void test_locale(void **state)
     bool right = true;
     const double all[] = {0.5, 1.0 / 3, 1.5e-300, 1.2345678901234567e300, 5e-324};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        mw_format_double(text, all[i]);
+        mw_format_double(all[i], text);
         right = right && !strchr(text, ',') && mw__read_double(text, &value) && value == all[i];
     }
     right = right && mw__read_double("1.25e-310", &value) && value == 1.25e-310;

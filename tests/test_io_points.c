@@ -12,7 +12,7 @@
 /* Open "p.txt" with the text, plain or packed. */
 static mw_point_reader *open_text(const char *text, const char *columns, bool packed)
 {
-    mw_points_options options = {.columns = columns};
+    mw_point_reader_options options = {.columns = columns};
     mw_point_reader *reader = NULL;
     mw_error error;
     bytes contents = {text, strlen(text)};
@@ -20,7 +20,7 @@ static mw_point_reader *open_text(const char *text, const char *columns, bool pa
         files_write_gzip("p.txt", contents);
     else
         files_write("p.txt", contents);
-    if (mw_points_open("p.txt", &options, &reader, &error) != MW_OK) fail_msg("'%s': %s", text, error.message);
+    if (mw_point_reader_open("p.txt", &options, &reader, &error) != MW_OK) fail_msg("'%s': %s", text, error.message);
     return reader;
 }
 
@@ -29,30 +29,30 @@ static void expect_values(const char *text, const char *columns, const char *nam
 {
     for (int round = 0; round < 2; round++) {
         mw_point_reader *reader = open_text(text, columns, round == 1);
-        size_t width = mw_points_width(reader), count, total = 0, step = round == 0 ? 1 : 100;
+        size_t width = mw_point_reader_width(reader), count, total = 0, step = round == 0 ? 1 : 100;
         char all_names[256] = "";
         for (size_t i = 0; i < width; i++) {
             strcat(all_names, i ? " " : "");
-            strcat(all_names, mw_points_column(reader, i));
+            strcat(all_names, mw_point_reader_column(reader, i));
         }
         assert_string_equal(all_names, names);
-        assert_null(mw_points_column(reader, width));
+        assert_null(mw_point_reader_column(reader, width));
         double *values = calloc(100 * width, sizeof *values);
         assert_non_null(values);
         mw_error error;
         do {
-            if (mw_points_read(reader, values + total * width, step, &count, &error) != MW_OK)
+            if (mw_point_reader_read(reader, values + total * width, step, &count, &error) != MW_OK)
                 fail_msg("'%s': %s", text, error.message);
             total += count;
         } while (count == step);
-        assert_int_equal(mw_points_read(reader, values, step, &count, NULL), MW_OK);
+        assert_int_equal(mw_point_reader_read(reader, values, step, &count, NULL), MW_OK);
         assert_int_equal(count, 0);
         assert_int_equal(total, rows);
         for (size_t i = 0; i < rows * width; i++)
             if (memcmp(&values[i], &wanted[i], sizeof *values) != 0 && !(isnan(values[i]) && isnan(wanted[i])))
                 fail_msg("'%s': value %zu is %g, not %g", text, i, values[i], wanted[i]);
         free(values);
-        mw_points_close(reader);
+        mw_point_reader_close(reader);
     }
     files_clear();
 }
@@ -155,15 +155,15 @@ static void test_node(void **state)
     const double wanted[] = {1, 2, 30, 3.5, -4, 40};
     files_write_text("p.node", text);
     mw_point_reader *reader;
-    assert_int_equal(mw_points_open("p.node", NULL, &reader, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_open("p.node", NULL, &reader, NULL), MW_OK);
     double values[12];
     size_t count;
-    assert_int_equal(mw_points_width(reader), 3);
-    assert_string_equal(mw_points_column(reader, 2), "attribute1");
-    assert_int_equal(mw_points_read(reader, values, 4, &count, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_width(reader), 3);
+    assert_string_equal(mw_point_reader_column(reader, 2), "attribute1");
+    assert_int_equal(mw_point_reader_read(reader, values, 4, &count, NULL), MW_OK);
     assert_int_equal(count, 2);
     assert_memory_equal(values, wanted, sizeof wanted);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     static const char *const bads[] = {"3 2 0 0\n1 1 2\n2 3 4\n", "1 2 0 0\n1 1 2\n2 3 4\n", "2\n1 1 2 3\n",
                                        "x y\n1 2\n", ""};
     static const char *const says[] = {"p.node:3: 2 rows where 3 are announced",
@@ -173,10 +173,10 @@ static void test_node(void **state)
     for (int i = 0; i < 5; i++) {
         mw_error error;
         files_write_text("p.node", bads[i]);
-        mw_status status = mw_points_open("p.node", NULL, &reader, &error);
+        mw_status status = mw_point_reader_open("p.node", NULL, &reader, &error);
         if (status == MW_OK) {
-            status = mw_points_read(reader, values, 4, &count, &error);
-            mw_points_close(reader);
+            status = mw_point_reader_read(reader, values, 4, &count, &error);
+            mw_point_reader_close(reader);
         }
         assert_int_equal(status, MW_ERROR_INPUT);
         expect_error(&error, MW_ERROR_INPUT, error.line, says[i]);
@@ -236,16 +236,16 @@ static void test_malformed(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof bads / sizeof *bads; i++) {
-        mw_points_options options = {.columns = bads[i].columns};
+        mw_point_reader_options options = {.columns = bads[i].columns};
         mw_point_reader *reader;
         mw_error error;
         double values[64];
         size_t good = 0;
         files_write_text("p.txt", bads[i].text);
-        mw_status status = mw_points_open("p.txt", &options, &reader, &error);
+        mw_status status = mw_point_reader_open("p.txt", &options, &reader, &error);
         if (status == MW_OK) {
-            status = mw_points_read(reader, values, 10, &good, &error);
-            mw_points_close(reader);
+            status = mw_point_reader_read(reader, values, 10, &good, &error);
+            mw_point_reader_close(reader);
         } else {
             assert_null(reader);
         }
@@ -265,16 +265,16 @@ static void test_arguments(void **state)
     mw_error error;
     files_write_text("p.txt", "x,y\n1,2\n");
     for (size_t i = 0; i < sizeof selections / sizeof *selections; i++) {
-        mw_points_options options = {.columns = selections[i]};
-        assert_int_equal(mw_points_open("p.txt", &options, &reader, &error), MW_ERROR_ARGUMENT);
+        mw_point_reader_options options = {.columns = selections[i]};
+        assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_ERROR_ARGUMENT);
         assert_null(reader);
     }
-    assert_int_equal(mw_points_open(NULL, NULL, &reader, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_points_open("p.txt", NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_points_open("missing.txt", NULL, &reader, &error), MW_ERROR_SYSTEM);
+    assert_int_equal(mw_point_reader_open(NULL, NULL, &reader, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_open("p.txt", NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_open("missing.txt", NULL, &reader, &error), MW_ERROR_SYSTEM);
     expect_error(&error, MW_ERROR_SYSTEM, -1, "missing.txt: No such file or directory");
-    assert_int_equal(mw_points_open(".", NULL, &reader, &error), MW_ERROR_SYSTEM);
-    mw_points_close(NULL);
+    assert_int_equal(mw_point_reader_open(".", NULL, &reader, &error), MW_ERROR_SYSTEM);
+    mw_point_reader_close(NULL);
     files_clear();
 }
 
@@ -299,10 +299,10 @@ static void test_other_kinds(void **state)
         double values[16];
         size_t count;
         files_write(cases[i].name, cases[i].contents);
-        mw_status status = mw_points_open(cases[i].name, NULL, &reader, &error);
+        mw_status status = mw_point_reader_open(cases[i].name, NULL, &reader, &error);
         if (status == MW_OK) {
-            status = mw_points_read(reader, values, 4, &count, &error);
-            mw_points_close(reader);
+            status = mw_point_reader_read(reader, values, 4, &count, &error);
+            mw_point_reader_close(reader);
         }
         assert_int_equal(status, MW_ERROR_INPUT);
         expect_error(&error, MW_ERROR_INPUT, error.line, cases[i].says);
@@ -321,12 +321,12 @@ static void test_many(void **state)
     for (int i = 0; i < ROWS; i++) fprintf(out, "%d.%0*d,%d\r\n", i, 1 + i % 9, 5, -i);
     fclose(out);
     mw_point_reader *reader;
-    assert_int_equal(mw_points_open("many.csv", NULL, &reader, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_open("many.csv", NULL, &reader, NULL), MW_OK);
     double *values = malloc(2 * ROWS * sizeof *values);
     assert_non_null(values);
     size_t total = 0, count;
     do {
-        assert_int_equal(mw_points_read(reader, values + 2 * total, 1000, &count, NULL), MW_OK);
+        assert_int_equal(mw_point_reader_read(reader, values + 2 * total, 1000, &count, NULL), MW_OK);
         total += count;
     } while (count > 0);
     assert_int_equal(total, ROWS);
@@ -336,7 +336,7 @@ static void test_many(void **state)
         if (values[2 * i] != strtod(text, NULL) || values[2 * i + 1] != -i) fail_msg("row %d", i);
     }
     free(values);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     files_clear();
 }
 

@@ -162,11 +162,11 @@ static void test_clouds(void **state)
         double values[8 * 1000], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
         size_t count, total = 0;
         snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, clouds[i].name);
-        if (mw_points_open(path, NULL, &reader, &error) != MW_OK) fail_msg("%s", error.message);
-        size_t width = mw_points_width(reader);
+        if (mw_point_reader_open(path, NULL, &reader, &error) != MW_OK) fail_msg("%s", error.message);
+        size_t width = mw_point_reader_width(reader);
         assert_int_equal(width, clouds[i].width);
         do {
-            if (mw_points_read(reader, values, 1000, &count, &error) != MW_OK) fail_msg("%s", error.message);
+            if (mw_point_reader_read(reader, values, 1000, &count, &error) != MW_OK) fail_msg("%s", error.message);
             for (size_t k = 0; k < 2 * count; k++) {
                 double v = values[k / 2 * width + k % 2];
                 low[k % 2] = fmin(low[k % 2], v);
@@ -174,7 +174,7 @@ static void test_clouds(void **state)
             }
             total += count;
         } while (count > 0);
-        mw_points_close(reader);
+        mw_point_reader_close(reader);
         assert_int_equal(total, clouds[i].count);
         for (int k = 0; k < 2; k++)
             if (fabs(low[k] - clouds[i].low[k]) > clouds[i].tolerance ||
@@ -189,21 +189,21 @@ static void test_ground(void **state)
     (void)state;
     const char *path = shared_path("terrain/1.2-with-color.las");
     if (!path) skip();
-    mw_points_options options = {.columns = "classification,x"};
+    mw_point_reader_options options = {.columns = "classification,x"};
     mw_point_reader *reader;
     double values[2 * 2000];
     size_t count, ground = 0;
-    assert_int_equal(mw_points_open(path, &options, &reader, NULL), MW_OK);
-    assert_int_equal(mw_points_read(reader, values, 2000, &count, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_open(path, &options, &reader, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, 2000, &count, NULL), MW_OK);
     assert_int_equal(count, 1065);
     for (size_t i = 0; i < count; i++) ground += values[2 * i] == 2;
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     assert_true(ground > 0 && ground < count);
     options.classes[2] = 1;
-    assert_int_equal(mw_points_open(path, &options, &reader, NULL), MW_OK);
-    assert_int_equal(mw_points_read(reader, values, 2000, &count, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_open(path, &options, &reader, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, 2000, &count, NULL), MW_OK);
     assert_int_equal(count, ground);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
 }
 
 int main(void)

@@ -110,7 +110,7 @@ static void expect_limit(const char *name, const char *before, const char *repea
     mw_error error;
     if (strstr(name, ".csv")) {
         mw_point_reader *reader;
-        assert_int_equal(mw_points_open(name, NULL, &reader, &error), MW_ERROR_INPUT);
+        assert_int_equal(mw_point_reader_open(name, NULL, &reader, &error), MW_ERROR_INPUT);
     } else {
         mw_mesh_file file;
         assert_int_equal(mw_read_mesh(name, &file, &error), MW_ERROR_INPUT);
@@ -141,17 +141,17 @@ static void test_many_columns(void **state)
         for (int i = 0; i < COLUMNS; i++) fprintf(out, "%d%c", row * i, i + 1 < COLUMNS ? ';' : '\n');
     fclose(out);
     mw_point_reader *reader;
-    assert_int_equal(mw_points_open("wide.csv", NULL, &reader, NULL), MW_OK);
-    assert_int_equal(mw_points_width(reader), COLUMNS);
-    assert_string_equal(mw_points_column(reader, 4095), "c4096");
+    assert_int_equal(mw_point_reader_open("wide.csv", NULL, &reader, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_width(reader), COLUMNS);
+    assert_string_equal(mw_point_reader_column(reader, 4095), "c4096");
     double *values = malloc(3 * COLUMNS * sizeof *values);
     assert_non_null(values);
     size_t count;
-    assert_int_equal(mw_points_read(reader, values, 4, &count, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, 4, &count, NULL), MW_OK);
     assert_int_equal(count, 3);
     assert_true(values[3 * COLUMNS - 1] == 2 * 4095);
     free(values);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     files_clear();
 }
 
@@ -163,7 +163,7 @@ static void test_arrays(void **state)
     assert_ptr_equal(arrays.points, file.points);
     assert_ptr_equal(arrays.triangles, file.triangles);
     assert_true(arrays.point_count == 4 && arrays.point_stride == 3 && arrays.triangle_count == 2);
-    assert_int_equal(arrays.index_type, MW_UINT32);
+    assert_int_equal(arrays.integer_type, MW_UINT32);
     mw_mesh_file_release(&file);
 }
 

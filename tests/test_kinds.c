@@ -15,8 +15,8 @@ static void test_names(void **state)
     for (int i = 0; i < MW_KIND_COUNT; i++)
         for (int k = 0; k < i; k++)
             assert_true(strcmp(mw_kind_name((mw_triangulation_kind)i), mw_kind_name((mw_triangulation_kind)k)));
-    assert_string_equal(mw_kind_name(MW_MIN_MAX_ANGLE), "min-max-angle");
-    assert_true(mw_kind_source(MW_GREEDY) && mw_kind_help(MW_GREEDY));
+    assert_string_equal(mw_kind_name(MW_KIND_MIN_MAX_ANGLE), "min-max-angle");
+    assert_true(mw_kind_source(MW_KIND_GREEDY) && mw_kind_help(MW_KIND_GREEDY));
     assert_null(mw_kind_name(MW_KIND_COUNT));
     assert_null(mw_kind_source(MW_KIND_COUNT));
     assert_null(mw_kind_help((mw_triangulation_kind)-1));
@@ -92,9 +92,9 @@ static void test_sums(void **state)
             mw_triangulate((mw_triangulation_kind)kind, points, N, 0, NULL, NULL, &report[kind], &mesh, NULL), MW_OK);
         mw_mesh_destroy(mesh);
     }
-    assert_true(report[MW_MIN_WEIGHT].edge_length <= report[MW_GREEDY].edge_length);
-    assert_true(report[MW_GREEDY].edge_length < report[MW_DELAUNAY].edge_length);
-    assert_true(report[MW_MIN_MAX_ANGLE].largest_angle <= report[MW_DELAUNAY].largest_angle);
+    assert_true(report[MW_KIND_MIN_WEIGHT].edge_length <= report[MW_KIND_GREEDY].edge_length);
+    assert_true(report[MW_KIND_GREEDY].edge_length < report[MW_KIND_DELAUNAY].edge_length);
+    assert_true(report[MW_KIND_MIN_MAX_ANGLE].largest_angle <= report[MW_KIND_DELAUNAY].largest_angle);
 }
 
 int main(void)

@@ -560,7 +560,7 @@ static void test_counters(void **state)
     double before = INFINITY;
     for (uint32_t layers = 1; layers <= 3; layers++) {
         mw_index *index = index_of(locator, &(mw_index_options){.layers = layers});
-        mw_query_options options = {.walk = MW_WALK_STOCHASTIC, .count = 1, .index = index};
+        mw_query_options options = {.walk = MW_WALK_STOCHASTIC, .counters = 1, .index = index};
         mw_counters sum, threads;
         assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &sum, NULL), MW_OK);
         double mean = (double)sum.triangles_visited / N;

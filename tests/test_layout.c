@@ -63,7 +63,7 @@ static void release(scene *s)
     free(s->triangles);
 }
 
-static mw_status create(const scene *s, int layout, uint32_t threads, mw_mesh **mesh, mw_error *error)
+static mw_status create(const scene *s, mw_mesh_layout layout, uint32_t threads, mw_mesh **mesh, mw_error *error)
 {
     mw_arrays view = {.points = s->points,
                       .point_count = s->point_count,
@@ -134,11 +134,11 @@ static void test_same_mesh_threads(void **state)
     assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
     assert_null(kept->vertex_place);
     for (uint32_t threads = 0; threads < 8; threads++)
-        for (int layout = 0; layout < 3; layout++) {
+        for (mw_mesh_layout layout = MW_LAYOUT_AUTO; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
             assert_int_equal(create(&s, layout, threads, &laid, NULL), MW_OK);
-            assert_true((laid->vertex_place != NULL) == (layout < 2));
+            assert_true((laid->vertex_place != NULL) == (layout != MW_LAYOUT_AS_GIVEN));
             expect_same(kept, laid);
-            if (layout < 2) expect_local(laid);
+            if (layout != MW_LAYOUT_AS_GIVEN) expect_local(laid);
             assert_true(laid->opposite);
             expect_true_count(laid);
             mw_mesh_destroy(laid);
@@ -152,7 +152,7 @@ static void expect_same_linked(const scene *s)
     mw_mesh *kept, *laid;
     assert_int_equal(create(s, 2, 1, &kept, NULL), MW_OK);
     for (uint32_t threads = 1; threads < 4; threads++)
-        for (int layout = 1; layout < 3; layout++) {
+        for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
             assert_int_equal(create(s, layout, threads, &laid, NULL), MW_OK);
             expect_same(kept, laid);
             expect_true_count(laid);
@@ -214,21 +214,23 @@ static void test_views(void **state)
                       .point_stride = 3,
                       .triangles = s.triangles,
                       .triangle_count = s.triangle_count,
-                      .index_type = MW_INT32};
+                      .integer_type = MW_INT32};
     mw_mesh *kept, *laid;
     assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
     for (int wide = 0; wide < 2; wide++) {
         if (wide) view.triangles = triangles;
-        if (wide) view.index_type = MW_INT64;
-        assert_int_equal(mw_mesh_create(&view, &(mw_mesh_options){.layout = 1, .threads = 2}, &laid, NULL), MW_OK);
+        if (wide) view.integer_type = MW_INT64;
+        assert_int_equal(
+            mw_mesh_create(&view, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 2}, &laid, NULL), MW_OK);
         expect_same(kept, laid);
         mw_mesh_destroy(laid);
     }
     mw_error error;
     triangles[3 * 777 + 1] = -1;
     triangles[3 * 888] = INT64_C(1) << 40;
-    assert_int_equal(mw_mesh_create(&view, &(mw_mesh_options){.layout = 1, .threads = 2}, &laid, &error),
-                     MW_ERROR_INPUT);
+    assert_int_equal(
+        mw_mesh_create(&view, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 2}, &laid, &error),
+        MW_ERROR_INPUT);
     assert_int_equal(error.triangle, 777);
     mw_mesh_destroy(kept);
     free(points);

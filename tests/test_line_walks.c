@@ -54,7 +54,7 @@ static mw_counters count_from(const field *f, const mw_query_options *options, u
                               mw_location *at)
 {
     mw_cursor cursor;
-    assert_int_equal(mw_cursor_init(&cursor, f->locator, options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(f->locator, options, &cursor, NULL), MW_OK);
     cursor.last = t;
     *at = mw_locate(f->locator, &cursor, q[0], q[1]);
     return cursor.counters;
@@ -70,7 +70,7 @@ static void test_tests_per_triangle(void **state)
     for (int i = 0; i < 4000; i++) {
         const double from[2] = {0.2 + 0.6 * random_unit(&random), 0.2 + 0.6 * random_unit(&random)};
         const double q[2] = {0.2 + 0.6 * random_unit(&random), 0.2 + 0.6 * random_unit(&random)};
-        mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_STRAIGHT, .count = 1};
+        mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_STRAIGHT, .counters = 1};
         mw_location first, at;
         count_from(&f, &options, 0, from, &first);
         mw_counters straight = count_from(&f, &options, first.triangle, q, &at);
@@ -119,7 +119,7 @@ static void test_flat_first_triangle(void **state)
             for (int i = 0; i < 3; i++) arrays_triangle(&a, rest[i][0], rest[i][1], rest[i][2]);
             field f = field_of_arrays(&a);
             const double q[2] = {3 * s + 0.5 * c, -3 * c + 0.5 * s};
-            mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_NORMAL_STRAIGHT, .count = 1};
+            mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_NORMAL_STRAIGHT, .counters = 1};
             mw_location at;
             mw_counters counters = count_from(&f, &options, 0, q, &at);
             assert_int_equal(at.triangle, 1);
@@ -166,7 +166,7 @@ static void test_no_line(void **state)
     arrays_triangle(&a, 1, 0, 3);
     field f = field_of_arrays(&a);
     const double middle[2] = {0, 0};
-    mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_NORMAL_STRAIGHT, .count = 1};
+    mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_NORMAL_STRAIGHT, .counters = 1};
     mw_location at;
     mw_counters counters = count_from(&f, &options, 0, middle, &at);
     assert_int_equal(at.where, MW_ON_EDGE);
@@ -199,7 +199,7 @@ static void test_past_any_number(void **state)
     const double unit = 0x1p1020, q[2] = {2 * unit, -8 * unit};
     transform(&a, unit, 0, 0);
     field f = field_of_arrays(&a);
-    mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_NORMAL_STRAIGHT, .count = 1};
+    mw_query_options options = {.start = MW_START_LAST, .walk = MW_WALK_NORMAL_STRAIGHT, .counters = 1};
     mw_location at;
     mw_counters counters = count_from(&f, &options, 0, q, &at);
     assert_int_equal(at.triangle, 2);
@@ -221,7 +221,7 @@ static void from_everywhere(const arrays *a, const double *q, size_t n)
                                             .start = MW_START_LAST,
                                             .arithmetic = (mw_arithmetic)arithmetic,
                                             .finish = MW_WALK_STOCHASTIC,
-                                            .count = 1};
+                                            .counters = 1};
                 for (uint32_t t = 0; t < a->triangle_count; t++) {
                     mw_location at;
                     mw_counters counters = count_from(&f, &options, t, q + 2 * i, &at);
@@ -315,7 +315,7 @@ static void test_any_scale(void **state)
     for (int i = 0; i < 2 * N; i++) q[i] = 14 * random_unit(&random) - 1;
     for (int walk = 0; walk < WALKS; walk++) {
         mw_query_options options = {
-            .walk = line_walks[walk], .start = MW_START_RANDOM, .finish = MW_WALK_STOCHASTIC, .count = 1};
+            .walk = line_walks[walk], .start = MW_START_RANDOM, .finish = MW_WALK_STOCHASTIC, .counters = 1};
         mw_counters want = {0};
         for (int k = 0; k < 6; k++) {
             const int exponent = (int[]){0, 300, 900, -300, -900, -1040}[k];
@@ -348,7 +348,7 @@ static void test_no_handovers(void **state)
     double *q = malloc(2 * N * sizeof *q);
     for (int i = 0; i < 2 * N; i++) q[i] = 1.2 * random_unit(&random) - 0.1;
     mw_location *want = malloc(N * sizeof *want), *got = malloc(N * sizeof *got);
-    mw_query_options options = {.walk = MW_WALK_STRAIGHT, .start = MW_START_RANDOM, .count = 1};
+    mw_query_options options = {.walk = MW_WALK_STRAIGHT, .start = MW_START_RANDOM, .counters = 1};
     assert_int_equal(mw_locate_batch(f.locator, q, N, 2, &options, want, NULL, NULL), MW_OK);
     const mw_walk_kind finishes[2] = {MW_WALK_REMEMBERING, MW_WALK_STOCHASTIC};
     for (int i = 0; i < 2 * WALKS; i++) {

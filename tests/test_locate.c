@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-static mw_mesh *mesh_of(const arrays *a, int layout)
+static mw_mesh *mesh_of(const arrays *a, mw_mesh_layout layout)
 {
     mw_arrays view = arrays_view(a);
     mw_mesh *mesh;
@@ -34,7 +34,7 @@ static bool is_embedding(const mw_arrays *view)
 {
     mw_check check;
     assert_int_equal(mw_check_arrays(view, &check, NULL), MW_OK);
-    bool embedding = check.embedding;
+    bool embedding = check.valid;
     mw_check_release(&check);
     return embedding;
 }
@@ -76,7 +76,7 @@ static void try_singles(const arrays *a, const mw_locator *locator, const mw_que
                         const oracle_answer *want, size_t n, const char *how)
 {
     mw_cursor cursor;
-    assert_int_equal(mw_cursor_init(&cursor, locator, options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(locator, options, &cursor, NULL), MW_OK);
     for (size_t i = 0; i < n; i++) {
         mw_location at = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
         compare(&at, &want[i], q + 2 * i, how);
@@ -100,7 +100,7 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
     double *q = nasty_queries(a, queries, &n, random);
     oracle_answer *want = malloc(n * sizeof *want);
     for (size_t i = 0; i < n; i++) want[i] = oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
-    for (int layout = 1; layout <= 2; layout++) {
+    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
         mw_mesh *mesh = mesh_of(a, layout);
         mw_locator *locator = locator_of(mesh, 0);
         mw_index *index[MW_START_COUNT];
@@ -115,7 +115,7 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
                                                 .start = (mw_start_kind)start,
                                                 .arithmetic = (mw_arithmetic)arithmetic,
                                                 .seed = mw__random(random),
-                                                .count = walk % 2,
+                                                .counters = walk % 2,
                                                 .index = index[start]};
                     try_singles(a, locator, &options, q, want, n, how);
                     options.lanes = 1 + mw__random_below(random, 40);
@@ -203,11 +203,11 @@ static void test_celestial_trap(void **state)
     arrays a = trap_mesh();
     mw_mesh *mesh = mesh_of(&a, 0);
     mw_locator *locator = locator_of(mesh, 0);
-    mw_query_options options = {.walk = MW_WALK_CELESTIAL, .start = MW_START_LAST, .count = 1};
+    mw_query_options options = {.walk = MW_WALK_CELESTIAL, .start = MW_START_LAST, .counters = 1};
     const double q[2] = {.551665, .106155};
     for (uint32_t start = 0; start < a.triangle_count; start++) {
         mw_cursor cursor;
-        assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
         cursor.last = start;
         mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
         oracle_answer want = oracle_locate(a.points, a.triangles, a.triangle_count, q);
@@ -254,7 +254,7 @@ static mw_location locate_in(const double points[6], double x, double y)
     mw_cursor cursor;
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     assert_int_equal(mw_locator_create(mesh, NULL, &locator, NULL), MW_OK);
-    assert_int_equal(mw_cursor_init(&cursor, locator, NULL, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(locator, NULL, &cursor, NULL), MW_OK);
     mw_location at = mw_locate(locator, &cursor, x, y);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
@@ -309,7 +309,7 @@ static void test_any(void **state)
                 mw_query_options options = {
                     .walk = (mw_walk_kind)(i % MW_WALK_COUNT), .start = MW_START_RANDOM, .seed = (uint64_t)i};
                 mw_cursor cursor;
-                assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+                assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
                 double q[2] = {mw__random_below(&random, 5) / 2.0, mw__random_below(&random, 5) / 2.0};
                 mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
                 check_weights(&a, &at, q);
@@ -335,7 +335,7 @@ static void test_auto_looks_at_the_mesh(void **state)
         mw_arrays view = arrays_view(&a);
         mw_mesh *mesh;
         if (delaunay)
-            assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, &mesh, NULL), MW_OK);
+            assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, NULL, &mesh, NULL), MW_OK);
         else
             assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
         mw_locator *locator;
@@ -345,7 +345,7 @@ static void test_auto_looks_at_the_mesh(void **state)
         double q[200];
         mw_location at[100];
         for (int i = 0; i < 200; i++) q[i] = 40 * random_unit(&random);
-        mw_query_options options = {.start = MW_START_RANDOM, .count = 1};
+        mw_query_options options = {.start = MW_START_RANDOM, .counters = 1};
         assert_int_equal(mw_locate_batch(locator, q, 100, 2, &options, at, &as_auto, NULL), MW_OK);
         options.walk = delaunay ? MW_WALK_REMEMBERING : MW_WALK_CELESTIAL;
         assert_int_equal(mw_locate_batch(locator, q, 100, 2, &options, at, &as_named, NULL), MW_OK);
@@ -371,14 +371,14 @@ static void test_no_handover_outside(void **state)
     double q[2 * N];
     arrays a = grid_mesh(20, 0.6, &random);
     mw_mesh *mesh;
-    assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, NULL, &mesh, NULL), MW_OK);
     mw_locator *locator = locator_of(mesh, 0);
     for (int i = 0; i < N; i++) {
         q[2 * i] = 200 * random_unit(&random) - 90;
         q[2 * i + 1] = i % 2 ? -10 - 50 * random_unit(&random) : 30 + 50 * random_unit(&random);
     }
     for (mw_walk_kind walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++) {
-        mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = MW_DOUBLE, .count = 1};
+        mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = MW_DOUBLE, .counters = 1};
         mw_location at[N];
         mw_counters counters;
         assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &counters, NULL), MW_OK);
@@ -409,7 +409,7 @@ static void test_determinism(void **state)
         mw_counters one = {0};
         for (uint32_t threads = 1; threads <= 5; threads += 2) {
             mw_query_options options = {
-                .start = (mw_start_kind)start, .threads = threads, .count = 1, .seed = 5, .index = index[start]};
+                .start = (mw_start_kind)start, .threads = threads, .counters = 1, .seed = 5, .index = index[start]};
             mw_counters counters;
             assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, again, &counters, NULL), MW_OK);
             for (int i = 0; i < N; i++)

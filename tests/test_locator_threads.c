@@ -125,11 +125,11 @@ static mw_index *grid_of(const mw_locator *locator)
 /* Mesh and locator by several threads, beside the same by one. */
 static void expect_same(arrays a, mw_start_kind guide)
 {
-    for (int layout = 1; layout <= 2; layout++) {
+    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
         mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = layout, .threads = 1});
         mw_locator *one = mesh_locator(mesh, (mw_locator_options){.threads = 1, .areas = 1});
         mw_index *index = grid_of(one);
-        if (layout == 1) assert_int_equal(one->guide.start, guide);
+        if (layout == MW_LAYOUT_HILBERT) assert_int_equal(one->guide.start, guide);
         for (size_t i = 0; i < sizeof teams / sizeof *teams; i++) {
             mw_mesh *same = arrays_mesh(&a, (mw_mesh_options){.layout = layout, .threads = teams[i]});
             mw_locator *several = mesh_locator(same, (mw_locator_options){.threads = teams[i], .areas = 1});

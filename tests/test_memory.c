@@ -69,7 +69,7 @@ static mw_status open_job(const mw_arrays *view, mw_error *error)
     mw_status status;
     mw_mesh *mesh = make(view, &status, error);
     mw_locator *locator = NULL;
-    if (!status) status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .fill = 2}, &locator, error);
+    if (!status) status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .fill = MW_FILL_NO}, &locator, error);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return status;
@@ -102,7 +102,7 @@ static mw_status order_job(const mw_arrays *view, mw_error *error)
 static mw_status delaunay_job(const mw_arrays *view, mw_error *error)
 {
     mw_mesh *mesh;
-    mw_status status = mw_delaunay(view->points, view->point_count, 0, NULL, NULL, &mesh, error);
+    mw_status status = mw_delaunay(view->points, view->point_count, 0, NULL, NULL, NULL, &mesh, error);
     mw_mesh_destroy(mesh);
     return status;
 }
@@ -116,7 +116,8 @@ static mw_status layout_job(const mw_arrays *view, mw_error *error)
     wide.point_stride = 3;
     for (size_t i = 0; i < view->point_count; i++)
         memcpy((double *)wide.points + 3 * i, view->points + 2 * i, 2 * sizeof(double));
-    mw_status status = mw_mesh_create(&wide, &(mw_mesh_options){.layout = 1, .threads = 1}, &mesh, error);
+    mw_status status =
+        mw_mesh_create(&wide, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 1}, &mesh, error);
     mw_mesh_destroy(mesh);
     free((double *)wide.points);
     return status;

@@ -12,11 +12,11 @@
 
 static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
 
-static mw_status create(const double *points, size_t n, const void *triangles, size_t count, mw_index_type type,
+static mw_status create(const double *points, size_t n, const void *triangles, size_t count, mw_integer_type type,
                         int tolerant, mw_mesh **mesh, mw_error *error)
 {
     mw_arrays view = {
-        .points = points, .point_count = n, .triangles = triangles, .triangle_count = count, .index_type = type};
+        .points = points, .point_count = n, .triangles = triangles, .triangle_count = count, .integer_type = type};
     mw_mesh_options options = {.tolerant = tolerant};
     return mw_mesh_create(&view, &options, mesh, error);
 }
@@ -51,7 +51,7 @@ static void test_index_types(void **state)
     const void *all[] = {u32, i32, i64};
     for (int type = MW_UINT32; type <= MW_INT64; type++) {
         mw_mesh *mesh;
-        assert_int_equal(create(square, 4, all[type], 2, (mw_index_type)type, 0, &mesh, NULL), MW_OK);
+        assert_int_equal(create(square, 4, all[type], 2, (mw_integer_type)type, 0, &mesh, NULL), MW_OK);
         expect_square(mesh);
         mw_mesh_destroy(mesh);
     }

@@ -308,7 +308,7 @@ static int triangulated(uint32_t limit, int ranks[2 * MOST], mw_kind_report *rep
     mw_mesh *mesh;
     mw_error error;
     mw_kind_options options = {.limit = limit};
-    expect_ok(mw_triangulate(MW_MIN_MAX_ANGLE, &set.point[0].x, set.n, 0, &options, NULL, report, &mesh, &error),
+    expect_ok(mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &set.point[0].x, set.n, 0, &options, NULL, report, &mesh, &error),
               "min-max angle", &error);
     int count = (int)mesh->tri_count;
     for (int i = 0; i < count; i++) ranks[i] = rank_of(&mesh->tri[i]);
@@ -446,7 +446,7 @@ static void check_large(const mw_mesh *mesh, const mw_mesh *delaunay)
     mw_check check;
     mw_error error;
     expect_ok(mw_check_arrays(&view, &check, &error), "check", &error);
-    assert_true(check.embedding);
+    assert_true(check.valid);
     mw_check_release(&check);
     arrays_free(&a);
     assert_int_equal(mesh->tri_count, delaunay->tri_count);
@@ -472,8 +472,9 @@ static void test_large_sets(void **unused)
         mw_kind_report report[2];
         for (uint32_t k = 0; k < 2; k++) {
             mw_kind_options options = {.limit = k};
-            expect_ok(mw_triangulate(MW_MIN_MAX_ANGLE, &point[0].x, n, 0, &options, NULL, &report[k], &mesh[k], &error),
-                      "min-max angle", &error);
+            expect_ok(
+                mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, n, 0, &options, NULL, &report[k], &mesh[k], &error),
+                "min-max angle", &error);
             check_large(mesh[k], delaunay);
         }
         mw_angle best = largest_angle(mesh[0]), local = largest_angle(mesh[1]);
@@ -581,8 +582,8 @@ static void test_many_sights(void **unused)
     make_parabola(point, N);
     mw_mesh *delaunay = delaunay_mesh(&point[0].x, N), *mesh;
     mw_error error;
-    expect_ok(mw_triangulate(MW_MIN_MAX_ANGLE, &point[0].x, N, 0, NULL, NULL, NULL, &mesh, &error), "min-max angle",
-              &error);
+    expect_ok(mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, N, 0, NULL, NULL, NULL, &mesh, &error),
+              "min-max angle", &error);
     check_large(mesh, delaunay);
     mw_mesh_destroy(mesh);
     mw_mesh_destroy(delaunay);
@@ -650,7 +651,7 @@ static void test_memory(void **unused)
         mw_mesh *mesh = NULL;
         mw_error error;
         allocations_left = k;
-        status = mw_triangulate(MW_MIN_MAX_ANGLE, &point[0].x, 300, 0, NULL, NULL, NULL, &mesh, &error);
+        status = mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, 300, 0, NULL, NULL, NULL, &mesh, &error);
         allocations_left = -1;
         assert_true(status == MW_OK || (status == MW_ERROR_MEMORY && !mesh));
         mw_mesh_destroy(mesh);

@@ -94,7 +94,7 @@ static mw_mesh *triangulate(const double *points, uint32_t n, uint32_t limit, mw
     mw_kind_options options = {.limit = limit};
     mw_mesh *mesh, *delaunay;
     mw_error error;
-    mw_status status = mw_triangulate(MW_MIN_WEIGHT, points, n, 2, &options, NULL, report, &mesh, &error);
+    mw_status status = mw_triangulate(MW_KIND_MIN_WEIGHT, points, n, 2, &options, NULL, report, &mesh, &error);
     if (status == MW_ERROR_INPUT) return NULL;
     expect_ok(status, "triangulation", &error);
     delaunay = delaunay_mesh(points, n);
@@ -102,7 +102,7 @@ static mw_mesh *triangulate(const double *points, uint32_t n, uint32_t limit, mw
     mw_arrays view = arrays_view(&a);
     mw_check check;
     assert_int_equal(mw_check_arrays(&view, &check, &error), MW_OK);
-    assert_true(check.embedding);
+    assert_true(check.valid);
     mw_check_release(&check);
     assert_int_equal(a.triangle_count, d.triangle_count);
     assert_true(fabs(area(&a) - area(&d)) <= 1e-9 * area(&d));
@@ -391,9 +391,10 @@ static void test_large(void **state)
         mw_kind_report report, delaunay, greedy;
         mw_mesh *mesh = triangulate(points, n, 0, &report), *other;
         mw_error error;
-        expect_ok(mw_triangulate(MW_GREEDY, points, n, 2, NULL, NULL, &greedy, &other, &error), "greedy", &error);
+        expect_ok(mw_triangulate(MW_KIND_GREEDY, points, n, 2, NULL, NULL, &greedy, &other, &error), "greedy", &error);
         mw_mesh_destroy(other);
-        expect_ok(mw_triangulate(MW_DELAUNAY, points, n, 2, NULL, NULL, &delaunay, &other, &error), "delaunay", &error);
+        expect_ok(mw_triangulate(MW_KIND_DELAUNAY, points, n, 2, NULL, NULL, &delaunay, &other, &error), "delaunay",
+                  &error);
         print_message("kind %d: %g of Delaunay, %zu faces, largest %zu, local %zu\n", kind,
                       report.edge_length / delaunay.edge_length, report.faces, report.largest_face, report.local_faces);
         assert_true(report.edge_length <= delaunay.edge_length * (1 + 1e-12));
@@ -467,7 +468,8 @@ static void test_span(void **state)
         mw_error error;
         mw_mesh *mesh;
         scene s;
-        expect_ok(mw_triangulate(MW_MIN_WEIGHT, points, POINTS, 2, NULL, NULL, &report, &mesh, &error), "mesh", &error);
+        expect_ok(mw_triangulate(MW_KIND_MIN_WEIGHT, points, POINTS, 2, NULL, NULL, &report, &mesh, &error), "mesh",
+                  &error);
         search_all(&s, points, POINTS);
         assert_true(!report.optimal || report.edge_length <= s.best * (1 + 1e-12));
         mw_mesh_destroy(mesh);
@@ -544,7 +546,7 @@ static void test_memory(void **state)
         mw_mesh *mesh;
         mw_error error;
         allocations_left = left;
-        status = mw_triangulate(MW_MIN_WEIGHT, points, 24, 2, NULL, NULL, NULL, &mesh, &error);
+        status = mw_triangulate(MW_KIND_MIN_WEIGHT, points, 24, 2, NULL, NULL, NULL, &mesh, &error);
         allocations_left = -1;
         assert_true(status == MW_OK || (status == MW_ERROR_MEMORY && !mesh));
         mw_mesh_destroy(mesh);

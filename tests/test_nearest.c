@@ -15,9 +15,9 @@ static uint64_t new_seed(const char *name)
     return probers_seed(name, 19990712);
 }
 
-static mw_surface_hit nearest(const mw_prober *prober, const double q[3], double max_distance)
+static mw_nearest_surface_point nearest(const mw_prober *prober, const double q[3], double max_distance)
 {
-    mw_surface_hit hit;
+    mw_nearest_surface_point hit;
     mw_error error;
     expect_ok(mw_nearest_on_surface(prober, q, max_distance, &hit, &error), "nearest", &error);
     return hit;
@@ -131,7 +131,7 @@ static uint32_t ask_each(const alone *a, const double q[3], double *distance)
 {
     uint32_t best = MW_NONE;
     for (uint32_t t = 0; t < a->count; t++) {
-        mw_surface_hit hit = nearest(a->prober[t], q, INFINITY);
+        mw_nearest_surface_point hit = nearest(a->prober[t], q, INFINITY);
         if (hit.triangle == MW_NONE || (best != MW_NONE && hit.distance >= *distance)) continue;
         best = t;
         *distance = hit.distance;
@@ -139,14 +139,14 @@ static uint32_t ask_each(const alone *a, const double q[3], double *distance)
     return best;
 }
 
-static void check_none(const mw_surface_hit *hit)
+static void check_none(const mw_nearest_surface_point *hit)
 {
     assert_int_equal(hit->triangle, MW_NONE);
     assert_true(isnan(hit->distance) && isnan(hit->point[0]) && isnan(hit->weight[0]));
 }
 
 /* Do the members of the answer fit together, to within `slack`? */
-static void check_hit(const mw_surface *surface, const double q[3], const mw_surface_hit *hit, double slack)
+static void check_hit(const mw_surface *surface, const double q[3], const mw_nearest_surface_point *hit, double slack)
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) {
@@ -188,7 +188,7 @@ static void check_shape(const shape *s, size_t n, uint64_t *random)
             for (int k = 0; k < 3; k++) q[k] += random_unit(random) - 0.5;
         double slack = 1e-14 * extent_of(s, q);
         uint32_t best = ask_each(&each, q, &distance);
-        mw_surface_hit hit = nearest(prober, q, INFINITY);
+        mw_nearest_surface_point hit = nearest(prober, q, INFINITY);
         assert_int_equal(hit.triangle, best);
         if (best == MW_NONE) {
             check_none(&hit);
@@ -197,7 +197,7 @@ static void check_shape(const shape *s, size_t n, uint64_t *random)
         assert_true(hit.distance == distance);
         assert_true(fabsl(hit.distance - least_distance(surface, q)) <= slack);
         check_hit(surface, q, &hit, slack);
-        mw_surface_hit again = nearest(prober, q, distance);
+        mw_nearest_surface_point again = nearest(prober, q, distance);
         assert_int_equal(again.triangle, best);
         if (distance > 0) {
             again = nearest(prober, q, nextafter(distance, 0));
@@ -268,7 +268,8 @@ static void test_units(void **state)
                 q[k] = ldexp(queries[6 * i + (size_t)k], exponent[e]);
             }
             if (!mw__is_finite3(q)) continue;
-            mw_surface_hit hit = nearest(prober, queries + 6 * i, INFINITY), there = nearest(other_prober, q, INFINITY);
+            mw_nearest_surface_point hit = nearest(prober, queries + 6 * i, INFINITY),
+                                     there = nearest(other_prober, q, INFINITY);
             assert_int_not_equal(there.triangle, MW_NONE);
             if (isinf(ldexp(hit.distance, exponent[e]))) {
                 assert_true(isinf(there.distance));
@@ -291,7 +292,7 @@ static void test_units(void **state)
 }
 
 /* A triangle alone. */
-static mw_surface_hit nearest_of(const double points[9], const double q[3], double max_distance)
+static mw_nearest_surface_point nearest_of(const double points[9], const double q[3], double max_distance)
 {
     static const uint32_t corners[3] = {0, 1, 2};
     const mw_arrays one = {.points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
@@ -299,7 +300,7 @@ static mw_surface_hit nearest_of(const double points[9], const double q[3], doub
     mw_error error;
     expect_ok(mw_surface_create(&one, NULL, &surface, &error), "surface", &error);
     mw_prober *prober = new_prober(surface);
-    mw_surface_hit hit = nearest(prober, q, max_distance);
+    mw_nearest_surface_point hit = nearest(prober, q, max_distance);
     mw_prober_destroy(prober);
     mw_surface_destroy(surface);
     return hit;
@@ -311,7 +312,7 @@ static void test_offset(void **state)
     (void)state;
     const double o = 1e15, a[9] = {o, o, o, o + 1, o, o + 0.5, o, o + 1, o + 0.25},
                  q[3] = {o + 0.25, o + 0.25, o + 0.5};
-    mw_surface_hit hit = nearest_of(a, q, INFINITY);
+    mw_nearest_surface_point hit = nearest_of(a, q, INFINITY);
     assert_true(fabs(hit.distance - 0.27277236279499051) < 1e-16);
     assert_int_equal(nearest_of(a, q, 0.2728).triangle, 0);
     assert_int_equal(nearest_of(a, q, 0.2727).triangle, MW_NONE);
@@ -327,7 +328,7 @@ static void test_huge(void **state)
     static const double size[] = {1, 1e10, 1e100, 1e300, 1.7e308};
     for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
         double x = size[i], q[3] = {0, 0, 1}, a[9] = {-x, -x, 0, x, -x, 0, 0, x, 0};
-        mw_surface_hit hit = nearest_of(a, q, INFINITY);
+        mw_nearest_surface_point hit = nearest_of(a, q, INFINITY);
         assert_true(fabs(hit.distance - 1) < 1e-14);
         assert_true(hit.point[0] == 0 && hit.point[1] == 0 && hit.point[2] == 0);
         const double b[9] = {-x, 0, 0, x, 0, 0, 0, 0, -x};
@@ -380,7 +381,7 @@ static void test_accuracy(void **state)
                                 away = pow(10, 4 - 20 * random_unit(&random));
         random_case(points, q, offset[mw__random_below(&random, 4)], height, away, &random);
         const double *const corner[3] = {points, points + 3, points + 6};
-        mw_surface_hit hit = nearest_of(points, q, INFINITY);
+        mw_nearest_surface_point hit = nearest_of(points, q, INFINITY);
         if (hit.triangle == MW_NONE) continue; /* too thin for its place */
         long double right = distance_to_triangle(corner, q), error = fabsl(right - hit.distance);
         long double size = size_from(points, q);
@@ -408,7 +409,7 @@ static void test_far(void **state)
             double q[3], distance = NAN;
             for (int k = 0; k < 3; k++) q[k] = (i % 2 ? far[f] : 20) * (2 * random_unit(&random) - 1);
             uint32_t best = ask_each(&each, q, &distance);
-            mw_surface_hit hit = nearest(prober, q, INFINITY);
+            mw_nearest_surface_point hit = nearest(prober, q, INFINITY);
             assert_int_equal(hit.triangle, best);
             assert_true(hit.distance == distance);
         }
@@ -437,7 +438,7 @@ static void test_motion(void **state)
         for (int i = 0; i < 30; i++) {
             double q[3];
             for (int k = 0; k < 3; k++) q[k] = 60 * random_unit(&random) - 30;
-            mw_surface_hit hit = nearest(prober, q, INFINITY);
+            mw_nearest_surface_point hit = nearest(prober, q, INFINITY);
             assert_true(fabsl(hit.distance - least_distance(surface, q)) < 1e-12L);
         }
     }
@@ -455,7 +456,7 @@ static void test_arguments(void **state)
     mw_surface *surface = shape_surface(&s, (mw_surface_options){.shared = 1});
     mw_prober *prober = new_prober(surface), *bare;
     mw_error error;
-    mw_surface_hit hit;
+    mw_nearest_surface_point hit;
     const double q[3] = {1, 2, 9}, bad[3] = {1, NAN, 2};
     assert_int_equal(mw_prober_create(surface, NULL, &bare, &error), MW_OK);
     assert_int_equal(mw_nearest_on_surface(bare, q, 1, &hit, &error), MW_ERROR_ARGUMENT);

@@ -44,7 +44,7 @@ static field delaunay_field(const double *points, uint32_t n)
 {
     mw_mesh *mesh;
     mw_error error;
-    if (mw_delaunay(points, n, 2, NULL, NULL, &mesh, &error)) fail_msg("delaunay: %s", error.message);
+    if (mw_delaunay(points, n, 2, NULL, NULL, NULL, &mesh, &error)) fail_msg("delaunay: %s", error.message);
     uint32_t count = mw_mesh_triangle_count(mesh), t[3];
     arrays a = arrays_make(n, count);
     for (uint32_t i = 0; i < n; i++) arrays_point(&a, points[2 * i], points[2 * i + 1]);
@@ -66,8 +66,8 @@ static mw_location locate_from(const field *f, mw_walk_kind walk, mw_arithmetic 
                                 .arithmetic = arithmetic,
                                 .finish = MW_WALK_STOCHASTIC,
                                 .seed = t,
-                                .count = 1};
-    assert_int_equal(mw_cursor_init(&cursor, f->locator, &options, NULL), MW_OK);
+                                .counters = 1};
+    assert_int_equal(mw_cursor_init(f->locator, &options, &cursor, NULL), MW_OK);
     cursor.last = t;
     mw_location at = mw_locate(f->locator, &cursor, q[0], q[1]);
     if (counters) *counters = cursor.counters;
@@ -261,7 +261,7 @@ static void test_counts(void **state)
                                     .start = MW_START_RANDOM,
                                     .finish = MW_WALK_STOCHASTIC,
                                     .seed = 7,
-                                    .count = 1};
+                                    .counters = 1};
         assert_int_equal(mw_locate_batch(f.locator, q, QUERIES, 2, &options, at, &c, NULL), MW_OK);
         assert_int_equal(c.handovers + c.cycles, 0);
         triangles[i] = (double)(c.triangles_init + c.triangles);
@@ -296,7 +296,7 @@ static void test_improved_walk_is_not_rounded(void **state)
     for (uint32_t i = 0; i < a.point_count; i++) a.points[2 * i + 1] += 3 * (a.points[2 * i] - 0.1);
     mw_mesh *mesh;
     field f = {.a = a};
-    assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, NULL, &mesh, NULL), MW_OK);
     f.mesh = mesh;
     assert_int_equal(mw_locator_create(mesh, NULL, &f.locator, NULL), MW_OK);
     for (uint32_t i = 0; i < a.point_count; i++)

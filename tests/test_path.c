@@ -104,8 +104,8 @@ static void try_query(trial *r, mw_cursor *cursor, const double q[2])
 static void try_walk(trial *r, mw_query_options options, uint32_t fuel, const double *q, size_t n)
 {
     mw_cursor cursor;
-    options.count = 1;
-    assert_int_equal(mw_cursor_init(&cursor, r->locator, &options, NULL), MW_OK);
+    options.counters = 1;
+    assert_int_equal(mw_cursor_init(r->locator, &options, &cursor, NULL), MW_OK);
     if (fuel) cursor.fuel = fuel; /* walks run dry: the celestial one, or that along all the border, takes over */
     for (size_t i = 0; i < n; i++) try_query(r, &cursor, q + 2 * i);
 }
@@ -132,7 +132,8 @@ static void try_filled(const arrays *a, bool whole, uint64_t *random)
 {
     size_t n;
     double *q = nasty_queries(a, 12, &n, random);
-    trial *r = open_trial(a, whole, (mw_locator_options){.fill = 1, .areas = (int)(mw__random(random) >> 63)});
+    trial *r =
+        open_trial(a, whole, (mw_locator_options){.fill = MW_FILL_YES, .areas = (int)(mw__random(random) >> 63)});
     mw_index *index[MW_START_COUNT];
     starts_open(r->locator, index);
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
@@ -153,7 +154,7 @@ static void try_open(const arrays *a, uint64_t *random)
 {
     size_t n;
     double *q = nasty_queries(a, 40, &n, random);
-    trial *r = open_trial(a, false, (mw_locator_options){.fill = 2});
+    trial *r = open_trial(a, false, (mw_locator_options){.fill = MW_FILL_NO});
     for (int start = MW_START_RANDOM; start <= MW_START_LAST; start++)
         for (uint32_t fuel = 0; fuel < 40; fuel += 7)
             try_walk(r, (mw_query_options){.start = (mw_start_kind)start, .seed = mw__random(random)}, fuel, q, n);
@@ -214,7 +215,7 @@ static size_t path_from(const trial *r, mw_query_options options, const double f
 {
     mw_cursor cursor;
     options.start = MW_START_LAST;
-    assert_int_equal(mw_cursor_init(&cursor, r->locator, &options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(r->locator, &options, &cursor, NULL), MW_OK);
     mw_locate(r->locator, &cursor, from[0], from[1]);
     return mw_walk_path(r->locator, &cursor, to[0], to[1], path, ROOM, NULL);
 }
@@ -254,13 +255,13 @@ static void test_gap(void **state)
     arrays a = grid_mesh(3, 0, &random);
     memmove(a.triangles + 24, a.triangles + 30, 24 * sizeof *a.triangles); /* without the middle cell */
     a.triangle_count -= 2;
-    trial *filled = open_trial(&a, false, (mw_locator_options){.fill = 1});
+    trial *filled = open_trial(&a, false, (mw_locator_options){.fill = MW_FILL_YES});
     size_t n = path_from(filled, (mw_query_options){.walk = MW_WALK_STRAIGHT}, left, right, filled->path);
     check_steps(filled, n);
     bool gap = false;
     for (size_t i = 0; i + 1 < n; i++) gap |= !are_neighbours(filled->mesh, filled->path[i], filled->path[i + 1]);
     assert_true(gap);
-    trial *open = open_trial(&a, false, (mw_locator_options){.fill = 2});
+    trial *open = open_trial(&a, false, (mw_locator_options){.fill = MW_FILL_NO});
     size_t round = path_from(open, (mw_query_options){0}, left, right, open->path);
     check_steps(open, round);
     for (size_t i = 0; i + 1 < round; i++) assert_true(are_neighbours(open->mesh, open->path[i], open->path[i + 1]));
@@ -277,7 +278,7 @@ static void test_no_point(void **state)
     trial *r = open_trial(&a, true, (mw_locator_options){0});
     mw_cursor cursor, before;
     mw_location at;
-    assert_int_equal(mw_cursor_init(&cursor, r->locator, NULL, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(r->locator, NULL, &cursor, NULL), MW_OK);
     before = cursor;
     assert_int_equal(mw_walk_path(r->locator, &cursor, NAN, 0, r->path, ROOM, &at), 0);
     assert_int_equal(at.where, MW_BAD);

@@ -87,7 +87,7 @@ static int free_worlds(void **state)
 static mw_probe_cursor cursor_of(const world *w, mw_probe_options options)
 {
     mw_probe_cursor cursor;
-    assert_int_equal(mw_probe_cursor_init(&cursor, w->prober, &options, NULL), MW_OK);
+    assert_int_equal(mw_probe_cursor_init(w->prober, &options, &cursor, NULL), MW_OK);
     return cursor;
 }
 
@@ -138,10 +138,10 @@ static void test_names(void **state)
     assert_string_equal(mw_touch_state_name(MW_TOUCH_LIMIT), "limit");
     assert_string_equal(mw_touch_state_name(MW_TOUCH_BAD), "bad");
     assert_null(mw_touch_state_name(MW_TOUCH_STATE_COUNT));
-    assert_string_equal(mw_probe_start_name(MW_PROBE_AUTO), "auto");
-    assert_string_equal(mw_probe_start_name(MW_PROBE_LAST), "last");
-    assert_string_equal(mw_probe_start_name(MW_PROBE_SAMPLE), "sample");
-    assert_string_equal(mw_probe_start_name(MW_PROBE_RANDOM), "random");
+    assert_string_equal(mw_probe_start_name(MW_PROBE_START_AUTO), "auto");
+    assert_string_equal(mw_probe_start_name(MW_PROBE_START_LAST), "last");
+    assert_string_equal(mw_probe_start_name(MW_PROBE_START_SAMPLE), "sample");
+    assert_string_equal(mw_probe_start_name(MW_PROBE_START_RANDOM), "random");
     assert_null(mw_probe_start_name(MW_PROBE_START_COUNT));
 }
 
@@ -153,18 +153,18 @@ static void test_arguments(void **state)
     mw_prober *bare;
     mw_touch touch;
     double query[6] = {0, 0, 1, 0, 0, 1};
-    assert_int_equal(mw_probe_cursor_init(NULL, w->prober, NULL, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_probe_cursor_init(&cursor, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_cursor_init(w->prober, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_cursor_init(NULL, NULL, &cursor, NULL), MW_ERROR_ARGUMENT);
     mw_probe_options options = {.start = MW_PROBE_START_COUNT};
-    assert_int_equal(mw_probe_cursor_init(&cursor, w->prober, &options, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_cursor_init(w->prober, &options, &cursor, NULL), MW_ERROR_ARGUMENT);
     const double wrong[] = {-1, NAN, -INFINITY};
     for (int i = 0; i < 3; i++) {
         options = (mw_probe_options){.max_distance = wrong[i]};
-        assert_int_equal(mw_probe_cursor_init(&cursor, w->prober, &options, NULL), MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_probe_cursor_init(w->prober, &options, &cursor, NULL), MW_ERROR_ARGUMENT);
     }
     options = (mw_probe_options){.certain = 1};
     assert_int_equal(mw_prober_create(w->surface, NULL, &bare, NULL), MW_OK);
-    assert_int_equal(mw_probe_cursor_init(&cursor, bare, &options, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_cursor_init(bare, &options, &cursor, NULL), MW_ERROR_ARGUMENT);
     mw_prober_destroy(bare);
     assert_int_equal(mw_probe_batch(w->prober, query, 1, 5, NULL, &touch, NULL, NULL), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_probe_batch(w->prober, NULL, 1, 0, NULL, &touch, NULL, NULL), MW_ERROR_ARGUMENT);
@@ -185,7 +185,7 @@ static void test_sample_count(void **state)
         mw_prober *prober;
         mw_probe_cursor cursor;
         assert_int_equal(mw_prober_create(surface, NULL, &prober, NULL), MW_OK);
-        assert_int_equal(mw_probe_cursor_init(&cursor, prober, NULL, NULL), MW_OK);
+        assert_int_equal(mw_probe_cursor_init(prober, NULL, &cursor, NULL), MW_OK);
         assert_int_equal(cursor.options.samples, known[i][1]);
         mw_prober_destroy(prober);
         mw_surface_destroy(surface);
@@ -200,7 +200,7 @@ static void test_bad_queries(void **state)
     const double bad[][6] = {{NAN, 0, 0, 0, 0, 1},       {0, 0, INFINITY, 0, 0, 1}, {0, 0, 0, 0, NAN, 1},
                              {0, 0, 0, -INFINITY, 0, 0}, {0, 0, 0, 0, 0, 0},        {0, 0, 0, 0, -0.0, 0}};
     for (int certain = 0; certain < 2; certain++) {
-        mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.certain = certain, .count = 1});
+        mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.certain = certain, .counters = 1});
         for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
             mw_touch touch = ask(w, &cursor, bad[i]);
             assert_int_equal(touch.state, MW_TOUCH_BAD);
@@ -218,7 +218,7 @@ static void test_limit_or_none(void **state)
     (void)state;
     const world *w = &worlds[STAR_SHAPED];
     const double past[6] = {1000, 0, 0, 0, 0, -1}, tiny[6] = {1e-3, 2e-3, 90, 0, 0, -1e-300};
-    mw_probe_cursor walks = cursor_of(w, (mw_probe_options){.iterations = 7, .count = 1});
+    mw_probe_cursor walks = cursor_of(w, (mw_probe_options){.iterations = 7, .counters = 1});
     mw_probe_cursor certain = cursor_of(w, (mw_probe_options){.certain = 1});
     assert_int_equal(ask(w, &walks, past).state, MW_TOUCH_LIMIT);
     assert_int_equal(walks.counters.iterations, 7);
@@ -236,7 +236,7 @@ static void test_nothing_faces(void **state)
     const double up[6] = {9, 9, -50, 0, 0, 1}, down[6] = {9, 9, -50, 0, 0, -1};
     for (int start = 0; start < MW_PROBE_START_COUNT; start++) {
         mw_probe_cursor cursor =
-            cursor_of(w, (mw_probe_options){.start = (mw_probe_start)start, .samples = 5, .count = 1});
+            cursor_of(w, (mw_probe_options){.start = (mw_probe_start)start, .samples = 5, .counters = 1});
         assert_int_equal(ask(w, &cursor, up).state, MW_TOUCH_LIMIT);
         assert_int_equal(cursor.counters.iterations, 10);
         assert_int_equal(cursor.counters.samples, 10 * 9 * 5);
@@ -334,7 +334,7 @@ static void test_certain(void **state)
     for (int i = 0; i < WORLDS; i++) {
         const world *w = &worlds[i];
         double *query = shape_queries(&w->s, QUERIES, &random);
-        mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.certain = 1, .race = i % 2 ? 4 : 0, .count = 1});
+        mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.certain = 1, .race = i % 2 ? 4 : 0, .counters = 1});
         for (size_t j = 0; j < QUERIES; j++) {
             const double *q = query + 6 * j;
             if (!all_finite(q, 6)) continue;
@@ -361,7 +361,8 @@ static void test_seed_is_short(void **state)
     uint64_t random = 29;
     world w = world_of("long patch", patch_shape(60, 3, &random), (mw_surface_options){0});
     const double far[6] = {238, 239, 20, 0, 0, -1}, past[6] = {250, 250, 20, 0, 0, -1};
-    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.certain = 1, .start = MW_PROBE_LAST, .count = 1});
+    mw_probe_cursor cursor =
+        cursor_of(&w, (mw_probe_options){.certain = 1, .start = MW_PROBE_START_LAST, .counters = 1});
     cursor.last = 0;
     mw_touch touch = ask(&w, &cursor, far);
     assert_int_equal(touch.state, MW_TOUCH_HIT);
@@ -380,8 +381,8 @@ static void test_sample_helps(void **state)
     world w = world_of("large ball", ball_shape(20, 1000, 0.1, &random), (mw_surface_options){0});
     uint64_t visited[2];
     for (int i = 0; i < 2; i++) {
-        mw_probe_cursor cursor =
-            cursor_of(&w, (mw_probe_options){.start = i ? MW_PROBE_RANDOM : MW_PROBE_SAMPLE, .count = 1});
+        mw_probe_cursor cursor = cursor_of(
+            &w, (mw_probe_options){.start = i ? MW_PROBE_START_RANDOM : MW_PROBE_START_SAMPLE, .counters = 1});
         for (uint32_t v = 0; v < w.s.point_count; v++) {
             const double *p = w.s.points + 3 * (size_t)v, q[6] = {p[0], p[1], p[2], 0.5 - p[0], 0.25 - p[1], -p[2]};
             assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_HIT);
@@ -397,7 +398,7 @@ static void test_coherence(void **state)
 {
     (void)state;
     const world *w = &worlds[STAR_SHAPED];
-    mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.start = MW_PROBE_LAST, .count = 1});
+    mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST, .counters = 1});
     double down[6] = {1, 2, 90, 0.01, 0.02, -1}, up[6] = {1, 2, 90, 0.01, 0.02, 1};
     assert_int_equal(ask(w, &cursor, down).state, MW_TOUCH_HIT);
     assert_true(cursor.counters.samples > 0);
@@ -422,8 +423,8 @@ static void test_counting(void **state)
     for (int i = 0; i < WORLDS; i++) {
         const world *w = &worlds[i];
         double *query = shape_queries(&w->s, QUERIES, &random);
-        mw_probe_cursor plain = cursor_of(w, (mw_probe_options){.start = MW_PROBE_LAST});
-        mw_probe_cursor counted = cursor_of(w, (mw_probe_options){.start = MW_PROBE_LAST, .count = 1});
+        mw_probe_cursor plain = cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST});
+        mw_probe_cursor counted = cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST, .counters = 1});
         for (size_t j = 0; j < QUERIES * STEPS; j++) {
             double *q = query + j / STEPS * 6;
             if (j % STEPS > 1) q[j % 3] += 0.125 * (random_unit(&random) - 0.5);
@@ -440,7 +441,7 @@ static void test_auto(void **state)
     (void)state;
     uint64_t random = 31;
     world w = world_of("large ball", ball_shape(20, 1000, 0.1, &random), (mw_surface_options){0});
-    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.count = 1});
+    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.counters = 1});
     for (uint32_t v = 0; v < 40; v++) {
         const double *p = w.s.points + 3 * (size_t)(v % 2 ? v : w.s.point_count - 1 - v);
         double q[6] = {p[0], p[1], p[2], 0.5 - p[0], 0.25 - p[1], -p[2]};
@@ -475,7 +476,7 @@ static void test_path(void **state)
         size_t turned = 0;
         for (uint32_t j = 0; j < QUERIES; j++) {
             const double *q = query + 6 * (size_t)j;
-            mw_probe_options options = {.count = 1, .seed = j, .max_distance = j % 2 ? 1e-9 : 0};
+            mw_probe_options options = {.counters = 1, .seed = j, .max_distance = j % 2 ? 1e-9 : 0};
             mw_probe_cursor cursor = cursor_of(w, options), other = cursor;
             mw_touch touch, same = ask(w, &other, q);
             size_t length = mw_probe_path(w->prober, &cursor, q, q + 3, path, walk, room, &touch);
@@ -539,13 +540,14 @@ static void test_border(void **state)
     world w = world_of("strip", s, (mw_surface_options){0});
     for (uint32_t first = 0; first < 2 * N; first++) {
         double q[6] = {11.5, 2.1, 20, 0, 0, -1};
-        mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 1, .count = 1});
+        mw_probe_cursor cursor =
+            cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .counters = 1});
         cursor.last = first;
         mw_touch touch = ask(&w, &cursor, q);
         assert_int_equal(touch.state, MW_TOUCH_HIT);
         assert_true(touch.triangle >= 2 * N - 2);
         q[0] = -0.5; /* beyond the border: the walk goes to both ends */
-        cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 1, .count = 1});
+        cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .counters = 1});
         cursor.last = first;
         assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_LIMIT);
         assert_true(cursor.counters.triangles <= 2 * N);
@@ -572,7 +574,7 @@ static void test_degenerate_planes(void **state)
         sights o = sights_make(&w.s, lines[i]);
         uint32_t best = sights_best(&o, 0);
         for (uint32_t first = 0; first < 4; first++) {
-            mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 200});
+            mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 200});
             cursor.last = first;
             mw_touch touch = ask(&w, &cursor, lines[i]);
             check_touch(&w, &o, &touch, 0);
@@ -580,8 +582,8 @@ static void test_degenerate_planes(void **state)
         }
         sights_free(&o);
     }
-    mw_probe_cursor cursor =
-        cursor_of(&w, (mw_probe_options){.start = MW_PROBE_LAST, .iterations = 1, .max_distance = 1e-9, .count = 1});
+    mw_probe_cursor cursor = cursor_of(
+        &w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .max_distance = 1e-9, .counters = 1});
     const double middle[6] = {2, 2, 2, -1, -1, -1};
     cursor.last = 2; /* its middle (1, 1, 1) lies on the line and spans no plane with it */
     assert_int_equal(ask(&w, &cursor, middle).state, MW_TOUCH_LIMIT);
@@ -637,7 +639,7 @@ static void test_welded_moved_apart(void **state)
     size_t hits = 0;
     for (size_t j = 0; j < 300; j++) {
         const double *q = query + 6 * j;
-        mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.seed = j, .count = 1});
+        mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.seed = j, .counters = 1});
         sights o = sights_make(&w.s, q);
         mw_touch touch = ask(&w, &cursor, q);
         if (touch.state == MW_TOUCH_HIT) assert_true(o.touched[touch.triangle]);

@@ -62,7 +62,7 @@ static void test_batches(void **state)
                                     .certain = start >= MW_PROBE_START_COUNT,
                                     .max_distance = 100,
                                     .seed = 5,
-                                    .count = 1,
+                                    .counters = 1,
                                     .threads = 1};
         mw_probe_counters one, many;
         mw_touch *expected = probe_batch(w, options, &one);
@@ -76,7 +76,7 @@ static void test_batches(void **state)
             assert_memory_equal(&many, &one, sizeof one);
             free(touch);
         }
-        options.count = 0;
+        options.counters = 0;
         mw_touch *uncounted = probe_batch(w, options, &many);
         assert_memory_equal(uncounted, expected, QUERIES * sizeof *expected);
         assert_int_equal(many.queries + many.triangles, 0);
@@ -89,7 +89,7 @@ static void test_batches(void **state)
 static void test_batch_as_single(void **state)
 {
     const world *w = *state;
-    mw_probe_options options = {.start = MW_PROBE_SAMPLE};
+    mw_probe_options options = {.start = MW_PROBE_START_SAMPLE};
     mw_touch *touch = probe_batch(w, options, NULL), *wide = calloc(FEW, sizeof *wide);
     double *spread = calloc(FEW, 8 * sizeof *spread);
     for (size_t i = 0; i < FEW; i++) memcpy(spread + 8 * i, w->query + 6 * i, 6 * sizeof *spread);
@@ -107,14 +107,14 @@ static void test_race(void **state)
     const world *w = *state;
     size_t hits = 0;
     mw_probe_cursor serial, race, certain, sure;
-    mw_probe_options options = {.start = MW_PROBE_SAMPLE, .iterations = 12, .max_distance = 200, .count = 1};
-    assert_int_equal(mw_probe_cursor_init(&serial, w->prober, &options, NULL), MW_OK);
+    mw_probe_options options = {.start = MW_PROBE_START_SAMPLE, .iterations = 12, .max_distance = 200, .counters = 1};
+    assert_int_equal(mw_probe_cursor_init(w->prober, &options, &serial, NULL), MW_OK);
     options.race = THREADS;
-    assert_int_equal(mw_probe_cursor_init(&race, w->prober, &options, NULL), MW_OK);
+    assert_int_equal(mw_probe_cursor_init(w->prober, &options, &race, NULL), MW_OK);
     options.certain = 1;
-    assert_int_equal(mw_probe_cursor_init(&sure, w->prober, &options, NULL), MW_OK);
+    assert_int_equal(mw_probe_cursor_init(w->prober, &options, &sure, NULL), MW_OK);
     options.race = 0;
-    assert_int_equal(mw_probe_cursor_init(&certain, w->prober, &options, NULL), MW_OK);
+    assert_int_equal(mw_probe_cursor_init(w->prober, &options, &certain, NULL), MW_OK);
     for (size_t i = 0; i < FEW; i++) {
         const double *q = w->query + 6 * i;
         mw_touch a = mw_probe(w->prober, &serial, q, q + 3), b = mw_probe(w->prober, &race, q, q + 3);
@@ -142,7 +142,7 @@ static void test_race_in_batch(void **state)
     const world *w = *state;
     mw_touch touch[FEW];
     mw_probe_counters counters;
-    mw_probe_options options = {.race = 3, .threads = THREADS, .count = 1};
+    mw_probe_options options = {.race = 3, .threads = THREADS, .counters = 1};
     assert_int_equal(mw_probe_batch(w->prober, w->query, FEW, 6, &options, touch, &counters, NULL), MW_OK);
     assert_int_equal(counters.queries, FEW);
     size_t hits = 0;
@@ -173,7 +173,7 @@ static void *probing(void *argument)
     mw_probe_options options = {
         .certain = j->number % 2, .race = j->number == 2 ? 2 : 0, .iterations = 10000, .seed = j->number};
     mw_probe_cursor cursor;
-    if (mw_probe_cursor_init(&cursor, j->world->prober, &options, NULL)) return "no cursor";
+    if (mw_probe_cursor_init(j->world->prober, &options, &cursor, NULL)) return "no cursor";
     uint64_t random = j->number;
     do {
         double q[3], m[3];
@@ -191,7 +191,7 @@ static void *shining(void *argument)
 {
     job *j = argument;
     mw_star_cursor cursor;
-    if (mw_star_cursor_init(&cursor, j->star, NULL, NULL)) return "no cursor";
+    if (mw_star_cursor_init(j->star, NULL, &cursor, NULL)) return "no cursor";
     uint64_t random = j->number;
     do {
         double q[3];

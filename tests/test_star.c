@@ -78,7 +78,7 @@ static void check_rays(const polyhedron *p, mw_surface_options how, const double
                                                  .finish = i % 2 ? MW_STAR_WALK_FORGETFUL : MW_STAR_WALK_STOCHASTIC,
                                                  .seed = (uint64_t)i};
                 mw_star_cursor cursor;
-                expect_ok(mw_star_cursor_init(&cursor, w.star, &options, NULL), "cursor", NULL);
+                expect_ok(mw_star_cursor_init(w.star, &options, &cursor, NULL), "cursor", NULL);
                 mw_location found = mw_star_locate(w.star, &cursor, q);
                 expect_location(&found, &expected, q);
             }
@@ -180,7 +180,7 @@ static void test_indices_and_batches(void **state)
                 mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
                                                  .start = (mw_star_start_kind)start,
                                                  .threads = threads,
-                                                 .count = 1,
+                                                 .counters = 1,
                                                  .index = index};
                 mw_counters counters;
                 memset(found, 0xff, sizeof *found * N);
@@ -190,7 +190,7 @@ static void test_indices_and_batches(void **state)
                 for (size_t i = 0; i < N; i++) answered += first[i].where != MW_BAD;
                 assert_int_equal(counters.queries, answered);
                 assert_true(counters.triangles_visited >= answered);
-                options.count = 0; /* then many walks are in flight */
+                options.counters = 0; /* then many walks are in flight */
                 memset(found, 0xff, sizeof *found * N);
                 expect_ok(mw_star_locate_batch(w.star, q, N, 0, &options, found, NULL, &error), "batch", &error);
                 assert_memory_equal(found, first, sizeof *found * N);
@@ -216,7 +216,7 @@ static void test_short_walks(void **state)
     mw_location location[N];
     for (size_t i = 0; i < 3 * N; i++) q[i] = random_unit(&seed) - 0.5;
     for (uint32_t n = N / 8; n <= N; n *= 2) {
-        mw_star_query_options options = {.count = 1};
+        mw_star_query_options options = {.counters = 1};
         mw_counters counters;
         assert_true(n < p.triangles);
         expect_ok(mw_star_locate_batch(w.star, q, n, 0, &options, location, &counters, NULL), "batch", NULL);
@@ -238,13 +238,13 @@ static void test_paths(void **state)
     for (int walk = 0; walk < MW_STAR_WALK_COUNT; walk++)
         for (int i = 0; i < 300; i++) {
             mw_star_query_options options = {
-                .walk = (mw_star_walk_kind)walk, .start = MW_STAR_START_FRONT, .seed = (uint64_t)i, .count = 1};
+                .walk = (mw_star_walk_kind)walk, .start = MW_STAR_START_FRONT, .seed = (uint64_t)i, .counters = 1};
             mw_star_cursor cursor;
             mw_location location;
             uint32_t facet[4096];
             double q[3];
             for (int k = 0; k < 3; k++) q[k] = random_unit(&seed) - 0.5;
-            expect_ok(mw_star_cursor_init(&cursor, w.star, &options, NULL), "cursor", NULL);
+            expect_ok(mw_star_cursor_init(w.star, &options, &cursor, NULL), "cursor", NULL);
             size_t count = mw_star_path(w.star, &cursor, q, facet, 4096, &location);
             assert_true(count >= 1 && count <= 4096);
             assert_int_equal(count, cursor.counters.triangles_visited);
@@ -341,7 +341,7 @@ static void expect_refused(const polyhedron *p, mw_star_options options, mw_defe
     assert_null(star);
     if (triangle != MW_NONE) assert_int_equal(error.triangle, triangle);
     expect_ok(mw_star_check_arrays(&view, 0, &options, &check, &error), "check", &error);
-    assert_false(check.embedding);
+    assert_false(check.valid);
     bool found = false;
     for (size_t i = 0; i < check.defect_count; i++)
         found =
@@ -363,8 +363,8 @@ static void test_refused(void **state)
         expect_refused(&open, (mw_star_options){0}, MW_DEFECT_OPEN_EDGE, MW_NONE);
         release_polyhedron(&open);
     }
-    expect_refused(&p, (mw_star_options){.centre = {2, 0, 0}}, MW_DEFECT_THROUGH_CENTRE, MW_NONE); /* on the surface */
-    expect_refused(&p, (mw_star_options){.centre = {1.5, 1.5, 0}}, MW_DEFECT_TURNED, MW_NONE);     /* outside */
+    expect_refused(&p, (mw_star_options){.centre = {2, 0, 0}}, MW_DEFECT_THROUGH_CENTRE, MW_NONE);  /* on the surface */
+    expect_refused(&p, (mw_star_options){.centre = {1.5, 1.5, 0}}, MW_DEFECT_BACK_FACING, MW_NONE); /* outside */
     release_polyhedron(&p);
 }
 
@@ -381,10 +381,10 @@ static void test_turned_facet(void **state)
         mw_arrays view = polyhedron_arrays(&p);
         mw_check check;
         expect_ok(mw_star_check_arrays(&view, 0, NULL, &check, NULL), "check", NULL);
-        assert_false(check.embedding);
+        assert_false(check.valid);
         uint32_t named = 0, round_v = 0;
         for (size_t i = 0; i < check.defect_count; i++) {
-            assert_int_equal(check.defects[i].kind, MW_DEFECT_TURNED);
+            assert_int_equal(check.defects[i].kind, MW_DEFECT_BACK_FACING);
             const uint32_t *c = p.corner + 3 * (size_t)check.defects[i].triangle;
             assert_true(c[0] == v || c[1] == v || c[2] == v);
             named++;
@@ -448,18 +448,18 @@ static void test_arguments(void **state)
     mw_star_options nowhere = {.centre = {0, NAN, 0}};
     assert_int_equal(mw_star_create(w.surface, &nowhere, &star, &error), MW_ERROR_ARGUMENT);
     mw_star_query_options options = {.walk = MW_STAR_WALK_COUNT};
-    assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), MW_ERROR_ARGUMENT);
     options = (mw_star_query_options){.start = MW_STAR_START_COUNT};
-    assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), MW_ERROR_ARGUMENT);
     for (int finish = 0; finish <= MW_STAR_WALK_COUNT + 256; finish++) {
         bool known = finish == 0 || finish == MW_STAR_WALK_STOCHASTIC || finish == MW_STAR_WALK_FORGETFUL;
         options = (mw_star_query_options){.finish = (mw_star_walk_kind)finish};
-        assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), known ? MW_OK : MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), known ? MW_OK : MW_ERROR_ARGUMENT);
     }
     options = (mw_star_query_options){.start = MW_STAR_START_GRID};
-    assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), MW_ERROR_ARGUMENT);
     options = (mw_star_query_options){.walk = MW_STAR_WALK_ORTHOGONAL};
-    assert_int_equal(mw_star_cursor_init(&cursor, w.star, &options, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), MW_ERROR_ARGUMENT);
     release_world(&w);
     release_polyhedron(&p);
 }
@@ -474,7 +474,7 @@ static void test_update(void **state)
     world w = make_world(&p, (mw_surface_options){0}, (mw_star_options){.angles = 1});
     mw_star_cursor cursor;
     mw_star_query_options options = {.walk = MW_STAR_WALK_ORTHOGONAL};
-    expect_ok(mw_star_cursor_init(&cursor, w.star, &options, NULL), "cursor", NULL);
+    expect_ok(mw_star_cursor_init(w.star, &options, &cursor, NULL), "cursor", NULL);
     for (int round = 0; round < 20; round++) {
         double q[3], *points = mw_surface_points(w.surface);
         bool broken = round % 4 == 3;
@@ -538,7 +538,7 @@ static void test_welded_update(void **state)
             mw_star_cursor cursor;
             draw(&p, origin, 1, &seed, q);
             if (q[0] == 0 && q[1] == 0 && q[2] == 0) continue;
-            expect_ok(mw_star_cursor_init(&cursor, w.star, NULL, NULL), "cursor", NULL);
+            expect_ok(mw_star_cursor_init(w.star, NULL, &cursor, NULL), "cursor", NULL);
             mw_location found = mw_star_locate(w.star, &cursor, q);
             mw_location expected = star_oracle_locate(points, p.corner, p.triangles, origin, q);
             expect_location(&found, &expected, q);
@@ -561,12 +561,12 @@ static void test_defects_beside_others(void **state)
         mw_arrays view = polyhedron_arrays(&p);
         mw_check check;
         expect_ok(mw_star_check_arrays(&view, 0, &outside, &check, NULL), "check", NULL);
-        assert_false(check.embedding);
+        assert_false(check.valid);
         uint32_t count[MW_DEFECT_COUNT] = {0};
         for (size_t i = 0; i < check.defect_count; i++) count[check.defects[i].kind]++;
         assert_int_equal(count[MW_DEFECT_OPEN_EDGE], open ? 3 : 0);
         assert_int_equal(count[MW_DEFECT_FLAT], !open);
-        assert_true(count[MW_DEFECT_TURNED] > 0);
+        assert_true(count[MW_DEFECT_BACK_FACING] > 0);
         mw_check_release(&check);
         release_polyhedron(&p);
     }
@@ -583,7 +583,7 @@ static void test_nothing(void **state)
         mw_arrays view = polyhedron_arrays(&p);
         mw_check check;
         expect_ok(mw_star_check_arrays(&view, 0, NULL, &check, NULL), "check", NULL);
-        assert_false(check.embedding);
+        assert_false(check.valid);
         mw_check_release(&check);
         release_polyhedron(&p);
     }

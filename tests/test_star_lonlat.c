@@ -12,7 +12,7 @@
 static void expect_direction(double longitude, double latitude, double x, double y, double z)
 {
     double want[3] = {x, y, z}, got[3];
-    mw_lonlat_direction(longitude, latitude, got);
+    mw_lonlat_to_direction(longitude, latitude, got);
     if (memcmp(want, got, sizeof got) != 0)
         fail_msg("longitude %.17g, latitude %.17g: %a %a %a", longitude, latitude, got[0], got[1], got[2]);
 }
@@ -43,7 +43,7 @@ static void test_whole_turns(void **state)
     for (int i = 0; i < 200000; i++) {
         double longitude = ldexp((double)mw__random_below(&random, 360u << 20), -20) - 180;
         double latitude = 180 * (random_unit(&random) - 0.5), d[3];
-        mw_lonlat_direction(longitude, latitude, d);
+        mw_lonlat_to_direction(longitude, latitude, d);
         for (int turns = -3; turns <= 3; turns++) expect_direction(longitude + 360 * turns, latitude, d[0], d[1], d[2]);
     }
 }
@@ -55,7 +55,7 @@ static void test_mirrored(void **state)
     (void)state;
     for (int i = 0; i < 100000; i++) {
         double longitude = 360 * (random_unit(&random) - 0.5), latitude = 180 * (random_unit(&random) - 0.5), d[3];
-        mw_lonlat_direction(longitude, latitude, d);
+        mw_lonlat_to_direction(longitude, latitude, d);
         expect_direction(-longitude, latitude, d[0], -d[1] + 0.0, d[2]);
         expect_direction(longitude, -latitude, d[0], d[1], -d[2] + 0.0);
     }
@@ -92,7 +92,7 @@ static void test_accuracy(void **state)
     for (int i = 0; i < 400000; i++) {
         double longitude = draw_degrees(&random, 1000), latitude = draw_degrees(&random, 90), d[3];
         latitude = fmax(-90, fmin(90, latitude));
-        mw_lonlat_direction(longitude, latitude, d);
+        mw_lonlat_to_direction(longitude, latitude, d);
         long double want[3] = {cosine(latitude) * cosine(longitude), cosine(latitude) * sine(longitude),
                                sine(latitude)};
         for (int k = 0; k < 3; k++) {
@@ -108,7 +108,7 @@ static void test_accuracy(void **state)
 static void expect_nan(double longitude, double latitude)
 {
     double d[3] = {0, 0, 0};
-    mw_lonlat_direction(longitude, latitude, d);
+    mw_lonlat_to_direction(longitude, latitude, d);
     assert_true(isnan(d[0]) && isnan(d[1]) && isnan(d[2]));
 }
 
@@ -126,7 +126,7 @@ static void test_no_direction(void **state)
 static void expect_lonlat(double x, double y, double z, double longitude, double latitude)
 {
     double got[2];
-    mw_direction_lonlat((double[3]){x, y, z}, &got[0], &got[1]);
+    mw_direction_to_lonlat((double[3]){x, y, z}, &got[0], &got[1]);
     if (got[0] != longitude || got[1] != latitude)
         fail_msg("direction %g %g %g: longitude %.17g, latitude %.17g", x, y, z, got[0], got[1]);
 }
@@ -151,9 +151,9 @@ static void test_back(void **state)
     for (int i = 0; i < 100000; i++) {
         double longitude = 360 * (random_unit(&random) - 0.5), latitude = 180 * (random_unit(&random) - 0.5), got[2];
         double d[3], scale = ldexp(1, (int)mw__random_below(&random, 1900) - 950);
-        mw_lonlat_direction(longitude, latitude, d);
+        mw_lonlat_to_direction(longitude, latitude, d);
         for (int k = 0; k < 3; k++) d[k] *= scale;
-        mw_direction_lonlat(d, &got[0], &got[1]);
+        mw_direction_to_lonlat(d, &got[0], &got[1]);
         if (fabs(got[0] - longitude) * cos(latitude / 57.3) > 1e-13 || fabs(got[1] - latitude) > 1e-13)
             fail_msg("longitude %.17g, latitude %.17g: came back as %.17g, %.17g", longitude, latitude, got[0], got[1]);
     }
@@ -166,7 +166,7 @@ static void test_no_lonlat(void **state)
     (void)state;
     for (int i = 0; i < 8; i++) {
         double longitude = 0, latitude = 0;
-        mw_direction_lonlat(bad[i], &longitude, &latitude);
+        mw_direction_to_lonlat(bad[i], &longitude, &latitude);
         assert_true(isnan(longitude) && isnan(latitude));
     }
 }

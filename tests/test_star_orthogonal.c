@@ -50,7 +50,7 @@ static polyhedron globe(uint32_t n)
     for (uint32_t i = 1; i < n; i++)
         for (uint32_t j = 0; j < 2 * n; j++) {
             double d[3];
-            mw_lonlat_direction(180.0 * j / n, 90 - 180.0 * i / n, d);
+            mw_lonlat_to_direction(180.0 * j / n, 90 - 180.0 * i / n, d);
             add_point3(&p, d[0], d[1], d[2]);
         }
     for (uint32_t j = 0; j < 2 * n; j++) {
@@ -166,7 +166,7 @@ static mw_counters run(const mw_star *star, mw_star_query_options options, const
 {
     mw_counters counters;
     mw_error error;
-    options.count = 1;
+    options.counters = 1;
     expect_ok(mw_star_locate_batch(star, q, n, 3, &options, at, &counters, &error), "batch", &error);
     return counters;
 }
@@ -220,7 +220,7 @@ static void test_globe(void **state)
     assert_non_null(q);
     size_t n = 0;
     for (int i = 0; i <= 2 * N; i++)
-        for (int j = -2 * N; j <= 2 * N; j++) mw_lonlat_direction(90.0 * j / N, 90.0 * (N - i) / N, q + 3 * n++);
+        for (int j = -2 * N; j <= 2 * N; j++) mw_lonlat_to_direction(90.0 * j / N, 90.0 * (N - i) / N, q + 3 * n++);
     for (double turn = 0; turn < 3; turn += 1.25) {
         sphere s = make_sphere(globe(N), turn, 0);
         expect_walks(s.star, q, n, 5);
@@ -292,13 +292,13 @@ static void test_finish_of_path(void **state)
                                              .start = MW_STAR_START_FRONT,
                                              .finish = f ? MW_STAR_WALK_FORGETFUL : MW_STAR_WALK_STOCHASTIC,
                                              .seed = (uint64_t)i,
-                                             .count = 1};
+                                             .counters = 1};
             mw_star_cursor cursor;
             mw_error error;
             mw_location path, single;
             double q[3];
             for (int k = 0; k < 3; k++) q[k] = random_unit(&random) - 0.5;
-            expect_ok(mw_star_cursor_init(&cursor, s.star, &options, &error), "cursor", &error);
+            expect_ok(mw_star_cursor_init(s.star, &options, &cursor, &error), "cursor", &error);
             mw_star_path(s.star, &cursor, q, NULL, 0, &path);
             tests[f] += cursor.counters.orient_final;
             single = mw_star_locate(s.star, &cursor, q);
@@ -343,14 +343,14 @@ static void test_legs(void **state)
     size_t turns = 0;
     for (int i = 0; i < 2000; i++) {
         mw_star_query_options options = {
-            .walk = MW_STAR_WALK_ORTHOGONAL, .start = MW_STAR_START_FRONT, .seed = (uint64_t)i, .count = 1};
+            .walk = MW_STAR_WALK_ORTHOGONAL, .start = MW_STAR_START_FRONT, .seed = (uint64_t)i, .counters = 1};
         mw_star_cursor cursor;
         mw_error error;
         uint32_t facet[ROOM];
         double q[3], phi, theta, height = 0, middle = 0;
         for (int k = 0; k < 3; k++) q[k] = random_unit(&random) - 0.5;
         mw__star_angles(q, &phi, &theta);
-        expect_ok(mw_star_cursor_init(&cursor, s.star, &options, &error), "cursor", &error);
+        expect_ok(mw_star_cursor_init(s.star, &options, &cursor, &error), "cursor", &error);
         size_t count = mw_star_path(s.star, &cursor, q, facet, ROOM, NULL);
         size_t walked = (size_t)cursor.counters.triangles;
         assert_true(walked >= 1 && walked <= count && count <= ROOM);

@@ -85,7 +85,7 @@ static void expect_at_once(const mw_star *star, const mw_star_index *index, cons
     mw_star_cursor cursor;
     mw_error error;
     mw_location at;
-    expect_ok(mw_star_cursor_init(&cursor, star, &options, &error), "cursor", &error);
+    expect_ok(mw_star_cursor_init(star, &options, &cursor, &error), "cursor", &error);
     if (mw_star_path(star, &cursor, d, NULL, 0, &at) != 1)
         fail_msg("%s: no facet of its own for %.17g %.17g %.17g", mw_star_start_name(index->start), d[0], d[1], d[2]);
 }
@@ -361,7 +361,7 @@ static void test_answers(void **state)
     sphere s = make_sphere(4), other[KINDS] = {make_sphere(4), make_sphere(1), make_sphere(5)};
     double *q = malloc(3 * N * sizeof *q);
     mw_location *want = malloc(N * sizeof *want);
-    mw_star_query_options plain = {.walk = MW_STAR_WALK_STRAIGHT, .start = MW_STAR_START_FRONT, .count = 1};
+    mw_star_query_options plain = {.walk = MW_STAR_WALK_STRAIGHT, .start = MW_STAR_START_FRONT, .counters = 1};
     assert_true(q && want);
     draw_queries(&s.p, q, N, &random);
     mw_error error;
@@ -371,7 +371,7 @@ static void test_answers(void **state)
         for (int kind = 0; kind < KINDS; kind++)
             for (int walk = MW_STAR_WALK_AUTO; walk < MW_STAR_WALK_COUNT; walk++) {
                 mw_star_query_options options = {
-                    .walk = (mw_star_walk_kind)walk, .start = (mw_star_start_kind)start, .count = 1};
+                    .walk = (mw_star_walk_kind)walk, .start = (mw_star_start_kind)start, .counters = 1};
                 mw_star_index *index = NULL;
                 if (mw_star_start_has_index(options.start))
                     index = make_index(other[kind].star, options.start, (mw_star_index_options){0});
@@ -390,7 +390,7 @@ static size_t path_length(const mw_star *star, mw_star_query_options options, co
 {
     mw_star_cursor cursor;
     mw_error error;
-    expect_ok(mw_star_cursor_init(&cursor, star, &options, &error), "cursor", &error);
+    expect_ok(mw_star_cursor_init(star, &options, &cursor, &error), "cursor", &error);
     return mw_star_path(star, &cursor, q, NULL, 0, NULL);
 }
 
@@ -407,19 +407,19 @@ static void test_where_it_begins(void **state)
     for (uint64_t i = 0; i < N; i++) {
         double d[3];
         draw_direction(&random, d);
-        one += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .sample = 1}, d);
-        few += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .sample = 17}, d);
+        one += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 1}, d);
+        few += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 17}, d);
         rule += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i}, d);
         many +=
-            path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .sample = 5000}, d);
+            path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 5000}, d);
         mw_star_query_options last = {.start = MW_STAR_START_LAST, .walk = MW_STAR_WALK_STOCHASTIC};
-        expect_ok(mw_star_cursor_init(&cursor, s.star, &last, &error), "cursor", &error);
+        expect_ok(mw_star_cursor_init(s.star, &last, &cursor, &error), "cursor", &error);
         mw_star_locate(s.star, &cursor, d);
         assert_int_equal(mw_star_path(s.star, &cursor, d, NULL, 0, NULL), 1);
     }
     assert_int_equal(few, rule); /* 2 times the fourth root of 4098 vertices, rounded up */
     assert_true(one > 2 * few && few > 2 * many);
-    path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .sample = UINT32_MAX}, (double[3]){1});
+    path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .samples = UINT32_MAX}, (double[3]){1});
     mw_star_query_options front = {.start = MW_STAR_START_FRONT, .walk = MW_STAR_WALK_STOCHASTIC};
     assert_int_equal(path_length(s.star, front, (double[3]){1, 0, 0}), 1);
     release_sphere(&s);

@@ -325,9 +325,9 @@ static void assert_checked(const solid *s, int weld, const naive *n)
     mw_arrays view = solid_view(s);
     mw_check check;
     assert_int_equal(mw_surface_check_arrays(&view, weld, &check, NULL), MW_OK);
-    assert_int_equal(count_kind(&check, MW_DEFECT_EDGE_SHARED), n->extra);
+    assert_int_equal(count_kind(&check, MW_DEFECT_NON_MANIFOLD_EDGE), n->extra);
     assert_int_equal(count_kind(&check, MW_DEFECT_CLASHING), n->clashing);
-    assert_int_equal(check.embedding, check.defect_count == count_kind(&check, MW_DEFECT_FLAT));
+    assert_int_equal(check.valid, check.defect_count == count_kind(&check, MW_DEFECT_FLAT));
     for (size_t i = 1; i < check.defect_count; i++) {
         const mw_defect *p = &check.defects[i - 1], *q = &check.defects[i];
         assert_true(p->kind < q->kind || (p->kind == q->kind && p->triangle <= q->triangle));
@@ -336,7 +336,7 @@ static void assert_checked(const solid *s, int weld, const naive *n)
         const mw_defect *d = &check.defects[i];
         if (d->kind == MW_DEFECT_CLASHING)
             assert_int_equal(n->link[d->triangle][d->edge], 4 * d->other + d->other_edge);
-        if (d->kind == MW_DEFECT_EDGE_SHARED) assert_int_equal(n->link[d->triangle][d->edge], MW_NONE);
+        if (d->kind == MW_DEFECT_NON_MANIFOLD_EDGE) assert_int_equal(n->link[d->triangle][d->edge], MW_NONE);
     }
     mw_surface *surface;
     mw_status status = mw_surface_create(&view, &(mw_surface_options){.weld = weld}, &surface, NULL);
@@ -388,7 +388,7 @@ static void test_arrays(void **state)
                        .point_stride = 4,
                        .triangles = type == MW_INT64 ? (const void *)wide : v,
                        .triangle_count = 2,
-                       .index_type = (mw_index_type)type};
+                       .integer_type = (mw_integer_type)type};
         mw_surface *surface;
         assert_int_equal(mw_surface_create(&a, NULL, &surface, NULL), MW_OK);
         assert_int_equal(mw_surface_vertex_count(surface), 4);
@@ -432,7 +432,7 @@ static void test_arguments(void **state)
     a.triangles = NULL;
     refused(a, none, MW_ERROR_ARGUMENT);
     a = good;
-    a.index_type = (mw_index_type)3;
+    a.integer_type = (mw_integer_type)3;
     refused(a, none, MW_ERROR_ARGUMENT);
     a = good;
     a.triangle_count = (size_t)MW_MAX_TRIANGLES + 1;
@@ -746,12 +746,12 @@ static void test_empty(void **state)
         assert_true(isnan(info.low[2]) && isnan(info.high[0]) && isnan(info.volume));
         mw_surface_destroy(surface);
         assert_int_equal(mw_surface_check_arrays(&nothing, weld, &check, NULL), MW_OK);
-        assert_true(check.embedding && check.defect_count == 0);
+        assert_true(check.valid && check.defect_count == 0);
         mw_check_release(&check);
     }
     mw_arrays loose = {.triangles = cube_triangles, .triangle_count = 1}; /* a triangle, but no vertices */
     assert_int_equal(mw_surface_check_arrays(&loose, 0, &check, NULL), MW_OK);
-    assert_true(!check.embedding && check.defect_count == 3 && check.defects[2].kind == MW_DEFECT_INDEX);
+    assert_true(!check.valid && check.defect_count == 3 && check.defects[2].kind == MW_DEFECT_MISSING_VERTEX);
     mw_check_release(&check);
 }
 
@@ -774,11 +774,11 @@ static void test_every_defect(void **state)
     mw_check check;
     assert_int_equal(mw_surface_check_arrays(&view, 0, &check, NULL), MW_OK);
     static const mw_defect expected[] = {
-        {MW_DEFECT_INDEX, 5, MW_NONE, 99, 255, 255},          {MW_DEFECT_NOT_FINITE, 4, MW_NONE, 11, 255, 255},
-        {MW_DEFECT_REPEATED_VERTEX, 3, MW_NONE, 5, 255, 255}, {MW_DEFECT_EDGE_SHARED, 2, 0, MW_NONE, 0, 255},
+        {MW_DEFECT_MISSING_VERTEX, 5, MW_NONE, 99, 255, 255}, {MW_DEFECT_NOT_FINITE, 4, MW_NONE, 11, 255, 255},
+        {MW_DEFECT_REPEATED_VERTEX, 3, MW_NONE, 5, 255, 255}, {MW_DEFECT_NON_MANIFOLD_EDGE, 2, 0, MW_NONE, 0, 255},
         {MW_DEFECT_FLAT, 6, MW_NONE, MW_NONE, 255, 255},      {MW_DEFECT_CLASHING, 0, 1, MW_NONE, 1, 0}};
     assert_int_equal(check.defect_count, 6);
-    assert_false(check.embedding);
+    assert_false(check.valid);
     for (size_t i = 0; i < 6; i++) {
         const mw_defect *d = &check.defects[i], *e = &expected[i];
         assert_int_equal(d->kind, e->kind);
@@ -933,7 +933,7 @@ static void test_real(void **state)
         assert_int_equal(count_kind(&check, MW_DEFECT_CLASHING), real[i].clashing);
         assert_int_equal(count_kind(&check, MW_DEFECT_FLAT), info.flat_triangles);
         assert_int_equal(check.defect_count, real[i].clashing + info.flat_triangles);
-        assert_int_equal(check.embedding, real[i].clashing == 0);
+        assert_int_equal(check.valid, real[i].clashing == 0);
         mw_check_release(&check);
         mw_surface_destroy(surface);
         mw_mesh_file_release(&file);

@@ -58,7 +58,7 @@ static int make_world(void **state)
     static world w;
     double *points = random_numbers((size_t)2 * POINTS, 0, 1, 1);
     mw_mesh *whole;
-    assert_int_equal(mw_delaunay(points, POINTS, 2, NULL, NULL, &whole, NULL), MW_OK);
+    assert_int_equal(mw_delaunay(points, POINTS, 2, NULL, NULL, NULL, &whole, NULL), MW_OK);
     w.mesh = with_hole(whole, points);
     mw_mesh_destroy(whole);
     w.query = random_numbers((size_t)2 * QUERIES, -0.05, 1.05, 2);
@@ -72,7 +72,7 @@ static int make_world(void **state)
     w.answer = malloc(QUERIES * sizeof *w.answer);
     assert_non_null(w.answer);
     mw_cursor cursor;
-    assert_int_equal(mw_cursor_init(&cursor, w.locator, NULL, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(w.locator, NULL, &cursor, NULL), MW_OK);
     for (size_t i = 0; i < QUERIES; i++)
         w.answer[i] = mw_locate(w.locator, &cursor, w.query[2 * i], w.query[2 * i + 1]);
     *state = &w;
@@ -122,10 +122,10 @@ static void *single_queries(void *argument)
     mw_query_options options = {.walk = (mw_walk_kind)(1 + j->number % (MW_WALK_COUNT - 1)),
                                 .start = (mw_start_kind)(j->number % MW_START_COUNT),
                                 .seed = j->number,
-                                .count = 1};
+                                .counters = 1};
     options.index = w->index[options.start];
     mw_cursor cursor;
-    if (mw_cursor_init(&cursor, w->locator, &options, NULL)) return "no cursor";
+    if (mw_cursor_init(w->locator, &options, &cursor, NULL)) return "no cursor";
     for (size_t i = 0; i < QUERIES; i++) {
         const double *q = w->query + 2 * i;
         mw_location at = mw_locate(w->locator, &cursor, q[0], q[1]);
@@ -138,7 +138,7 @@ static void *border_and_values(void *argument)
 {
     const world *w = ((const job *)argument)->world;
     for (size_t i = 0; i < QUERIES; i += 10) {
-        mw_border_hit hit;
+        mw_nearest_border_point hit;
         double value;
         const double *q = w->query + 2 * i;
         if (mw_nearest_border(w->locator, q[0], q[1], &hit, NULL)) return "no nearest border";
@@ -170,7 +170,7 @@ static void *locators(void *argument)
         mw_locator *locator;
         mw_cursor cursor;
         if (mw_locator_create(w->mesh, &options, &locator, NULL)) return "no locator";
-        mw_status status = mw_cursor_init(&cursor, locator, NULL, NULL);
+        mw_status status = mw_cursor_init(locator, NULL, &cursor, NULL);
         mw_location at = mw_locate(locator, &cursor, w->query[0], w->query[1]);
         mw_locator_destroy(locator);
         if (status || memcmp(&at, &w->answer[0], sizeof at) != 0) return "another locator answers differently";
@@ -216,7 +216,7 @@ static void test_batch_threads(void **state)
     for (int walk = 0; walk < MW_WALK_COUNT; walk++) {
         mw_counters one = {0}, more;
         for (uint32_t threads = 1; threads <= THREADS; threads++) {
-            mw_query_options options = {.walk = (mw_walk_kind)walk, .threads = threads, .count = 1};
+            mw_query_options options = {.walk = (mw_walk_kind)walk, .threads = threads, .counters = 1};
             memset(location, 0, QUERIES * sizeof *location);
             assert_int_equal(mw_locate_batch(w->locator, w->query, QUERIES, 2, &options, location, &more, NULL), MW_OK);
             assert_memory_equal(location, w->answer, QUERIES * sizeof *location);

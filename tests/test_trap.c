@@ -26,13 +26,13 @@ static void read_queries(trap_data *trap)
     mw_error error;
     size_t count;
     double more[2];
-    if (mw_points_open(MW_TEST_SOURCE "/data/trap.csv", NULL, &reader, &error)) fail_msg("%s", error.message);
-    assert_int_equal(mw_points_width(reader), 2);
-    assert_int_equal(mw_points_read(reader, trap->query[0], QUERIES, &count, NULL), MW_OK);
+    if (mw_point_reader_open(MW_TEST_SOURCE "/data/trap.csv", NULL, &reader, &error)) fail_msg("%s", error.message);
+    assert_int_equal(mw_point_reader_width(reader), 2);
+    assert_int_equal(mw_point_reader_read(reader, trap->query[0], QUERIES, &count, NULL), MW_OK);
     assert_int_equal(count, QUERIES);
-    assert_int_equal(mw_points_read(reader, more, 1, &count, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, more, 1, &count, NULL), MW_OK);
     assert_int_equal(count, 0);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
 }
 
 static int trap_read(void **state)
@@ -230,9 +230,9 @@ static mw_counters locate_all(const trap_data *trap, mw_walk_kind walk, mw_arith
     mw_locator *locator;
     mw_cursor cursor;
     mw_locator_options how = {.areas = areas};
-    mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = arithmetic, .count = 1};
+    mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = arithmetic, .counters = 1};
     assert_int_equal(mw_locator_create(trap->mesh, &how, &locator, NULL), MW_OK);
-    assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
     for (int round = 0; round < ROUNDS; round++)
         for (int i = 0; i < QUERIES; i++) {
             const double *q = trap->query[i];

@@ -31,7 +31,7 @@ static mw_counters count(const mw_locator *locator, mw_query_options options, co
 {
     mw_location *at = malloc(n * sizeof *at);
     mw_counters counters;
-    options.count = 1;
+    options.counters = 1;
     assert_int_equal(mw_locate_batch(locator, q, n, 2, &options, at, &counters, NULL), MW_OK);
     free(at);
     return counters;
@@ -146,7 +146,7 @@ static void test_any_steps_same_answers(void **state)
                                             .steps = steps[k],
                                             .seed = i};
                 mw_cursor cursor;
-                assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+                assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
                 mw_location at = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
                 assert_int_equal(at.triangle, want.triangle);
             }
@@ -167,7 +167,7 @@ static void test_steps_and_fuel(void **state)
     mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
     mw_query_options options = {.walk = MW_WALK_FAST_STOCHASTIC, .start = MW_START_CENTRE};
     mw_cursor cursor;
-    assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+    assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
     mw_walk walk = mw__depart(locator, &cursor, cursor.last, (mw_point){N - 1, N - 1}, &random, NULL);
     assert_true(walk.steps > 1.7 * N / 2 * sqrt(2) && walk.steps < 2.5 * N / 2 * sqrt(2)); /* 2.16 a unit of length */
     assert_int_equal(walk.fuel, cursor.fuel + walk.steps);
@@ -259,7 +259,7 @@ static mw_mesh *needles(uint32_t n, double offset, double height, uint64_t *rand
         points[2 * i + 1] = -offset / 3 + slope * x + y;
     }
     mw_mesh *mesh = NULL; /* where all points are rounded onto one line */
-    mw_delaunay(points, n, 2, NULL, NULL, &mesh, NULL);
+    mw_delaunay(points, n, 2, NULL, NULL, NULL, &mesh, NULL);
     free(points);
     return mesh;
 }
@@ -405,7 +405,7 @@ static void test_any_mesh(void **state)
                                         .steps = i < 6 ? 0 : 50,
                                         .seed = (uint64_t)i};
             mw_cursor cursor;
-            assert_int_equal(mw_cursor_init(&cursor, locator, &options, NULL), MW_OK);
+            assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
             double q[2] = {mw__random_below(&random, 9) / 4.0, mw__random_below(&random, 9) / 4.0};
             mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
             oracle_answer answer;

@@ -46,7 +46,8 @@ static int fail(const trial *t, const mw_error *error)
 static int make_locator(scene *s, mw_triangulation_kind kind, preparation how)
 {
     mw_error error;
-    mw_locator_options options = {.areas = how == AREAS, .fill = how == OPEN ? 2 : 1, .threads = s->trial->threads};
+    mw_locator_options options = {
+        .areas = how == AREAS, .fill = how == OPEN ? MW_FILL_NO : MW_FILL_YES, .threads = s->trial->threads};
     if (s->locator[kind][how]) return 0;
     double clock = tally_clock();
     if (mw_locator_create(s->mesh[kind], &options, &s->locator[kind][how], &error) != MW_OK)
@@ -178,7 +179,7 @@ static mw_query_options options_of(const scene *s, const algorithm *a, mw_arithm
         .walk = mw_walk_by_name(a->walk),
         .finish = mw_walk_by_name(s->trial->finish),
         .start = mw_start_by_name(s->trial->start),
-        .sample = s->trial->sample,
+        .samples = s->trial->sample,
         .index = s->index,
         .arithmetic = arithmetic,
         .threads = s->trial->threads,
@@ -218,7 +219,7 @@ static int count_block(scene *s, size_t n, uint64_t block, mw_counters *sums)
         const algorithm *a = s->trial->algorithms[i];
         mw_counters counters;
         mw_query_options options = options_of(s, a, MW_EXACT);
-        options.count = 1;
+        options.counters = 1;
         options.seed = s->trial->seed + block; /* other random numbers in each block */
         if (mw_locate_batch(locator_for(s, a), s->queries, n, 2, &options, s->locations, &counters, &error) != MW_OK)
             return fail(s->trial, &error);
@@ -303,7 +304,7 @@ static int time_one(void *self, size_t entry, size_t begin, size_t n, double *ti
     const algorithm *a = s->trial->algorithms[entry / 2];
     mw_query_options options = options_of(s, a, entry % 2 ? MW_EXACT : MW_DOUBLE);
     options.seed = s->trial->seed + begin;
-    if (mw_cursor_init(&cursor, locator_for(s, a), &options, &error) != MW_OK) return fail(s->trial, &error);
+    if (mw_cursor_init(locator_for(s, a), &options, &cursor, &error) != MW_OK) return fail(s->trial, &error);
     const double *q = s->queries + 2 * begin;
     double clock = tally_clock();
     for (size_t i = 0; i < n; i++) s->locations[i] = mw_locate(locator_for(s, a), &cursor, q[2 * i], q[2 * i + 1]);

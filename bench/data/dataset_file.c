@@ -49,9 +49,9 @@ static int read_vertices(dataset *d, const char *path, bool *none)
 static int read_blocks(dataset *d, mw_point_reader *reader, double *values)
 {
     mw_error error;
-    size_t width = mw_points_width(reader), room = d->count;
+    size_t width = mw_point_reader_width(reader), room = d->count;
     for (size_t count = 1; count > 0;) {
-        if (mw_points_read(reader, values, BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
+        if (mw_point_reader_read(reader, values, BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
         if (d->count + count > room && !make_room(d, room = 2 * (d->count + count))) return fail_memory();
         for (size_t i = 0; i < count; i++, d->count++)
             for (size_t k = 0; k < 2; k++) d->points[2 * d->count + k] = values[i * width + k];
@@ -64,11 +64,11 @@ static int read_points(dataset *d, const char *path)
 {
     mw_error error;
     mw_point_reader *reader;
-    if (mw_points_open(path, NULL, &reader, &error) != MW_OK) return fail_reading(&error);
-    double *values = malloc(BLOCK * mw_points_width(reader) * sizeof *values);
+    if (mw_point_reader_open(path, NULL, &reader, &error) != MW_OK) return fail_reading(&error);
+    double *values = malloc(BLOCK * mw_point_reader_width(reader) * sizeof *values);
     int end = values ? read_blocks(d, reader, values) : fail_memory();
     free(values);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     return end;
 }
 

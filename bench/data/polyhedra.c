@@ -205,7 +205,7 @@ static mw_status make_hull(polyhedron *p, size_t n, uint64_t *random, mw_error *
             seen[2 * (i - 1)] = dot(q, f.u) / height;
             seen[2 * (i - 1) + 1] = dot(q, f.v) / height;
         }
-        status = mw_delaunay(seen, n - 1, 2, NULL, NULL, &plane, error);
+        status = mw_delaunay(seen, n - 1, 2, NULL, NULL, NULL, &plane, error);
     }
     if (plane) take_facets(p, plane);
     mw_mesh_destroy(plane);

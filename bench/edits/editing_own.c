@@ -33,14 +33,14 @@ static bool make(own *o, const script *s, mw_start_kind start)
     mw_query_options options = {0};
     mw_delaunay_options one_thread = {.threads = 1}; /* others would still be spinning when the clock runs */
     mw_editor_options alone = {.threads = 1};
-    if (mw_delaunay_with(&one_thread, s->points, s->point_count, 2, NULL, NULL, &mesh, NULL) != MW_OK) return false;
+    if (mw_delaunay(s->points, s->point_count, 2, &one_thread, NULL, NULL, &mesh, NULL) != MW_OK) return false;
     bool made = mw_editor_create(mesh, &alone, &o->editor, NULL) == MW_OK;
     mw_mesh_destroy(mesh);
     o->vertex = malloc((s->point_count + s->inserted) * sizeof *o->vertex);
     if (!made || !o->vertex) return false;
     if (start != MW_START_AUTO && mw_editor_index(o->editor, start, NULL, &options.index, NULL) != MW_OK) return false;
     for (size_t i = 0; i < s->point_count; i++) o->vertex[i] = (uint32_t)i;
-    return mw_cursor_init(&o->cursor, mw_editor_locator(o->editor), &options, NULL) == MW_OK;
+    return mw_cursor_init(mw_editor_locator(o->editor), &options, &o->cursor, NULL) == MW_OK;
 }
 
 static void *build_own(const script *s, mw_start_kind start)

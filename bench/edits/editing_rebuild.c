@@ -221,13 +221,13 @@ static int prepare(rebuild *r)
     for (size_t k = 0; k < r->count; k++) room &= (r->times[k] = malloc(p->rounds * sizeof(double))) != NULL;
     if (!room) return fail_memory();
     mw_delaunay_options one_thread = {.threads = 1};
-    if (mw_delaunay_with(&one_thread, r->data.points, p->vertices, 2, NULL, NULL, &mesh, &error) != MW_OK)
+    if (mw_delaunay(r->data.points, p->vertices, 2, &one_thread, NULL, NULL, &mesh, &error) != MW_OK)
         return fail(r, &error);
     mw_status status = mw_editor_create(mesh, &(mw_editor_options){.threads = 1}, &r->editor, &error);
     mw_mesh_destroy(mesh);
     if (status != MW_OK) return fail(r, &error);
     for (; r->alive_count < p->vertices; r->alive_count++) r->alive[r->alive_count] = (uint32_t)r->alive_count;
-    return mw_cursor_init(&r->cursor, mw_editor_locator(r->editor), NULL, &error) == MW_OK ? 0 : fail(r, &error);
+    return mw_cursor_init(mw_editor_locator(r->editor), NULL, &r->cursor, &error) == MW_OK ? 0 : fail(r, &error);
 }
 
 int editings_rebuild(const editing_plan *p, editing_table *table)

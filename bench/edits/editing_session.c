@@ -92,8 +92,8 @@ static int locate(session *s, const beginning *b, size_t begin, size_t n, mw_cou
     mw_error error;
     mw_cursor cursor;
     mw_query_options options = {
-        .start = b->start, .index = b->index, .seed = s->plan->seed + begin, .count = counters != NULL};
-    if (mw_cursor_init(&cursor, s->locator, &options, &error) != MW_OK) return fail(s, &error);
+        .start = b->start, .index = b->index, .seed = s->plan->seed + begin, .counters = counters != NULL};
+    if (mw_cursor_init(s->locator, &options, &cursor, &error) != MW_OK) return fail(s, &error);
     const double *q = s->queries + 2 * begin;
     double clock = tally_clock();
     for (size_t i = 0; i < n; i++) s->found[i] = mw_locate(s->locator, &cursor, q[2 * i], q[2 * i + 1]);
@@ -215,7 +215,7 @@ static int prepare(session *s, size_t edits)
     s->expected = malloc(TIMED_QUERIES * sizeof *s->expected);
     if (!s->alive || !s->queries || !s->found || !s->expected) return fail_memory();
     mw_delaunay_options one_thread = {.threads = 1};
-    if (mw_delaunay_with(&one_thread, s->data.points, p->vertices, 2, NULL, NULL, &mesh, &error) != MW_OK)
+    if (mw_delaunay(s->data.points, p->vertices, 2, &one_thread, NULL, NULL, &mesh, &error) != MW_OK)
         return fail(s, &error);
     mw_status status = mw_editor_create(mesh, &(mw_editor_options){.threads = 1}, &s->editor, &error);
     mw_mesh_destroy(mesh);

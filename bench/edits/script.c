@@ -90,7 +90,7 @@ static int sort_fresh(maker *m, size_t count)
     double *points = m->data.points + 2 * m->s->point_count, *sorted = malloc(2 * count * sizeof *sorted);
     uint32_t *order = malloc(count * sizeof *order);
     int end = sorted && order ? 0 : fail_memory();
-    if (end == 0 && (mw_delaunay(points, count, 2, NULL, NULL, &mesh, &error) != MW_OK ||
+    if (end == 0 && (mw_delaunay(points, count, 2, NULL, NULL, NULL, &mesh, &error) != MW_OK ||
                      mw_mesh_hilbert_order(mesh, NULL, order, &error) != MW_OK))
         end = fail(&error);
     for (size_t i = 0; i < count && end == 0; i++)
@@ -123,7 +123,8 @@ static int find_reach(maker *m)
 {
     mw_error error;
     mw_mesh *mesh;
-    if (mw_delaunay(m->data.points, m->s->point_count, 2, NULL, NULL, &mesh, &error) != MW_OK) return fail(&error);
+    if (mw_delaunay(m->data.points, m->s->point_count, 2, NULL, NULL, NULL, &mesh, &error) != MW_OK)
+        return fail(&error);
     uint32_t *edges = calloc(m->s->point_count, sizeof *edges);
     m->reach = calloc(m->s->point_count, sizeof *m->reach);
     if (edges && m->reach) reach_of_mesh(m, mesh, edges);
@@ -212,7 +213,7 @@ int script_expect(const script *s, uint64_t *sum)
     double *points = malloc(2 * most * sizeof *points);
     bool *gone = calloc(most, sizeof *gone);
     int end = points && gone ? 0 : fail_memory();
-    if (end == 0 && mw_delaunay(points, play(s, points, gone), 2, NULL, NULL, &mesh, &error) != MW_OK)
+    if (end == 0 && mw_delaunay(points, play(s, points, gone), 2, NULL, NULL, NULL, &mesh, &error) != MW_OK)
         end = fail(&error);
     *sum = 0;
     for (uint32_t t = 0; end == 0 && t < mw_mesh_triangle_count(mesh); t++) {

@@ -67,7 +67,8 @@ static int prepare(near *s)
         if (walk == MW_WALK_DIRECT) add_entry(s, walk, true);
     }
     progress_phase("triangulating", s->name);
-    if (mw_delaunay(s->data->points, s->data->count, 2, NULL, NULL, &s->mesh, &error) != MW_OK) return fail(s, &error);
+    if (mw_delaunay(s->data->points, s->data->count, 2, NULL, NULL, NULL, &s->mesh, &error) != MW_OK)
+        return fail(s, &error);
     for (int areas = 0; areas < 2; areas++)
         if (mw_locator_create(s->mesh, &(mw_locator_options){.areas = areas}, &s->locator[areas], &error) != MW_OK)
             return fail(s, &error);
@@ -110,7 +111,7 @@ static int run_entry(near *s, entry *e, size_t n, uint64_t seed)
         .arithmetic = e->arithmetic,
         .seed = seed,
         .threads = s->settings->common.threads,
-        .count = 1,
+        .counters = 1,
     };
     mw_location *locations = e == s->entries ? s->answers : s->locations;
     if (mw_locate_batch(s->locator[e->areas], s->queries, n, 2, &options, locations, &counters, &error) != MW_OK)

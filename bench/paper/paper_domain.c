@@ -76,7 +76,7 @@ static int survey(ground *g, const char *name)
         return END_INPUT;
     }
     if (mw_mesh_describe(g->mesh, &g->info, &error) != MW_OK ||
-        mw_delaunay(g->corners.points, g->corners.count, 2, NULL, NULL, &g->hull, &error) != MW_OK)
+        mw_delaunay(g->corners.points, g->corners.count, 2, NULL, NULL, NULL, &g->hull, &error) != MW_OK)
         return fail_mesh(name, &error);
     return 0;
 }

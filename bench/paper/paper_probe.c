@@ -152,7 +152,7 @@ static mw_probe_options options_of(const scene *s)
 {
     return (mw_probe_options){
         .max_distance = s->distance,
-        .start = MW_PROBE_SAMPLE,
+        .start = MW_PROBE_START_SAMPLE,
         .samples = 2 * (uint32_t)cbrt((double)mw_surface_vertex_count(s->surface)),
         .iterations = s->paper->table->variant == ON_SURFACE ? NO_LIMIT : LIMIT,
         .seed = s->paper->settings->common.seed,
@@ -239,7 +239,7 @@ static int count(scene *s, outcome *o)
     mw_probe_counters sum = {0};
     mw_probe_options options = options_of(s);
     uint64_t done = 0, queries = s->paper->queries;
-    options.count = 1;
+    options.counters = 1;
     progress_phase("counting", s->name);
     for (; done < queries; options.seed++) { /* other random numbers in each block */
         mw_error error;
@@ -266,7 +266,7 @@ static int time_one(void *self, size_t entry, size_t begin, size_t n, double *ti
     mw_probe_cursor cursor;
     mw_probe_options options = options_of(s);
     options.seed += begin + entry;
-    if (mw_probe_cursor_init(&cursor, s->prober, &options, &error) != MW_OK) return fail_mesh(s->name, &error);
+    if (mw_probe_cursor_init(s->prober, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
     const double *q = s->queries + 6 * begin;
     double clock = tally_clock();
     for (size_t i = 0; i < n; i++) s->touches[i] = mw_probe(s->prober, &cursor, q + 6 * i, q + 6 * i + 3);

@@ -119,7 +119,7 @@ static int count_block(scene *s, size_t n, uint64_t block, mw_counters *sums)
     for (size_t i = 0; i < s->algorithms; i++) {
         mw_counters counters;
         mw_star_query_options options = options_of(s, i);
-        options.count = 1;
+        options.counters = 1;
         options.seed += block; /* other random numbers in each block */
         if (mw_star_locate_batch(s->star, s->queries, n, 3, &options, s->locations, &counters, &error) != MW_OK)
             return fail_mesh(s->name, &error);
@@ -179,7 +179,7 @@ static int time_one(void *self, size_t i, size_t begin, size_t n, double *time)
     mw_star_cursor cursor;
     mw_star_query_options options = options_of(s, i);
     options.seed += begin;
-    if (mw_star_cursor_init(&cursor, s->star, &options, &error) != MW_OK) return fail_mesh(s->name, &error);
+    if (mw_star_cursor_init(s->star, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
     const double *q = s->queries + 3 * begin;
     double clock = tally_clock();
     for (size_t k = 0; k < n; k++) s->locations[k] = mw_star_locate(s->star, &cursor, q + 3 * k);

@@ -6,39 +6,40 @@
 #include <string.h>
 #include <strings.h>
 
-static const algorithm remembering = {"remembering", "RW", "remembering", FILLED, MW_DELAUNAY};
-static const algorithm stochastic = {"stochastic", "RSW", "stochastic", FILLED, MW_DELAUNAY};
-static const algorithm barycentric = {"barycentric", "BW", "barycentric", FILLED, MW_DELAUNAY};
-static const algorithm straight = {"straight", "SW", "straight", FILLED, MW_DELAUNAY};
-static const algorithm normal_straight = {"normal-straight", "NSW", "normal-straight", FILLED, MW_DELAUNAY};
-static const algorithm orthogonal = {"orthogonal", "OW", "orthogonal", FILLED, MW_DELAUNAY};
-static const algorithm improved_orthogonal = {"improved-orthogonal", "IOW", "improved-orthogonal", FILLED, MW_DELAUNAY};
-static const algorithm hybrid = {"hybrid", "HW", "hybrid", FILLED, MW_DELAUNAY};
-static const algorithm direct_computed = {"direct-dw2", "DW2", "direct", FILLED, MW_DELAUNAY};
-static const algorithm direct_stored = {"direct-dw1", "DW1", "direct", AREAS, MW_DELAUNAY};
+static const algorithm remembering = {"remembering", "RW", "remembering", FILLED, MW_KIND_DELAUNAY};
+static const algorithm stochastic = {"stochastic", "RSW", "stochastic", FILLED, MW_KIND_DELAUNAY};
+static const algorithm barycentric = {"barycentric", "BW", "barycentric", FILLED, MW_KIND_DELAUNAY};
+static const algorithm straight = {"straight", "SW", "straight", FILLED, MW_KIND_DELAUNAY};
+static const algorithm normal_straight = {"normal-straight", "NSW", "normal-straight", FILLED, MW_KIND_DELAUNAY};
+static const algorithm orthogonal = {"orthogonal", "OW", "orthogonal", FILLED, MW_KIND_DELAUNAY};
+static const algorithm improved_orthogonal = {"improved-orthogonal", "IOW", "improved-orthogonal", FILLED,
+                                              MW_KIND_DELAUNAY};
+static const algorithm hybrid = {"hybrid", "HW", "hybrid", FILLED, MW_KIND_DELAUNAY};
+static const algorithm direct_computed = {"direct-dw2", "DW2", "direct", FILLED, MW_KIND_DELAUNAY};
+static const algorithm direct_stored = {"direct-dw1", "DW1", "direct", AREAS, MW_KIND_DELAUNAY};
 
 /* Appendix D: the mesh as it is; and beside it, on the same mesh with its pockets and holes filled, two that need that. */
-static const algorithm border = {"border", "", "border", OPEN, MW_DELAUNAY};
-static const algorithm filled_straight = {"straight-filled", "", "straight", FILLED, MW_DELAUNAY};
-static const algorithm filled_auto = {"auto-filled", "", "auto", FILLED, MW_DELAUNAY};
-static const algorithm mesh = {"mesh", "", NULL, FILLED, MW_DELAUNAY};
+static const algorithm border = {"border", "", "border", OPEN, MW_KIND_DELAUNAY};
+static const algorithm filled_straight = {"straight-filled", "", "straight", FILLED, MW_KIND_DELAUNAY};
+static const algorithm filled_auto = {"auto-filled", "", "auto", FILLED, MW_KIND_DELAUNAY};
+static const algorithm mesh = {"mesh", "", NULL, FILLED, MW_KIND_DELAUNAY};
 
 /* Appendix E, Table 1: one walk in four triangulations. */
-static const algorithm delaunay = {"delaunay", "DT", "stochastic", FILLED, MW_DELAUNAY};
-static const algorithm greedy = {"greedy", "GT", "stochastic", FILLED, MW_GREEDY};
-static const algorithm min_weight = {"min-weight", "MWT", "stochastic", FILLED, MW_MIN_WEIGHT};
-static const algorithm min_max_angle = {"min-max-angle", "MMA", "stochastic", FILLED, MW_MIN_MAX_ANGLE};
-static const algorithm kinds = {"kinds", "", NULL, FILLED, MW_DELAUNAY};
+static const algorithm delaunay = {"delaunay", "DT", "stochastic", FILLED, MW_KIND_DELAUNAY};
+static const algorithm greedy = {"greedy", "GT", "stochastic", FILLED, MW_KIND_GREEDY};
+static const algorithm min_weight = {"min-weight", "MWT", "stochastic", FILLED, MW_KIND_MIN_WEIGHT};
+static const algorithm min_max_angle = {"min-max-angle", "MMA", "stochastic", FILLED, MW_KIND_MIN_MAX_ANGLE};
+static const algorithm kinds = {"kinds", "", NULL, FILLED, MW_KIND_DELAUNAY};
 
 /* Appendix F, Table 1; and Table 2, whose rows are ways to begin. */
-static const algorithm wu = {"barycentric", "WBW", "barycentric", FILLED, MW_DELAUNAY};
-static const algorithm spatial_forgetful = {"forgetful", "RSW", "forgetful", FILLED, MW_DELAUNAY};
-static const algorithm octahedron = {"octahedron", "WBW", "barycentric", FILLED, MW_DELAUNAY};
-static const algorithm grid = {"grid", "OW", "orthogonal", FILLED, MW_DELAUNAY};
-static const algorithm nonuniform_grid = {"nonuniform-grid", "OW", "orthogonal", FILLED, MW_DELAUNAY};
+static const algorithm wu = {"barycentric", "WBW", "barycentric", FILLED, MW_KIND_DELAUNAY};
+static const algorithm spatial_forgetful = {"forgetful", "RSW", "forgetful", FILLED, MW_KIND_DELAUNAY};
+static const algorithm octahedron = {"octahedron", "WBW", "barycentric", FILLED, MW_KIND_DELAUNAY};
+static const algorithm grid = {"grid", "OW", "orthogonal", FILLED, MW_KIND_DELAUNAY};
+static const algorithm nonuniform_grid = {"nonuniform-grid", "OW", "orthogonal", FILLED, MW_KIND_DELAUNAY};
 
 /* Appendix G has one walk. */
-static const algorithm plane = {"plane", "", "plane", FILLED, MW_DELAUNAY};
+static const algorithm plane = {"plane", "", "plane", FILLED, MW_KIND_DELAUNAY};
 
 #define SET(kind) (1u << DATASET_##kind)
 

@@ -115,7 +115,7 @@ static double locate_one_by_one(own *o, const double *queries, size_t n, mw_star
 {
     mw_cursor cursor;
     mw_query_options options = {.start = start, .index = o->index};
-    if (!make_room(o, n) || mw_cursor_init(&cursor, o->locator, &options, NULL) != MW_OK) return ENGINE_FAILED;
+    if (!make_room(o, n) || mw_cursor_init(o->locator, &options, &cursor, NULL) != MW_OK) return ENGINE_FAILED;
     double clock = tally_clock();
     for (size_t i = 0; i < n; i++) o->found[i] = mw_locate(o->locator, &cursor, queries[2 * i], queries[2 * i + 1]);
     double seconds = tally_clock() - clock;
@@ -139,7 +139,7 @@ static double triangulate(const double *points, size_t n, unsigned threads, size
     mw_mesh *mesh;
     mw_delaunay_options options = {.threads = threads};
     double clock = tally_clock();
-    if (mw_delaunay_with(&options, points, n, 2, NULL, NULL, &mesh, NULL) != MW_OK) return ENGINE_FAILED;
+    if (mw_delaunay(points, n, 2, &options, NULL, NULL, &mesh, NULL) != MW_OK) return ENGINE_FAILED;
     double seconds = tally_clock() - clock;
     *size = mw_mesh_bytes(mesh);
     mw_mesh_destroy(mesh);

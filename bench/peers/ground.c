@@ -39,7 +39,7 @@ int ground_of_points(ground *g, const char *name, dataset *data, uint64_t seed)
     g->mesh.point_count = data->count;
     data->points = g->domain.points = NULL;
     progress_phase("triangulating", name);
-    if (mw_delaunay(g->points, data->count, 2, NULL, NULL, &g->drawn_in, &error) != MW_OK) return fail(g, &error);
+    if (mw_delaunay(g->points, data->count, 2, NULL, NULL, NULL, &g->drawn_in, &error) != MW_OK) return fail(g, &error);
     return take_triangles(g);
 }
 
@@ -264,7 +264,7 @@ static int draw_coherent(ground *g, double *queries, size_t n)
     mw_query_options options = {.start = MW_START_LAST};
     uint32_t triangle = 0;
     double heading = 0;
-    if (mw_cursor_init(&cursor, g->locator, &options, &error) != MW_OK) return fail(g, &error);
+    if (mw_cursor_init(g->locator, &options, &cursor, &error) != MW_OK) return fail(g, &error);
     for (size_t i = 0; i < n; i++) {
         double *q = queries + 2 * i;
         if (i > 0 && step(g, &cursor, &triangle, &heading, q - 2, q)) continue;

@@ -185,8 +185,7 @@ double run_plain(const Scene &s)
     mw_delaunay_options one_thread = {};
     one_thread.threads = 1;
     Stopwatch watch;
-    if (mw_delaunay_with(&one_thread, s.points.data(), s.points.size() / 2, 2, nullptr, nullptr, &mesh, &error) !=
-        MW_OK)
+    if (mw_delaunay(s.points.data(), s.points.size() / 2, 2, &one_thread, nullptr, nullptr, &mesh, &error) != MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     mw_mesh_destroy(mesh);

@@ -20,7 +20,7 @@ double run_ours(const Coordinates &points, unsigned threads, size_t &triangles)
     mw_delaunay_options setup = {};
     setup.threads = threads;
     Stopwatch watch;
-    if (mw_delaunay_with(&setup, points.data(), points.size() / 2, 2, nullptr, nullptr, &mesh, &error) != MW_OK)
+    if (mw_delaunay(points.data(), points.size() / 2, 2, &setup, nullptr, nullptr, &mesh, &error) != MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     triangles = mw_mesh_triangle_count(mesh);

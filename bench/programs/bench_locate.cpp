@@ -30,7 +30,7 @@ struct Scene {
           peer_queries(peer_points(queries))
     {
         mw_error error;
-        if (mw_delaunay(points.data(), points.size() / 2, 2, nullptr, nullptr, &mesh, &error) != MW_OK ||
+        if (mw_delaunay(points.data(), points.size() / 2, 2, NULL, nullptr, nullptr, &mesh, &error) != MW_OK ||
             mw_locator_create(mesh, nullptr, &locator, &error) != MW_OK)
             fail(error.message);
         std::vector<Point> same = peer_points(points);
@@ -53,7 +53,7 @@ mw_query_options how(mw_walk_kind walk, mw_start_kind start, int count)
     options.walk = walk;
     options.start = start;
     options.threads = 1;
-    options.count = count;
+    options.counters = count;
     return options;
 }
 

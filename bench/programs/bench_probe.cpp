@@ -140,7 +140,7 @@ class Prober
     void restart()
     {
         mw_error error;
-        if (mw_probe_cursor_init(&cursor, prober, &options, &error) != MW_OK) fail(error.message);
+        if (mw_probe_cursor_init(prober, &options, &cursor, &error) != MW_OK) fail(error.message);
     }
     Answer operator()(const double *query)
     {
@@ -206,7 +206,7 @@ Coordinates make_path(const Scene &scene, double height, size_t n, uint64_t seed
     mw_surface_vertex(scene.surface, scene.model.triangles[0], p);
     std::copy(p, p + 3, moved);
     for (size_t i = 0; i < n; i++) {
-        mw_surface_hit hit;
+        mw_nearest_surface_point hit;
         mw_error error;
         if (mw_nearest_on_surface(scene.boxed, p, INFINITY, &hit, &error) != MW_OK) fail(error.message);
         for (size_t k = 0; k < 3; k++) moved[k] = hit.point[k] - moved[k];

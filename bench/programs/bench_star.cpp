@@ -139,7 +139,7 @@ mw_star_query_options how(const Polyhedron &p, mw_star_walk_kind walk, mw_star_s
     options.start = start;
     options.index = p.index[start];
     options.threads = 1;
-    options.count = count;
+    options.counters = count;
     return options;
 }
 
@@ -148,7 +148,7 @@ double run_single(const Polyhedron &p, const Coordinates &rays, const mw_star_qu
 {
     mw_star_cursor cursor;
     mw_error error;
-    if (mw_star_cursor_init(&cursor, p.star, &options, &error) != MW_OK) fail(error.message);
+    if (mw_star_cursor_init(p.star, &options, &cursor, &error) != MW_OK) fail(error.message);
     Stopwatch watch;
     for (size_t i = 0; i < found.size(); i++) found[i] = mw_star_locate(p.star, &cursor, &rays[3 * i]);
     double seconds = watch.seconds();

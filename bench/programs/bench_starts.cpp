@@ -19,7 +19,7 @@ struct Scene {
         : points(make_points(name, size, options.seed)), queries(make_queries(points, options.queries, options.seed))
     {
         mw_error error;
-        if (mw_delaunay(points.data(), points.size() / 2, 2, nullptr, nullptr, &mesh, &error) != MW_OK ||
+        if (mw_delaunay(points.data(), points.size() / 2, 2, NULL, nullptr, nullptr, &mesh, &error) != MW_OK ||
             mw_locator_create(mesh, nullptr, &locator, &error) != MW_OK)
             fail(error.message);
         for (int i = 0; i < MW_START_COUNT; i++) {
@@ -62,10 +62,10 @@ mw_query_options how(const Scene &scene, mw_walk_kind walk, const Start &start, 
     mw_query_options options = {};
     options.walk = walk;
     options.start = start.kind;
-    options.sample = start.sample;
+    options.samples = start.sample;
     options.index = scene.index[start.kind];
     options.threads = 1;
-    options.count = count;
+    options.counters = count;
     return options;
 }
 

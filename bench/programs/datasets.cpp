@@ -16,18 +16,18 @@ Coordinates from_file(const std::string &path, size_t n)
 {
     mw_point_reader *reader;
     mw_error error;
-    if (mw_points_open(path.c_str(), nullptr, &reader, &error) != MW_OK) fail(error.message);
-    size_t width = mw_points_width(reader), count = 0;
+    if (mw_point_reader_open(path.c_str(), nullptr, &reader, &error) != MW_OK) fail(error.message);
+    size_t width = mw_point_reader_width(reader), count = 0;
     std::vector<double> values(width * 4096);
     Coordinates points;
     do {
-        if (mw_points_read(reader, values.data(), 4096, &count, &error) != MW_OK) fail(error.message);
+        if (mw_point_reader_read(reader, values.data(), 4096, &count, &error) != MW_OK) fail(error.message);
         for (size_t i = 0; i < count && points.size() < 2 * n; i++) {
             points.push_back(values[i * width]);
             points.push_back(values[i * width + 1]);
         }
     } while (count > 0 && points.size() < 2 * n);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     return points;
 }
 

@@ -226,7 +226,7 @@ static void report(const char *name, const cloud *points)
     mw_mesh *mesh;
     mw_error error;
     calls list[LISTS];
-    if (mw_delaunay(points->xy, points->count, 2, NULL, NULL, &mesh, &error) != MW_OK) {
+    if (mw_delaunay(points->xy, points->count, 2, NULL, NULL, NULL, &mesh, &error) != MW_OK) {
         fprintf(stderr, "filter_rate: %s: %s\n", name, error.message);
         exit(3);
     }

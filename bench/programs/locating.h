@@ -15,7 +15,7 @@ inline double run_single(const mw_locator *locator, const Coordinates &queries, 
 {
     mw_cursor cursor;
     mw_error error;
-    if (mw_cursor_init(&cursor, locator, &options, &error) != MW_OK) fail(error.message);
+    if (mw_cursor_init(locator, &options, &cursor, &error) != MW_OK) fail(error.message);
     Stopwatch watch;
     for (size_t i = 0; i < found.size(); i++)
         found[i] = mw_locate(locator, &cursor, queries[2 * i], queries[2 * i + 1]);

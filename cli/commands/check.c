@@ -16,12 +16,12 @@ static const option check_options[] = {
 
 /* Names for scripts: they stay when the texts change. */
 static const char *const kind_names[MW_DEFECT_COUNT] = {
-    [MW_DEFECT_INDEX] = "index",
+    [MW_DEFECT_MISSING_VERTEX] = "index",
     [MW_DEFECT_NOT_FINITE] = "not-finite",
     [MW_DEFECT_REPEATED_VERTEX] = "repeated-vertex",
-    [MW_DEFECT_EDGE_SHARED] = "edge-shared",
+    [MW_DEFECT_NON_MANIFOLD_EDGE] = "edge-shared",
     [MW_DEFECT_FOLDED] = "folded",
-    [MW_DEFECT_TURN] = "turn",
+    [MW_DEFECT_WINDING] = "turn",
     [MW_DEFECT_CROSSING] = "crossing",
     [MW_DEFECT_VERTEX_IN_EDGE] = "vertex-in-edge",
     [MW_DEFECT_OVERLAP] = "overlap",
@@ -29,7 +29,7 @@ static const char *const kind_names[MW_DEFECT_COUNT] = {
     [MW_DEFECT_CLASHING] = "clashing",
     [MW_DEFECT_OPEN_EDGE] = "open-edge",
     [MW_DEFECT_THROUGH_CENTRE] = "through-centre",
-    [MW_DEFECT_TURNED] = "turned",
+    [MW_DEFECT_BACK_FACING] = "turned",
     [MW_DEFECT_COVERED] = "covered",
 };
 
@@ -76,7 +76,7 @@ static outcome outcome_of(const taken_as *s, const mw_check *check, const mw_mes
     size_t flat = 0;
     for (size_t i = 0; i < check->defect_count; i++) flat += check->defects[i].kind == MW_DEFECT_FLAT;
     bool area = s->as == AS_PLANE ? files_has_area(file) : flat < file->triangle_count;
-    outcome o = {&verdicts[s->as], .sound = check->embedding, .good = check->embedding && area};
+    outcome o = {&verdicts[s->as], .sound = check->valid, .good = check->valid && area};
     size_t defects = check->defect_count - flat;
     char remark[48] = "";
     if (flat) snprintf(remark, sizeof remark, "; %zu flat triangle%s", flat, flat == 1 ? "" : "s");

@@ -19,7 +19,7 @@ typedef struct edit_settings {
     common_settings common;
     const char *constraints, *paths[SESSION_OUTPUTS];
     uint32_t undo, cells, layers;
-    int delaunay, format, walk, start; /* mw_editor_options.delaunay; number of a format; mw_walk_kind, mw_start_kind */
+    int delaunay, format, walk, start; /* mw_delaunay_mode; number of a format; mw_walk_kind, mw_start_kind */
     bool skip, heights, strict, stats, json;
 } edit_settings;
 
@@ -167,11 +167,11 @@ static int keep_names(work *w, const mw_mesh *mesh)
     w->name_count = count;
     for (size_t i = 0; i < count; i++) {
         const char *name = mw_mesh_field_name(mesh, i);
-        w->names[mw_editor_field(w->session.editor, name)] = strdup(name);
+        w->names[mw_editor_field_by_name(w->session.editor, name)] = strdup(name);
     }
     for (size_t i = 0; i < count; i++)
         if (!w->names[i]) return fail_memory();
-    w->session.fields = (mw_edits_options){.fields = (const char *const *)w->names, .field_count = count};
+    w->session.fields = (mw_edit_text_options){.fields = (const char *const *)w->names, .field_count = count};
     return 0;
 }
 
@@ -180,24 +180,24 @@ static int make_cursor(const edit_settings *s, session *e)
     mw_error error;
     mw_start_kind start = (mw_start_kind)s->start;
     mw_query_options asking = {
-        .walk = (mw_walk_kind)s->walk, .start = start, .seed = s->common.seed, .count = s->stats};
+        .walk = (mw_walk_kind)s->walk, .start = start, .seed = s->common.seed, .counters = s->stats};
     mw_index_options options = {.cells = s->cells, .layers = s->layers, .seed = s->common.seed};
     if (mw_start_has_index(start) && mw_editor_index(e->editor, start, &options, &asking.index, &error) != MW_OK)
         return fail_query(&error);
     const mw_locator *locator = mw_editor_locator(e->editor);
-    return mw_cursor_init(&e->cursor, locator, &asking, &error) == MW_OK ? 0 : fail_query(&error);
+    return mw_cursor_init(locator, &asking, &e->cursor, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
 static int make_editor(const edit_settings *s, const char *path, const mw_mesh *mesh, work *w)
 {
     mw_error error;
-    mw_editor_options options = {.delaunay = s->delaunay,
+    mw_editor_options options = {.delaunay = (mw_delaunay_mode)s->delaunay,
                                  .undo = w->session.undo,
-                                 .constraints = w->fixed.vertex,
-                                 .constraint_count = w->fixed.count,
+                                 .constrained_edges = w->fixed.vertex,
+                                 .constrained_edge_count = w->fixed.count,
                                  .threads = s->common.threads};
     if (mw_editor_create(mesh, &options, &w->session.editor, &error) != MW_OK) return fail_mesh_defect(path, &error);
-    w->session.heights = s->heights ? mw_editor_field(w->session.editor, "z") : MW_NONE;
+    w->session.heights = s->heights ? mw_editor_field_by_name(w->session.editor, "z") : MW_NONE;
     if (s->heights && w->session.heights == MW_NONE) {
         complain("%s: has no heights for --heights", path);
         return END_INPUT;
@@ -239,7 +239,7 @@ static void report_editor(report *r, const mw_editor *editor)
     report_count(r, "triangles", info.triangles);
     report_count(r, "vertex_range", info.vertex_range);
     report_count(r, "triangle_range", info.triangle_range);
-    report_count(r, "constraints", info.constraints);
+    report_count(r, "constraints", info.constrained_edges);
     report_flag(r, "delaunay", info.delaunay);
     report_flag(r, "convex", info.convex);
     report_count(r, "editor_bytes", info.bytes);

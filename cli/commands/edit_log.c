@@ -4,8 +4,8 @@
 
 static void write_line(edit_log *log, const mw_edit_line *line)
 {
-    char text[MW_EDIT_TEXT + 1];
-    size_t length = mw_edit_format(text, line, log->fields);
+    char text[MW_EDIT_TEXT_SIZE + 1];
+    size_t length = mw_edit_format(line, log->fields, text);
     text[length++] = '\n';
     mw_output_write(log->out, text, length);
 }

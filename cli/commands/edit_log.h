@@ -9,7 +9,7 @@
 
 typedef struct edit_log {
     mw_output *out; /* NULL: nothing is logged */
-    const mw_edits_options *fields;
+    const mw_edit_text_options *fields;
     size_t undo;               /* so many edits can be undone, at least one      */
     mw_edit *edit;             /* a ring: the oldest one is edit[first]         */
     size_t first, count, room; /* room: for so many, at most `undo`              */

@@ -93,7 +93,7 @@ static int not_there(const search *s, size_t segment, const char *what, const do
     text_double(&place, at[0]);
     text_string(&place, " ");
     text_double(&place, at[1]);
-    complain("%s: %s %" PRIu32 ": %s %.*s is not in %s", s->path, s->file->place_name, s->file->place[segment], what,
+    complain("%s: %s %" PRIu32 ": %s %.*s is not in %s", s->path, s->file->record_name, s->file->record[segment], what,
              (int)place.size, place.failed ? "" : place.bytes, s->mesh_path);
     text_release(&place);
     return END_INPUT;
@@ -131,7 +131,7 @@ static int follow_all(search *s, fixed_edges *e)
     mw_error error;
     if (!stars_make(&s->stars, s->mesh)) return fail_memory();
     if (mw_locator_create(s->mesh, NULL, &s->locator, &error) != MW_OK) return fail_mesh(s->mesh_path, &error);
-    int end = mw_cursor_init(&s->cursor, s->locator, NULL, &error) == MW_OK ? 0 : fail_query(&error);
+    int end = mw_cursor_init(s->locator, NULL, &s->cursor, &error) == MW_OK ? 0 : fail_query(&error);
     for (size_t i = 0; end == 0 && i < s->file->segment_count; i++) end = follow(s, i, e);
     return end;
 }

@@ -20,7 +20,7 @@ static const option locate_options[] = {
 /* The nearest border edge is told of points that are not in a triangle. */
 static void details(const query *q, const double point[2], const mw_location *where, text *out)
 {
-    mw_border_hit hit = {0};
+    mw_nearest_border_point hit = {0};
     bool away = where->where == MW_OUTSIDE || where->where == MW_IN_HOLE || where->where == MW_NEAR;
     if (away) away = mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) == MW_OK;
     row_count(out, where->local != 255, where->local);

@@ -21,10 +21,10 @@ static const char *start_name(int i)
 static const char *start_help(int i)
 {
     static const char *const texts[MW_PROBE_START_COUNT] = {
-        [MW_PROBE_AUTO] = "last where that triangle is near, else sample",
-        [MW_PROBE_LAST] = "the triangle of the query before; else, and in further walks, as sample",
-        [MW_PROBE_SAMPLE] = "the nearest of a sample of triangles whose fronts the motion points at",
-        [MW_PROBE_RANDOM] = "a random triangle whose front the motion points at",
+        [MW_PROBE_START_AUTO] = "last where that triangle is near, else sample",
+        [MW_PROBE_START_LAST] = "the triangle of the query before; else, and in further walks, as sample",
+        [MW_PROBE_START_SAMPLE] = "the nearest of a sample of triangles whose fronts the motion points at",
+        [MW_PROBE_START_RANDOM] = "a random triangle whose front the motion points at",
     };
     return texts[i];
 }
@@ -142,7 +142,7 @@ static int answer_probes(void *self, const queries *block, void *answers)
         .race = s->race,
         .threads = s->stream.common.threads,
         .seed = s->stream.common.seed + block->block, /* other random numbers in each block */
-        .count = s->stream.stats,
+        .counters = s->stream.stats,
     };
     if (mw_probe_batch(p->prober, block->values, block->count, block->stride, &options, answers, &counters, &error) !=
         MW_OK)

@@ -31,11 +31,10 @@ static const char *finish_name(int i)
     return i < (int)(sizeof finishes / sizeof *finishes) ? mw_walk_name(finishes[i]) : NULL;
 }
 
-/* What becomes of pockets and holes: the numbers of mw_locator_options.fill. */
-enum { FILL_AUTO, FILL_YES, FILL_NO };
+/* What becomes of pockets and holes: by mw_fill_mode. */
 static const char *fill_name(int i)
 {
-    static const char *const names[] = {"auto", "yes", "no", NULL};
+    static const char *const names[] = {[MW_FILL_AUTO] = "auto", [MW_FILL_YES] = "yes", [MW_FILL_NO] = "no", NULL};
     return names[i];
 }
 
@@ -116,9 +115,9 @@ static int make_locator(query *q, const char *path, bool border, bool area)
     mw_locator_options options = {.any = settings->any,
                                   .border = border || settings->tolerance > 0,
                                   .areas = settings->areas,
-                                  .fill = settings->fill,
+                                  .fill = (mw_fill_mode)settings->fill,
                                   .threads = settings->stream.common.threads};
-    if (settings->walk == MW_WALK_BORDER && settings->fill == FILL_AUTO) options.fill = FILL_NO;
+    if (settings->walk == MW_WALK_BORDER && settings->fill == MW_FILL_AUTO) options.fill = MW_FILL_NO;
     if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK) return fail_defect(q, path, area, &error);
     warn_if_void(q, path);
     return 0;
@@ -133,7 +132,7 @@ int query_check_index(uint32_t cells, uint32_t layers)
 /* Only the border walk does without what fills pockets and holes. */
 static int check_fill(const query_settings *settings)
 {
-    if (settings->fill != FILL_NO || settings->walk == MW_WALK_AUTO || settings->walk == MW_WALK_BORDER) return 0;
+    if (settings->fill != MW_FILL_NO || settings->walk == MW_WALK_AUTO || settings->walk == MW_WALK_BORDER) return 0;
     complain("--fill no wants --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
     return END_USAGE;
 }
@@ -196,11 +195,11 @@ static int locate_block(void *self, const queries *block, void *answers)
         .arithmetic = (mw_arithmetic)settings->arithmetic,
         .finish = finishes[settings->finish],
         .seed = settings->stream.common.seed + block->block, /* other random numbers in each block */
-        .sample = settings->sample,
+        .samples = settings->sample,
         .steps = settings->steps,
         .threads = settings->stream.common.threads,
         .tolerance = settings->tolerance,
-        .count = settings->stream.stats,
+        .counters = settings->stream.stats,
         .index = a->query->index,
     };
     mw_status status = mw_locate_batch(a->query->locator, block->values, block->count, block->stride, &options, answers,
@@ -242,7 +241,7 @@ static void report_memory(report *r, const query *q)
     tally_report_seconds(r, "start_seconds", index.seconds);
     report_count(r, "ghost_triangles", locator.ghost_triangles);
     report_count(r, "fill_bytes", locator.fill_bytes);
-    report_count(r, "pieces", locator.pieces);
+    report_count(r, "pieces", locator.components);
 }
 
 static void report_query(const void *self, report *r)

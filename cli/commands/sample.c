@@ -43,7 +43,7 @@ typedef struct sampling {
 } sampling;
 
 /* Value at the point of the border that is nearest. */
-static double border_value(const query *q, const double *values, const mw_border_hit *hit)
+static double border_value(const query *q, const double *values, const mw_nearest_border_point *hit)
 {
     mw_location at = {.weight = {hit->weight[0], hit->weight[1], hit->weight[2]}, .triangle = hit->triangle};
     double value;
@@ -67,7 +67,7 @@ static double plane_value(const query *q, const double *values, uint32_t triangl
 
 static double value_outside(const query *q, const sampling *s, const double point[2])
 {
-    mw_border_hit hit;
+    mw_nearest_border_point hit;
     if (mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) != MW_OK) return NAN;
     double value = s->outside == OUTSIDE_LINEAR ? plane_value(q, s->values, hit.triangle, point) : NAN;
     return isfinite(value) ? value : border_value(q, s->values, &hit);

@@ -60,12 +60,12 @@ static void change_row(session *s, int64_t line, const char *kind, const mw_chan
     if (!s->output[SESSION_CHANGES].out) return;
     text_printf(row, "%" PRId64 ",%s", line, kind);
     row_count(row, c->vertex != MW_NONE, c->vertex);
-    text_string(row, c->vertex_made ? ",made" : c->vertex_freed ? ",freed" : ",");
+    text_string(row, c->vertices_made ? ",made" : c->vertices_freed ? ",freed" : ",");
     numbers_cell(row, c, 0, c->made);
     numbers_cell(row, c, c->made, c->reused);
     numbers_cell(row, c, c->made + c->reused, c->freed);
     row_count(row, true, c->flips);
-    row_count(row, true, c->pieces);
+    row_count(row, true, c->constrained_edges);
     row_end(row);
     write_row(s, SESSION_CHANGES);
 }
@@ -230,7 +230,7 @@ static int next_line(session *s, const char *path, mw_edit_reader *reader, bool 
 {
     mw_error error;
     mw_edit_line line;
-    mw_status status = mw_edits_read(reader, &line, &error);
+    mw_status status = mw_edit_reader_read(reader, &line, &error);
     *more = line.line > 0;
     s->lines += *more;
     if (status == MW_OK) return carry_out(s, path, &line);
@@ -252,7 +252,7 @@ int session_run(session *s, const char *path)
     mw_edit_reader *reader;
     int end = 0;
     progress_phase("editing", path);
-    if (mw_edits_open(path, &s->fields, &reader, &error) != MW_OK) return fail_reading(&error);
+    if (mw_edit_reader_open(path, &s->fields, &reader, &error) != MW_OK) return fail_reading(&error);
     s->log = (edit_log){.out = s->output[SESSION_LOG].out, .fields = &s->fields, .undo = s->undo};
     write_headers(s);
     for (bool more = true; more && end == 0;) {
@@ -262,7 +262,7 @@ int session_run(session *s, const char *path)
         if (outputs_failed(s->output, SESSION_OUTPUTS)) break; /* closing them reports what failed */
     }
     edit_log_flush(&s->log);
-    mw_edits_close(reader);
+    mw_edit_reader_close(reader);
     return end == 0 && s->row.failed ? fail_memory() : end;
 }
 

@@ -12,11 +12,11 @@ enum { SESSION_ANSWERS, SESSION_CHANGES, SESSION_LOG, SESSION_NUMBERS, SESSION_O
 
 typedef struct session {
     mw_editor *editor;
-    mw_cursor cursor;        /* of the editor's locator */
-    mw_edits_options fields; /* their names */
-    uint32_t heights;        /* the field that answers carry, MW_NONE: none */
-    size_t undo;             /* so many edits can be undone */
-    bool skip, quiet;        /* pass bad lines over; do not name them then */
+    mw_cursor cursor;            /* of the editor's locator */
+    mw_edit_text_options fields; /* their names */
+    uint32_t heights;            /* the field that answers carry, MW_NONE: none */
+    size_t undo;                 /* so many edits can be undone */
+    bool skip, quiet;            /* pass bad lines over; do not name them then */
     output_file output[SESSION_OUTPUTS];
     edit_log log;
     text row;

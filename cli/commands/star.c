@@ -177,9 +177,9 @@ static int answer_rays(void *self, const queries *block, void *answers)
         .start = (mw_star_start_kind)s->start,
         .finish = finishes[s->finish],
         .seed = common->seed + block->block, /* other random numbers in each block */
-        .sample = s->sample,
+        .samples = s->sample,
         .threads = common->threads,
-        .count = s->stream.stats,
+        .counters = s->stream.stats,
         .index = r->index,
     };
     const double *points = block->values;

@@ -77,7 +77,7 @@ typedef struct work {
     vertices vertices;
     mw_constraint_file constraints;
     uint32_t *duplicate_of; /* with constraints: as mw_constrained_delaunay tells */
-    mw_pieces pieces;
+    mw_constrained_edges edges;
     mw_constrain_report constrained;
     mw_kind_report kind;
     double begin;
@@ -87,7 +87,7 @@ static void release(work *w)
 {
     vertices_release(&w->vertices);
     mw_constraint_file_release(&w->constraints);
-    mw_pieces_release(&w->pieces);
+    mw_constrained_edges_release(&w->edges);
     free(w->duplicate_of);
 }
 
@@ -100,10 +100,10 @@ static mw_keep keep_of(const triangulate_settings *s, const work *w)
 
 static int fail_constrained(const triangulate_settings *s, const char *points, const work *w, const mw_error *error)
 {
-    const uint32_t *cross = w->constrained.cross;
+    const uint32_t *cross = w->constrained.crossing_segments;
     if (error->status == MW_ERROR_INPUT && cross[0] != MW_NONE)
         return constraints_cross(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split);
-    if (error->status == MW_ERROR_INPUT && w->constrained.removed > 0) {
+    if (error->status == MW_ERROR_INPUT && w->constrained.triangles_removed > 0) {
         complain("%s: %s; --keep hull keeps them", s->constraints, error->message);
         return END_INPUT;
     }
@@ -125,20 +125,20 @@ static int constrain(const triangulate_settings *s, const char *points, work *w)
                                   .segments = c->segments,
                                   .segment_count = c->segment_count,
                                   .polygon = c->polygon,
-                                  .holes = c->holes,
-                                  .hole_count = c->hole_count};
+                                  .hole_seeds = c->hole_seeds,
+                                  .hole_seed_count = c->hole_seed_count};
     mw_constrain_options options = {.keep = keep_of(s, w), .split = s->split, .threads = s->common.threads};
     w->duplicate_of = malloc((count + 1) * sizeof *w->duplicate_of);
-    w->constrained.cross[0] = w->constrained.cross[1] = MW_NONE;
+    w->constrained.crossing_segments[0] = w->constrained.crossing_segments[1] = MW_NONE;
     if (!w->duplicate_of) return fail_memory();
     progress_phase("triangulating", s->constraints);
-    if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->pieces, &mesh, &error) !=
+    if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->edges, &mesh, &error) !=
         MW_OK)
         return fail_constrained(s, points, w, &error);
     int end = vertices_complete(&w->vertices, mesh);
     mw_mesh_destroy(mesh);
     bool flat = false;
-    if (end == 0) end = heights_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->pieces, &flat);
+    if (end == 0) end = heights_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, &flat);
     if (end == 0 && flat && !s->common.quiet)
         complain("%s: warning: its points lie on one line, or are fewer than three, so vertices of constraints that "
                  "have no values of their own get nan",
@@ -187,10 +187,10 @@ static void report_rounded(report *r, const char *name, double value)
 static void report_constrained(report *r, const work *w)
 {
     report_count(r, "constraints", w->constraints.segment_count);
-    report_count(r, "pieces", w->constrained.pieces);
-    report_count(r, "added", w->constrained.added);
-    report_count(r, "removed", w->constrained.removed);
-    report_count(r, "crossed", w->constrained.crossed);
+    report_count(r, "pieces", w->constrained.constrained_edges);
+    report_count(r, "added", w->constrained.vertices_added);
+    report_count(r, "removed", w->constrained.triangles_removed);
+    report_count(r, "crossed", w->constrained.triangles_crossed);
 }
 
 static void report_kind(report *r, const triangulate_settings *s, const mw_kind_report *kind)
@@ -199,7 +199,7 @@ static void report_kind(report *r, const triangulate_settings *s, const mw_kind_
     report_number(r, "edge_length", kind->edge_length);
     report_number(r, "largest_angle", kind->largest_angle * (180 / acos(-1)));
     report_flag(r, "optimal", kind->optimal);
-    if (s->kind != MW_MIN_WEIGHT) return;
+    if (s->kind != MW_KIND_MIN_WEIGHT) return;
     report_count(r, "faces", kind->faces);
     report_count(r, "largest_face", kind->largest_face);
     report_count(r, "local_faces", kind->local_faces);
@@ -211,7 +211,7 @@ static int print_report(const triangulate_settings *s, const work *w)
     report r;
     if (s->common.quiet) return 0;
     report_begin(&r, s->json);
-    const mw_triangulation_report *made = s->constraints ? &w->constrained.delaunay : &w->kind.delaunay;
+    const mw_delaunay_report *made = s->constraints ? &w->constrained.delaunay : &w->kind.delaunay;
     report_count(&r, "points", made->points);
     report_count(&r, "duplicates", made->duplicates);
     report_count(&r, "triangles", w->vertices.file.triangle_count);
@@ -243,8 +243,8 @@ static int check_combination(const triangulate_settings *s, const char *points)
     if (!points && (s->columns || s->classes))
         return refuse("--columns and --class are about POINTS, which are missing");
     if (!s->constraints && (s->keep || s->split)) return refuse("--keep and --split are about --constraints");
-    if (s->constraints && s->kind != MW_DELAUNAY) return refuse("--constraints are for --kind delaunay only");
-    if (s->limit && s->kind != MW_MIN_WEIGHT && s->kind != MW_MIN_MAX_ANGLE)
+    if (s->constraints && s->kind != MW_KIND_DELAUNAY) return refuse("--constraints are for --kind delaunay only");
+    if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
         return refuse("--limit is about --kind min-weight and min-max-angle");
     return 0;
 }

@@ -192,7 +192,7 @@ static int walk_in_plane(way *w, const mw_locator *locator)
     mw_location from, to;
     int end = 0;
     mw_query_options options = {.walk = (mw_walk_kind)s->walk, .start = MW_START_LAST, .seed = s->taken.common.seed};
-    if (mw_cursor_init(&begin, locator, &options, &error) != MW_OK) return fail_query(&error);
+    if (mw_cursor_init(locator, &options, &begin, &error) != MW_OK) return fail_query(&error);
     from = mw_locate(locator, &begin, s->from.at[0], s->from.at[1]);
     do cursor = begin;
     while (
@@ -209,7 +209,7 @@ static int walk_plane(way *w)
     mw_mesh *mesh = NULL;
     mw_locator *locator = NULL;
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
-    mw_locator_options options = {.fill = w->settings->walk == MW_WALK_BORDER ? 2 : 1};
+    mw_locator_options options = {.fill = w->settings->walk == MW_WALK_BORDER ? MW_FILL_NO : MW_FILL_YES};
     bool made = mw_mesh_create(&arrays, NULL, &mesh, &error) == MW_OK &&
                 mw_locator_create(mesh, &options, &locator, &error) == MW_OK;
     int end = made ? walk_in_plane(w, locator) : fail_input(w, "", &error);
@@ -288,7 +288,7 @@ static int draw_arc(way *w, const mw_star *star, const mw_surface *surface, cons
     mw_error error;
     double u[3], v[3], d[3];
     if (!make_line(w, PARTS + 1)) return fail_memory();
-    if (mw_star_cursor_init(&cursor, star, NULL, &error) != MW_OK) return fail_query(&error);
+    if (mw_star_cursor_init(star, NULL, &cursor, &error) != MW_OK) return fail_query(&error);
     unit(centre, from, u);
     unit(centre, to, v);
     double angle = angle_between(u, v), reach = 1;
@@ -313,7 +313,7 @@ static int walk_on_star(way *w, const mw_star *star, const mw_surface *surface)
     int end = ray_to(s, "from", &s->from, from);
     if (end == 0) end = ray_to(s, "to", &s->to, to);
     if (end) return end;
-    if (mw_star_cursor_init(&begin, star, &options, &error) != MW_OK) return fail_query(&error);
+    if (mw_star_cursor_init(star, &options, &begin, &error) != MW_OK) return fail_query(&error);
     mw_star_locate(star, &begin, from);
     do cursor = begin;
     while (lacks_room(w, mw_star_path(star, &cursor, to, w->triangles, w->capacity, NULL), &end));
@@ -349,11 +349,11 @@ static int walk_of_probe(way *w, const mw_prober *prober)
     double motion[3];
     int end = 0;
     mw_probe_options options = {.max_distance = s->max_distance,
-                                .start = MW_PROBE_SAMPLE,
+                                .start = MW_PROBE_START_SAMPLE,
                                 .samples = s->samples,
                                 .iterations = s->iterations,
                                 .seed = s->taken.common.seed};
-    if (mw_probe_cursor_init(&begin, prober, &options, &error) != MW_OK) return fail_query(&error);
+    if (mw_probe_cursor_init(prober, &options, &begin, &error) != MW_OK) return fail_query(&error);
     for (int k = 0; k < 3; k++) motion[k] = s->to.at[k] - s->from.at[k];
     do cursor = begin;
     while (lacks_room(

@@ -101,12 +101,12 @@ bool files_same_output(const char *one, const char *other)
 static bool holds_points(const char *path)
 {
     mw_point_reader *reader;
-    if (mw_points_open(path, NULL, &reader, NULL) != MW_OK) return false;
-    size_t width = mw_points_width(reader), count = 0;
+    if (mw_point_reader_open(path, NULL, &reader, NULL) != MW_OK) return false;
+    size_t width = mw_point_reader_width(reader), count = 0;
     double *values = malloc(3 * width * sizeof *values);
-    bool points = values && mw_points_read(reader, values, 3, &count, NULL) == MW_OK && count > 0;
+    bool points = values && mw_point_reader_read(reader, values, 3, &count, NULL) == MW_OK && count > 0;
     free(values);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     return points;
 }
 

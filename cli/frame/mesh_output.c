@@ -11,7 +11,7 @@ enum { FORMAT_BY_ENDING = 0 };
 
 static const char *format_name(int i)
 {
-    return i == FORMAT_BY_ENDING ? "auto" : mw_format_name((size_t)i - 1);
+    return i == FORMAT_BY_ENDING ? "auto" : mw_mesh_format_name((size_t)i - 1);
 }
 
 const choices mesh_formats = {"format", format_name, NULL};
@@ -22,7 +22,7 @@ static bool ending_is_known(const char *path)
     const char *ending = strrchr(path, '.');
     if (!ending) return false;
     const char *name;
-    for (size_t i = 0; (name = mw_format_name(i)); i++)
+    for (size_t i = 0; (name = mw_mesh_format_name(i)); i++)
         if (strcasecmp(ending + 1, name) == 0) return true;
     return strcasecmp(ending, ".ele") == 0;
 }
@@ -52,7 +52,7 @@ int mesh_output_write(const char *output, int format, const mw_mesh_file *file, 
     mw_error error;
     progress_phase("writing", NULL);
     if (named) signals_hold(true);
-    mw_status status = mw_write_mesh(output, format == FORMAT_BY_ENDING ? NULL : format_name(format), file, &error);
+    mw_status status = mw_write_mesh(output, file, format == FORMAT_BY_ENDING ? NULL : format_name(format), &error);
     if (named) signals_hold(false);
     return status == MW_OK ? 0 : fail_writing(&error);
 }

@@ -56,7 +56,7 @@ void text_printf(text *t, const char *format, ...)
 void text_double(text *t, double value)
 {
     char *room = text_room(t, 32);
-    if (room) t->size += mw_format_double(room, value);
+    if (room) t->size += mw_format_double(value, room);
 }
 
 void text_clear(text *t)

@@ -15,7 +15,7 @@ const char *columns_list(const columns *wanted, char list[64])
 static bool find(const char *name, const mw_point_reader *reader, size_t *place)
 {
     const char *column;
-    for (size_t i = 0; (column = mw_points_column(reader, i)); i++)
+    for (size_t i = 0; (column = mw_point_reader_column(reader, i)); i++)
         if (strcasecmp(column, name) == 0) {
             *place = i;
             return true;
@@ -39,7 +39,7 @@ static bool has_header(const columns *wanted, const mw_point_reader *reader)
             snprintf(name, sizeof name, "%c", "xyz"[k]);
         else
             snprintf(name, sizeof name, "c%zu", k + 1);
-        if (strcmp(mw_points_column(reader, k), name) != 0) return true;
+        if (strcmp(mw_point_reader_column(reader, k), name) != 0) return true;
     }
     return false;
 }
@@ -72,12 +72,12 @@ static bool is_longitude(const char *name)
 int columns_pick(const columns *wanted, const char *path, const mw_point_reader *reader, bool chosen,
                  size_t pick[MOST_COLUMNS])
 {
-    size_t width = mw_points_width(reader);
+    size_t width = mw_point_reader_width(reader);
     if (chosen && width != wanted->count) return wrong_choice(wanted, width);
     if (width < wanted->count) return not_found(wanted, path, width);
     if (!chosen && find_all(wanted, reader, pick)) return 0;
     for (size_t k = 0; k < wanted->count; k++) pick[k] = k;
     if (chosen || wanted->loose || !has_header(wanted, reader)) return 0;
-    bool clear = width == wanted->count && !is_longitude(mw_points_column(reader, 0));
+    bool clear = width == wanted->count && !is_longitude(mw_point_reader_column(reader, 0));
     return clear ? 0 : not_found(wanted, path, width);
 }

@@ -32,7 +32,7 @@ int constraints_read(const char *path, mw_constraint_file *file)
 
 bool constraints_are_poly(const mw_constraint_file *file)
 {
-    return strcmp(file->place_name, "line") == 0;
+    return strcmp(file->record_name, "line") == 0;
 }
 
 /* The length of a path without one of these endings. */
@@ -76,8 +76,8 @@ static void crossing(const double *points, const uint32_t *one, const uint32_t *
 int constraints_cross(const char *path, const mw_constraint_file *file, const double *points, const uint32_t cross[2],
                       bool split)
 {
-    const char *what = file->place_name;
-    uint32_t one = file->place[cross[0]], other = file->place[cross[1]];
+    const char *what = file->record_name;
+    uint32_t one = file->record[cross[0]], other = file->record[cross[1]];
     double at[2];
     char second[64];
     crossing(points, file->segments + 2 * (size_t)cross[0], file->segments + 2 * (size_t)cross[1], at);

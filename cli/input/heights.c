@@ -19,14 +19,14 @@ static void share(const vertices *v, size_t added, const uint32_t *duplicate_of,
 }
 
 /* Which segment each added vertex lies on: the lowest one. */
-static uint32_t *find_segments(size_t added, size_t count, const mw_pieces *pieces)
+static uint32_t *find_segments(size_t added, size_t count, const mw_constrained_edges *edges)
 {
     uint32_t *segment = malloc((count + 1) * sizeof *segment);
     if (!segment) return NULL;
     for (size_t i = 0; i < count; i++) segment[i] = MW_NONE;
-    for (size_t p = 0; p < 2 * pieces->count; p++) {
-        size_t i = pieces->edge[p];
-        if (i >= added && pieces->segment[p / 2] < segment[i - added]) segment[i - added] = pieces->segment[p / 2];
+    for (size_t p = 0; p < 2 * edges->count; p++) {
+        size_t i = edges->edge[p];
+        if (i >= added && edges->segment[p / 2] < segment[i - added]) segment[i - added] = edges->segment[p / 2];
     }
     return segment;
 }
@@ -73,7 +73,7 @@ static mw_status locate(surface *s, const vertices *v, mw_error *error)
     const double *points = v->file.points + 3 * v->points;
     mw_status status = mw_locate_batch(s->locator, points, count, 3, NULL, s->place, NULL, error);
     for (size_t i = 0; status == MW_OK && i < count; i++) {
-        mw_border_hit hit;
+        mw_nearest_border_point hit;
         if (s->place[i].triangle != MW_NONE) continue;
         status = mw_nearest_border(s->locator, points[3 * i], points[3 * i + 1], &hit, error);
         if (status == MW_OK)
@@ -90,7 +90,7 @@ static int make_surface(surface *s, const vertices *v, bool *flat)
     mw_locator_options options = {.border = 1};
     size_t count = v->file.point_count - v->points;
     progress_phase("interpolating", NULL);
-    mw_status status = mw_delaunay(v->file.points, v->points, 3, NULL, NULL, &s->mesh, &error);
+    mw_status status = mw_delaunay(v->file.points, v->points, 3, NULL, NULL, NULL, &s->mesh, &error);
     *flat = status == MW_ERROR_INPUT;
     if (*flat) return 0;
     if (status == MW_OK) status = mw_locator_create(s->mesh, &options, &s->locator, &error);
@@ -138,11 +138,11 @@ static int interpolate_all(const vertices *v, bool *flat)
 }
 
 int heights_fill(vertices *v, size_t added, const uint32_t *duplicate_of, const uint32_t *segments,
-                 const mw_pieces *pieces, bool *flat)
+                 const mw_constrained_edges *edges, bool *flat)
 {
     *flat = false;
     mw_mesh_file *file = &v->file;
-    uint32_t *segment_of = find_segments(added, file->point_count - added, pieces);
+    uint32_t *segment_of = find_segments(added, file->point_count - added, edges);
     if (!segment_of) return fail_memory();
     for (size_t k = 0; k < vertices_value_count(v); k++) {
         vertex_value value = vertices_value(v, k);

@@ -9,9 +9,9 @@
  * others POINTS are interpolated linearly in their Delaunay triangulation, outside it at the nearest place of its
  * border. Where POINTS have no such value either, or no triangle, it stays NaN, or 0 if it is the height and nothing
  * has one. *flat tells whether it was that POINTS, on one line, have no triangle.
- * Vertices from `added` on were added; `segments`, two vertices each, are the constraints that `pieces` are parts of.
+ * Vertices from `added` on were added; `segments`, two vertices each, are the constraints that `edges` are parts of.
  * Returns 0 or an exit code. */
 int heights_fill(vertices *v, size_t added, const uint32_t *duplicate_of, const uint32_t *segments,
-                 const mw_pieces *pieces, bool *flat);
+                 const mw_constrained_edges *edges, bool *flat);
 
 #endif

@@ -6,8 +6,8 @@
 static int fail_vertex(const char *path, size_t vertex, const double *p)
 {
     char longitude[32], latitude[32];
-    mw_format_double(longitude, p[0]);
-    mw_format_double(latitude, p[1]);
+    mw_format_double(p[0], longitude);
+    mw_format_double(p[1], latitude);
     complain("%s: vertex %zu: %s, %s is no longitude and latitude in degrees", path, vertex, longitude, latitude);
     return END_INPUT;
 }
@@ -17,7 +17,7 @@ int sphere_place(const char *path, mw_mesh_file *file)
     if (file->has_z) return 0;
     for (size_t v = 0; v < file->point_count; v++) {
         double *p = file->points + 3 * v, direction[3];
-        mw_lonlat_direction(p[0], p[1], direction);
+        mw_lonlat_to_direction(p[0], p[1], direction);
         if (isnan(direction[0])) return fail_vertex(path, v, p);
         for (int k = 0; k < 3; k++) p[k] = direction[k];
     }
@@ -45,7 +45,7 @@ void sphere_directions(const double *lonlat, size_t stride, size_t count, const 
 #endif
     for (size_t i = 0; i < count; i++) {
         double *p = points + 3 * i;
-        mw_lonlat_direction(lonlat[i * stride], lonlat[i * stride + 1], p);
+        mw_lonlat_to_direction(lonlat[i * stride], lonlat[i * stride + 1], p);
         for (int k = 0; k < 3; k++) p[k] = centre[k] + far * p[k];
     }
 }

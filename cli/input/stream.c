@@ -90,7 +90,7 @@ static int answer_block(flow *f, size_t count)
 static int read_block(flow *f, size_t *count)
 {
     mw_error error;
-    return mw_points_read(f->reader, f->values, STREAM_BLOCK, count, &error) == MW_OK ? 0 : fail_reading(&error);
+    return mw_point_reader_read(f->reader, f->values, STREAM_BLOCK, count, &error) == MW_OK ? 0 : fail_reading(&error);
 }
 
 static int pick(flow *f)
@@ -123,7 +123,7 @@ static int run_flow(flow *f)
 {
     mw_error error;
     const stream *s = f->stream;
-    f->width = mw_points_width(f->reader);
+    f->width = mw_point_reader_width(f->reader);
     signals_remove(mw_output_temporary(f->out));
     f->values = malloc(STREAM_BLOCK * f->width * sizeof *f->values);
     f->answers = malloc(STREAM_BLOCK * s->answer_size);
@@ -153,18 +153,18 @@ int stream_run(const stream *s, const char *path)
     const stream_settings *settings = s->settings;
     const char *output = settings->common.output ? settings->common.output : "-";
     mw_error error;
-    mw_points_options options = {.columns = settings->columns};
+    mw_point_reader_options options = {.columns = settings->columns};
     int end = 0;
     flow *f = calloc(1, sizeof *f);
     if (!f) return fail_memory();
     *f = (flow){.stream = s, .path = path, .tally = {.begin = s->begin, .ready = tally_clock()}};
     progress_phase(s->doing, path);
-    if (mw_points_open(path, &options, &f->reader, &error) != MW_OK)
+    if (mw_point_reader_open(path, &options, &f->reader, &error) != MW_OK)
         end = fail_reading(&error);
     else if (mw_output_open(output, &f->out, &error) != MW_OK)
         end = fail_writing(&error);
     if (end == 0) end = run_flow(f);
-    mw_points_close(f->reader);
+    mw_point_reader_close(f->reader);
     if (end == 0 && settings->stats) end = print_stats(f);
     if (end == 0 && settings->strict && f->tally.unanswered) end = END_UNLOCATED;
     free(f);

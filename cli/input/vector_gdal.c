@@ -98,11 +98,11 @@ static bool add_segment(collector *c, size_t a, size_t b, uint32_t polygon)
     size_t i = file->segment_count, room[2] = {c->segment_room, c->segment_room};
     if (!make_room(&file->segments, 2 * sizeof *file->segments, i, &room[0])) return false;
     if (!make_room(&file->polygon, sizeof *file->polygon, i, &room[1])) return false;
-    if (!make_room(&file->place, sizeof *file->place, i, &c->segment_room)) return false;
+    if (!make_room(&file->record, sizeof *file->record, i, &c->segment_room)) return false;
     file->segments[2 * i] = (uint32_t)a;
     file->segments[2 * i + 1] = (uint32_t)b;
     file->polygon[i] = polygon;
-    file->place[i] = c->feature;
+    file->record[i] = c->feature;
     file->segment_count++;
     return true;
 }
@@ -198,7 +198,7 @@ bool vector_gdal_built(void)
 int vector_gdal_read(const char *path, mw_constraint_file *file)
 {
     collector c = {.file = file};
-    *file = (mw_constraint_file){.place_name = "feature"};
+    *file = (mw_constraint_file){.record_name = "feature"};
     if (!load()) {
         complain("%s: is no GeoJSON or .poly, and GDAL, which might read it, cannot be loaded (" MW_GDAL ")", path);
         return END_INPUT;

@@ -45,7 +45,8 @@ static int read_rows(rows *r, mw_point_reader *reader)
     while (count > 0) {
         if (r->count == r->capacity && !grow(r)) return fail_memory();
         double *next = r->values + r->count * r->width;
-        if (mw_points_read(reader, next, r->capacity - r->count, &count, &error) != MW_OK) return fail_reading(&error);
+        if (mw_point_reader_read(reader, next, r->capacity - r->count, &count, &error) != MW_OK)
+            return fail_reading(&error);
         r->count += count;
         progress_points(r->count);
     }
@@ -82,7 +83,7 @@ static int split_columns(vertices *v, rows *r, const mw_point_reader *reader)
     file->point_count = n;
     file->has_z = width >= 3;
     for (size_t k = 3; k < width; k++) {
-        double *field = add_field(file, mw_points_column(reader, k));
+        double *field = add_field(file, mw_point_reader_column(reader, k));
         if (!field) return fail_memory();
         for (size_t i = 0; i < n; i++) field[i] = r->values[i * width + k];
     }
@@ -102,17 +103,17 @@ static int split_columns(vertices *v, rows *r, const mw_point_reader *reader)
 int vertices_read(vertices *v, const char *path, const char *columns, const char *classes)
 {
     mw_error error;
-    mw_points_options options = {.columns = columns};
+    mw_point_reader_options options = {.columns = columns};
     mw_point_reader *reader;
     int end = classes ? classes_parse(classes, options.classes) : 0;
     if (end) return end;
     progress_phase("reading", path);
-    if (mw_points_open(path, &options, &reader, &error) != MW_OK) return fail_reading(&error);
-    rows r = {.width = mw_points_width(reader)};
+    if (mw_point_reader_open(path, &options, &reader, &error) != MW_OK) return fail_reading(&error);
+    rows r = {.width = mw_point_reader_width(reader)};
     end = read_rows(&r, reader);
     if (end == 0) end = split_columns(v, &r, reader);
     free(r.values);
-    mw_points_close(reader);
+    mw_point_reader_close(reader);
     v->points = v->file.point_count;
     v->point_fields = v->file.field_count;
     v->point_heights = v->file.has_z;

@@ -17,16 +17,22 @@ extern "C" {
 
 typedef struct mw_editor mw_editor;
 
+/* Whether an editor keeps its mesh Delaunay, its border and constraints respected. */
+typedef enum mw_delaunay_mode {
+    MW_DELAUNAY_AUTO = 0, /* a mesh that is Delaunay is kept so                */
+    MW_DELAUNAY_MAKE,     /* one that is not is made so first, by flips        */
+    MW_DELAUNAY_NEVER     /* no edge is flipped unless it is asked for         */
+} mw_delaunay_mode;
+
 /* All zero = choose. */
 typedef struct mw_editor_options {
-    int delaunay; /* 0: a mesh that is Delaunay, its border and constraints respected, is kept so; 1: one that is not is made so
-                     first, by flips; 2: no edge is flipped unless it is asked for                                       */
+    mw_delaunay_mode delaunay;
     int log; /* 1: keep the list of all edits (mw_editor_log)                                                       */
     size_t
         undo; /* so many edits can be undone, 400 to 1000 bytes each; SIZE_MAX: all                                   */
-    const uint32_t
-        *constraints; /* two vertices each: edges of the mesh that are not to be flipped away; as mw_pieces.edge */
-    size_t constraint_count;
+    const uint32_t *constrained_edges; /* two vertices each, as mw_constrained_edges.edge: edges of the mesh that are
+                                          not to be flipped away */
+    size_t constrained_edge_count;
     uint32_t threads; /* of mw_editor_mesh, mw_editor_compact, and of the order of many points; 0 = what OpenMP gives */
     uint32_t reserved[7];
 } mw_editor_options;
@@ -58,7 +64,7 @@ typedef enum mw_edit_kind {
 typedef struct mw_edit {
     mw_edit_kind kind;
     uint32_t vertex, other;
-    uint32_t field; /* number of a field (mw_editor_field)                                                     */
+    uint32_t field; /* number of a field (mw_editor_field_by_name)                                             */
     double x, y;
     double value; /* MW_EDIT_INSERT: of `field` at the new vertex; NaN: interpolated, as the other fields are */
 } mw_edit;
@@ -75,12 +81,12 @@ typedef struct mw_change {
     mw_changed_triangle *triangle; /* `made` ones, then `reused`, then `freed`; each in order of number. Owned by
                                       the editor, until its next edit                                             */
     size_t made, reused, freed;
-    uint32_t vertex;  /* the one inserted, removed or moved; where there was one at the place to insert at, that one */
-    int vertex_made;  /* 1: it is new; more (mw_edit_insert_points): it is the first of so many                   */
-    int vertex_freed; /* 1: it is gone; more (what mw_edit_undo takes back): it and those next in number          */
-    uint32_t flips;   /* edges exchanged to make the mesh Delaunay again: as many as one after another would be to
+    uint32_t vertex; /* the one inserted, removed or moved; where there was one at the place to insert at, that one */
+    uint32_t vertices_made;  /* new ones: `vertex`, and (mw_edit_insert_points) those next in number                  */
+    uint32_t vertices_freed; /* gone: `vertex`, and (what mw_edit_undo takes back) those next in number               */
+    uint32_t flips; /* edges exchanged to make the mesh Delaunay again: as many as one after another would be to
                          put a vertex in; none where a small star is filled at once                               */
-    uint32_t pieces;  /* MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE: edges on the way                                      */
+    uint32_t constrained_edges; /* MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE: edges on the way                            */
     uint32_t reserved[6];
 } mw_change;
 
@@ -143,7 +149,7 @@ MW_API mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint3
 typedef struct mw_editor_info {
     uint32_t vertices, triangles;          /* that are there                                                      */
     uint32_t vertex_range, triangle_range; /* all numbers are below these                                         */
-    uint32_t constraints;                  /* edges that are fixed, but for the border                            */
+    uint32_t constrained_edges;            /* edges that are fixed, but for the border                            */
     int delaunay;                          /* 1: the mesh is kept Delaunay                                        */
     int convex;                            /* 1: it fills its convex hull, which grows and shrinks                */
     size_t undoable;                       /* edits that can be undone                                            */
@@ -166,14 +172,22 @@ MW_API uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex);
 
 /* The vertices joined to one by an edge, counter-clockwise round it; on a border from the first to the last. Writes at most
  * `capacity` of them and returns how many there are; 0 for a vertex that is not there or in no triangle. */
-MW_API size_t mw_editor_around(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours, size_t capacity);
+MW_API size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours,
+                                          size_t capacity);
 
-/* Is that an edge of the mesh? 0: no; 1: yes; 2: it is a constraint; 3: border. */
-MW_API int mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to);
+typedef enum mw_edge_kind {
+    MW_EDGE_NONE = 0,      /* no edge of the mesh */
+    MW_EDGE_UNCONSTRAINED, /* an inner edge that may be flipped away */
+    MW_EDGE_CONSTRAINED,
+    MW_EDGE_BORDER
+} mw_edge_kind;
+
+/* What kind of edge joins two vertices. */
+MW_API mw_edge_kind mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to);
 
 /* The number of a field of the mesh by its name, MW_NONE if there is none. Its value at a vertex; NaN for a vertex that is not there.
  * Linear interpolation of a field as mw_interpolate does it. */
-MW_API uint32_t mw_editor_field(const mw_editor *editor, const char *name);
+MW_API uint32_t mw_editor_field_by_name(const mw_editor *editor, const char *name);
 MW_API double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex);
 MW_API void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_location *locations, size_t n,
                                   double *result);
@@ -184,7 +198,7 @@ MW_API mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, ui
                                 mw_error *error);
 
 /* The constraints that are there now, two vertices each, released by the caller with free(); NULL when out of memory. */
-MW_API uint32_t *mw_editor_constraints(const mw_editor *editor, size_t *count);
+MW_API uint32_t *mw_editor_constrained_edges(const mw_editor *editor, size_t *count);
 
 /* --- location in between ---------------------------------------------------------------------------------------------- */
 

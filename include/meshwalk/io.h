@@ -54,13 +54,13 @@ typedef struct mw_constraint_file {
     int has_z;          /* some point has a z */
     uint32_t *segments; /* 2 per segment */
     uint32_t *polygon;  /* per segment the number of its polygon, or MW_NONE for lines */
-    uint32_t *place;    /* per segment where it stands: `line` of the file or number of the feature, see place_name */
+    uint32_t *record;   /* per segment the record of the file that it comes from: number of a line or of a feature */
     size_t segment_count;
     size_t polygon_count;
-    double *holes; /* 2 per hole */
-    size_t hole_count;
-    const char *place_name; /* "line" or "feature": what `place` counts, lines from 1, features from 0 */
-    char **field_names;     /* further values per point (attributes of .poly) */
+    double *hole_seeds; /* x, y of a point in each hole */
+    size_t hole_seed_count;
+    const char *record_name; /* "line" or "feature": what `record` counts, lines from 1, features from 0 */
+    char **field_names;      /* further values per point (attributes of .poly) */
     double **fields;
     size_t field_count;
 } mw_constraint_file;
@@ -93,16 +93,16 @@ MW_API int mw_constraints_known(const char *path);
  * .node or an old one. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names
  * a vertex that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left (but for that .ele, if
  * only .node cannot get its name). */
-MW_API mw_status mw_write_mesh(const char *path, const char *format, const mw_mesh_file *file, mw_error *error);
+MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *format, mw_error *error);
 /* Names of the formats that mw_write_mesh takes, i from 0; NULL beyond the last. */
-MW_API const char *mw_format_name(size_t i);
+MW_API const char *mw_mesh_format_name(size_t i);
 
 /* All zero = take everything, as the file has it. */
-typedef struct mw_points_options {
-    const char *columns;  /* NULL = see mw_points_open; else names or 1-based numbers, "x,y", "3,4,5", "lon,lat,z" */
+typedef struct mw_point_reader_options {
+    const char *columns;  /* NULL = see mw_point_reader_open; else names or 1-based numbers, "x,y", "lon,lat,z" */
     uint8_t classes[256]; /* LAS: 1 = take points of this class; all zero = take all */
     uint32_t reserved[4];
-} mw_points_options;
+} mw_point_reader_options;
 
 /* A stream of points, read block by block in constant memory: text, or LAS 1.0-1.4 (LAZ is refused with a hint).
  *
@@ -121,17 +121,17 @@ typedef struct mw_points_options {
  * a selection of fewer than two columns, or of one twice. A file without rows is a stream of no points. */
 typedef struct mw_point_reader mw_point_reader;
 
-MW_API mw_status mw_points_open(const char *path, const mw_points_options *options, mw_point_reader **out,
-                                mw_error *error);
+MW_API mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options, mw_point_reader **out,
+                                      mw_error *error);
 /* Values per point: the columns of the file (or the selected ones); at least 2. */
-MW_API size_t mw_points_width(const mw_point_reader *reader);
+MW_API size_t mw_point_reader_width(const mw_point_reader *reader);
 /* Name of a column: that of the header; else "x", "y", "z", "c4", ... Owned by the reader; NULL beyond the last. */
-MW_API const char *mw_points_column(const mw_point_reader *reader, size_t column);
-/* Read up to `capacity` points, mw_points_width doubles each, into values. *count < capacity only at the end, where it
- * becomes 0. On failure *count points before the faulty one are valid, and the reader can only be closed. */
-MW_API mw_status mw_points_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
-                                mw_error *error);
-MW_API void mw_points_close(mw_point_reader *reader); /* NULL is allowed */
+MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t column);
+/* Read up to `capacity` points, mw_point_reader_width doubles each, into values. *count < capacity only at the end,
+ * where it becomes 0. On failure *count points before the faulty one are valid, and the reader can only be closed. */
+MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
+                                      mw_error *error);
+MW_API void mw_point_reader_close(mw_point_reader *reader); /* NULL is allowed */
 
 /* What a line of a stream of edits asks for. */
 typedef enum mw_edit_line_kind {
@@ -150,12 +150,12 @@ typedef struct mw_edit_line {
 } mw_edit_line;
 
 /* All zero = fields go by their numbers. */
-typedef struct mw_edits_options {
+typedef struct mw_edit_text_options {
     const char *const
-        *fields; /* their names, in the order of their numbers (mw_editor_field); has to outlive a reader */
+        *fields; /* their names, in the order of their numbers (mw_editor_field_by_name); has to outlive a reader */
     size_t field_count;
     uint32_t reserved[4];
-} mw_edits_options;
+} mw_edit_text_options;
 
 /* "insert", "remove", "move", "flip", "constrain", "release", "value"; NULL for another number. */
 MW_API const char *mw_edit_name(mw_edit_kind kind);
@@ -170,23 +170,25 @@ MW_API const char *mw_edit_name(mw_edit_kind kind);
  *
  * Read one line; options: NULL = all zero. MW_ERROR_INPUT: an unknown word, too few or too many of them, something that is no
  * number, an unknown field; then line->kind is MW_EDIT_LINE_NONE. MW_ERROR_ARGUMENT: NULL. Thread-safe. */
-MW_API mw_status mw_edit_parse(const char *text, const mw_edits_options *options, mw_edit_line *line, mw_error *error);
+MW_API mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line,
+                               mw_error *error);
 
 /* Write one line, ended by NUL instead of a newline, so that mw_edit_parse with the same options gives the same edit, every bit of its
  * numbers (the sign of a NaN apart). Names of fields that cannot stand in a line are written as numbers. Returns its length; 0 and
  * an empty text for MW_EDIT_LINE_NONE and unknown kinds. Thread-safe. */
-#define MW_EDIT_TEXT 160
-MW_API size_t mw_edit_format(char text[MW_EDIT_TEXT], const mw_edit_line *line, const mw_edits_options *options);
+#define MW_EDIT_TEXT_SIZE 160
+MW_API size_t mw_edit_format(const mw_edit_line *line, const mw_edit_text_options *options,
+                             char text[MW_EDIT_TEXT_SIZE]);
 
 /* A stream of them, read line by line in constant memory. MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT: NULL. */
 typedef struct mw_edit_reader mw_edit_reader;
-MW_API mw_status mw_edits_open(const char *path, const mw_edits_options *options, mw_edit_reader **out,
-                               mw_error *error);
+MW_API mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options, mw_edit_reader **out,
+                                     mw_error *error);
 /* Read the next line that is not blank; line->kind is MW_EDIT_LINE_NONE at the end. Errors as of mw_edit_parse, with file and
  * line; then line->line tells whether the reader can go on: the number of the line, which the next call will be behind,
  * or 0: the file cannot be read on (also MW_ERROR_SYSTEM, MW_ERROR_MEMORY), and the reader can only be closed. */
-MW_API mw_status mw_edits_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error);
-MW_API void mw_edits_close(mw_edit_reader *reader); /* NULL is allowed */
+MW_API mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error);
+MW_API void mw_edit_reader_close(mw_edit_reader *reader); /* NULL is allowed */
 
 /* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside
  * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a link to
@@ -200,7 +202,7 @@ MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size);
 MW_API void mw_output_printf(mw_output *output, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* The shortest of %.15g, %.16g and %.17g in the "C" locale that reads back as the same double; "nan", "inf", "-inf".
  * Returns its length, at most 24. */
-MW_API size_t mw_format_double(char text[32], double value);
+MW_API size_t mw_format_double(double value, char text[32]);
 MW_API void mw_output_double(mw_output *output, double value);
 /* Has a write failed yet? Long jobs ask, and stop. */
 MW_API int mw_output_failed(const mw_output *output);

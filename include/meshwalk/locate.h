@@ -75,16 +75,22 @@ typedef struct mw_location {
 
 typedef struct mw_locator mw_locator;
 
+/* Whether pockets and holes of an embedding that is not convex are filled with ghost triangles. */
+typedef enum mw_fill_mode {
+    MW_FILL_AUTO = 0, /* filled, unless `queries` is few                       */
+    MW_FILL_YES,      /* filled, so that every walk can cross them             */
+    MW_FILL_NO        /* left open, only MW_WALK_BORDER (and AUTO) walks there */
+} mw_fill_mode;
+
 typedef struct mw_locator_options {
     int any;    /* 1: take also a mesh that is no embedding; see mw_locator_void_promise                      */
     int border; /* 1: build the index that nearest-border queries and a tolerance need                        */
     int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
-    int fill; /* pockets and holes of an embedding that is not convex: 1: filled with ghost triangles, so that every walk
-                   can cross them; 2: left open, only MW_WALK_BORDER (and AUTO) walks there; 0: 1, unless `queries` is few */
+    mw_fill_mode fill;
     uint32_t
         threads; /* 0 = what OpenMP gives; the locator is the same for any number. Its grids are made by as many, too */
     uint32_t reserved[3];
-    uint64_t queries; /* with `fill` 0: about so many are to come; few do not pay for what filling takes. 0 = many */
+    uint64_t queries; /* MW_FILL_AUTO: about so many are to come; few do not pay for what filling takes. 0 = many */
 } mw_locator_options;
 
 /* Prepare a mesh for queries.
@@ -105,11 +111,11 @@ typedef struct mw_locator_info {
     size_t area_bytes;        /* of it, the stored areas                           */
     uint32_t ghost_triangles; /* triangles that fill pockets and holes             */
     uint32_t holes;
-    int copied;        /* 1: walks run on an own copy of triangles and points: with ghosts, or without flat triangles */
-    int embedding;     /* 0: only with options.any                          */
-    int open;          /* 1: not convex, and pockets and holes are not filled                  */
-    uint32_t pieces;   /* parts that share no place (equal coordinates are one); only where open, else 1 */
-    size_t fill_bytes; /* of the bytes, ghosts and the copy that they are in; 0 without ghosts           */
+    int copied;    /* 1: walks run on an own copy of triangles and points: with ghosts, or without flat triangles */
+    int embedding; /* 0: only with options.any                          */
+    int unfilled;  /* 1: not convex, and pockets and holes are not filled                  */
+    uint32_t components; /* pieces that share no place (equal coordinates are one); only where unfilled, else 1 */
+    size_t fill_bytes;   /* of the bytes, ghosts and the copy that they are in; 0 without ghosts           */
 } mw_locator_info;
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
 
@@ -166,12 +172,12 @@ typedef struct mw_query_options {
     mw_walk_kind finish;   /* the final location of the walks whose own tests are only a guide: MW_WALK_REMEMBERING or
                             MW_WALK_STOCHASTIC; 0 = remembering where a look at edges finds the mesh Delaunay            */
     uint64_t seed;         /* for everything random; answers do not depend on it                                  */
-    uint32_t sample;       /* MW_START_SAMPLE: triangles looked at, at most all; or one of the rules below        */
+    uint32_t samples;      /* MW_START_SAMPLE: triangles looked at, at most all; or one of the rules below        */
     uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: steps with one test, at most 4096 + 45
                             sqrt(triangles); 0 = estimate by distance and density                       */
     uint32_t threads;      /* batches: 0 = what OpenMP gives                                                      */
     double tolerance;      /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
-    int count;             /* 1: fill the counters                                                                */
+    int counters;          /* 1: fill the counters                                                                */
     uint32_t lanes;        /* batches: walks in flight at a time, at most MW_MAX_LANES; 0 = choose by the number of
                             queries, the part of the mesh over which they lie, and the caches                      */
     const mw_index *index; /* for the starts that have one (mw_index_create), NULL else; must outlive the cursor */
@@ -182,7 +188,7 @@ typedef struct mw_query_options {
 #define MW_SAMPLE_CUBE_ROOT 0u           /* cube root of the number of triangles [Devroye, Muecke, Zhu 1998]        */
 #define MW_SAMPLE_FOURTH_ROOT UINT32_MAX /* 2 times the fourth root of it                                         */
 
-/* What the walks did, summed over queries; filled where options.count says so. A search has up to three stages:
+/* What the walks did, summed over queries; filled where options.counters says so. A search has up to three stages:
  * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks; the border walk
  * alternates between the walk and the border. Each beginning of a stage but the border counts the triangle it begins in again;
  * triangles_visited counts each entry once.
@@ -235,10 +241,10 @@ typedef struct mw_cursor {
 /* options: NULL = all zero. MW_ERROR_ARGUMENT for an unknown walk or start, a finish that is neither remembering nor
  * stochastic, a start without its index, an index of another start, a tolerance that is negative, NaN or infinite, or
  * one without the border index, another walk than the border walk where pockets and holes are open
- * (mw_locator_info.open). With an index and MW_START_AUTO the start is the index's; without, it is in single queries the
- * triangle found last if that is near, else what the locator's guide says. MW_START_SORTED in single queries means
- * MW_START_LAST. */
-MW_API mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options,
+ * (mw_locator_info.unfilled). With an index and MW_START_AUTO the start is the index's; without, it is in single
+ * queries the triangle found last if that is near, else what the locator's guide says. MW_START_SORTED in single
+ * queries means MW_START_LAST. */
+MW_API mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *options, mw_cursor *cursor,
                                 mw_error *error);
 
 /* Locate one point. Thread-safe with one cursor per thread; no allocation, no failure. */
@@ -258,7 +264,7 @@ MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double 
 /* Locate n points.
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
- *   counters  NULL or filled with the sum over the batch (options->count)
+ *   counters  NULL or filled with the sum over the batch (options->counters)
  * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; plain queries that come, on
  * the average, less than a sixth of an edge apart begin where the one before ended. Where the locator has no guide, as where
  * pockets and holes are open, it means MW_START_SORTED for 64 queries and more, or MW_START_LAST if they come in about as good an
@@ -273,17 +279,18 @@ MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points
  * edge has a triangle with an area on one side, and on the other nothing that the mesh covers: flat triangles do not
  * count, and where two pieces lie along one another there is no border. Of an edge that is covered in part, where vertices lie
  * inside it, the other parts are border. */
-typedef struct mw_border_hit {
+typedef struct mw_nearest_border_point {
     uint32_t triangle; /* the caller's number */
     uint32_t edge;     /* local edge */
     double distance;   /* mesh units, rounded; 0 for a point on the border; infinite beyond the largest double */
     double point[2];   /* nearest point of that edge, rounded */
     double weight[3];  /* the same point as weights of the triangle's vertices, 0 for the one off the edge */
-} mw_border_hit;
+} mw_nearest_border_point;
 
 /* Logarithmic in the border edges where few of them are about equally near; linear at worst, in the middle of a round
  * hole. MW_ERROR_ARGUMENT if the locator was made without options.border, or the point is not finite. Thread-safe. */
-MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_border_hit *hit, mw_error *error);
+MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_nearest_border_point *nearest,
+                                   mw_error *error);
 
 /* Linear interpolation: value[i] = sum of location[i].weight[k] * values[vertex k of its triangle], exact at vertices;
  * NaN where the location has no triangle. values: one per vertex of the mesh, in which the points were located.

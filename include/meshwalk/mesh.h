@@ -14,39 +14,40 @@ extern "C" {
 
 typedef struct mw_mesh mw_mesh;
 
-typedef enum mw_index_type { MW_UINT32 = 0, MW_INT32, MW_INT64 } mw_index_type;
+typedef enum mw_integer_type { MW_UINT32 = 0, MW_INT32, MW_INT64 } mw_integer_type;
 
 /* The caller's arrays. They are read during the call only; the mesh keeps copies. */
 typedef struct mw_arrays {
-    const double *points;     /* x, y of vertex i at points[i * point_stride], points[i * point_stride + 1]       */
-    size_t point_count;       /*                                                                                  */
-    size_t point_stride;      /* in doubles; 0 means 2 (packed x y); 3 skips the z of x y z                       */
-    const void *triangles;    /* 3 * triangle_count vertex numbers of type index_type, 0-based, packed            */
-    size_t triangle_count;    /*                                                                                  */
-    mw_index_type index_type; /* 0 = MW_UINT32                                                                    */
+    const double *points;         /* x, y of vertex i at points[i * point_stride], points[i * point_stride + 1]       */
+    size_t point_count;           /*                                                                                  */
+    size_t point_stride;          /* in doubles; 0 means 2 (packed x y); 3 skips the z of x y z                       */
+    const void *triangles;        /* 3 * triangle_count vertex numbers of type integer_type, 0-based, packed          */
+    size_t triangle_count;        /*                                                                                  */
+    mw_integer_type integer_type; /* 0 = MW_UINT32                                                             */
 } mw_arrays;
 
 /* Defects of a mesh. The first group makes the arrays unusable: mw_mesh_create refuses them. The second group leaves a
  * mesh that is no embedding: every point location promise holds for embeddings only. MW_DEFECT_FLAT is a remark: flat
  * triangles are accepted, and never own a point. */
 typedef enum mw_defect_kind {
-    MW_DEFECT_INDEX = 0,       /* `triangle` names a vertex that does not exist                                      */
+    MW_DEFECT_MISSING_VERTEX = 0, /* `triangle` names a vertex that does not exist                                   */
     MW_DEFECT_NOT_FINITE,      /* `vertex` of `triangle` has a coordinate that is NaN or infinite                    */
     MW_DEFECT_REPEATED_VERTEX, /* `triangle` has `vertex` twice                                                      */
-    MW_DEFECT_EDGE_SHARED,     /* `edge` of `triangle` belongs to three or more triangles; `other` is one of them    */
-    MW_DEFECT_FOLDED,          /* `triangle` and `other` lie on the same side of the `edge` they share               */
-    MW_DEFECT_TURN,            /* the triangles round inner `vertex` turn by more than 2 pi; `triangle` is one       */
-    MW_DEFECT_CROSSING,        /* border `edge` of `triangle` crosses border `other_edge` of `other`                 */
-    MW_DEFECT_VERTEX_IN_EDGE,  /* `vertex` lies inside border `edge` of `triangle`, without a flat triangle there    */
-    MW_DEFECT_OVERLAP,         /* the mesh covers the inside of `triangle`, beside its border `edge`, more than once;
+    MW_DEFECT_NON_MANIFOLD_EDGE, /* `edge` of `triangle` belongs to three or more triangles; `other` is one of them  */
+    MW_DEFECT_FOLDED,         /* `triangle` and `other` lie on the same side of the `edge` they share               */
+    MW_DEFECT_WINDING,        /* the triangles round inner `vertex` turn by more than 2 pi; `triangle` is one       */
+    MW_DEFECT_CROSSING,       /* border `edge` of `triangle` crosses border `other_edge` of `other`                 */
+    MW_DEFECT_VERTEX_IN_EDGE, /* `vertex` lies inside border `edge` of `triangle`, without a flat triangle there    */
+    MW_DEFECT_OVERLAP,        /* the mesh covers the inside of `triangle`, beside its border `edge`, more than once;
                                   `other`, if any, is a triangle on the same side of border `other_edge` along it    */
-    MW_DEFECT_FLAT,            /* `triangle` has no area                                                             */
+    MW_DEFECT_FLAT,           /* `triangle` has no area                                                             */
     /* Of surfaces (surface.h) and star-shaped polyhedra (star.h) only: */
     MW_DEFECT_CLASHING,       /* `triangle` and `other` are oriented differently along `edge`                       */
     MW_DEFECT_OPEN_EDGE,      /* `edge` of `triangle` has no triangle on its other side: the polyhedron is not closed */
     MW_DEFECT_THROUGH_CENTRE, /* the plane of `triangle` passes through the centre                                  */
-    MW_DEFECT_TURNED,  /* `triangle` turns its back to the centre, seen from its neighbour `other` at `edge` (if any) */
-    MW_DEFECT_COVERED, /* a ray from the centre meets both `triangle` and `other`                            */
+    MW_DEFECT_BACK_FACING,    /* `triangle` turns its back to the centre, seen from its neighbour `other` at `edge`,
+                                 if any                                                                            */
+    MW_DEFECT_COVERED,        /* a ray from the centre meets both `triangle` and `other`                            */
     MW_DEFECT_COUNT
 } mw_defect_kind;
 
@@ -62,7 +63,7 @@ typedef struct mw_defect {
 typedef struct mw_check {
     mw_defect *defects;
     size_t defect_count;
-    int embedding; /* 1: no defect but flat triangles; location in this mesh is exact and complete */
+    int valid; /* 1: no defect but flat triangles: the mesh is an embedding, and location in it is exact and complete */
 } mw_check;
 
 /* A short English text for a kind of defect, never NULL. */
@@ -80,12 +81,18 @@ MW_API void mw_defect_describe(const mw_defect *defect, char *text, size_t size)
 MW_API mw_status mw_check_arrays(const mw_arrays *arrays, mw_check *check, mw_error *error);
 MW_API void mw_check_release(mw_check *check);
 
+/* How a mesh lies in memory. No number shows it; but of a mesh that is no embedding other defects may be named, and the
+ * sum of areas may differ in its last bits. Tolerant meshes are as the arrays are. */
+typedef enum mw_mesh_layout {
+    MW_LAYOUT_AUTO = 0, /* decide by the order of the arrays                       */
+    MW_LAYOUT_HILBERT,  /* along a Hilbert curve, whatever the order of the arrays */
+    MW_LAYOUT_AS_GIVEN  /* as the arrays are                                       */
+} mw_mesh_layout;
+
 typedef struct mw_mesh_options {
     int tolerant; /* 1: take also arrays with repeated vertices, non-finite vertices and edges of three triangles; the
                      triangles concerned are kept but never own a point, the third triangle is not linked           */
-    int layout; /* in memory, which no number shows (of a mesh that is no embedding other defects may be named, and the sum of
-                   areas may differ in its last bits): 0: decide; 1: along a Hilbert curve, whatever the order of the
-                   arrays; 2: as the arrays are. Tolerant meshes are as the arrays are                              */
+    mw_mesh_layout layout;
     uint32_t threads; /* 0 = what OpenMP gives; the mesh is the same for any number                                 */
     uint32_t reserved[5];
 } mw_mesh_options;

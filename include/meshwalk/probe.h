@@ -78,13 +78,12 @@ typedef struct mw_touch {
 } mw_touch;
 
 typedef enum mw_probe_start {
-    MW_PROBE_AUTO =
-        0,           /* as LAST where that triangle is nearer to the point than the nearest of a sample is likely to be,
-                          else SAMPLE                                                                              */
-    MW_PROBE_LAST,   /* the triangle touched last by this cursor, if any, and if m points at its front; else, and in
-                          further iterations, SAMPLE                                                               */
-    MW_PROBE_SAMPLE, /* the nearest of k random triangles whose fronts m points at [thesis App. G, Alg. 1]         */
-    MW_PROBE_RANDOM, /* a random triangle whose front m points at                                                  */
+    MW_PROBE_START_AUTO = 0, /* as LAST where that triangle is nearer to the point than the nearest of a sample is
+                                likely to be, else SAMPLE                                               */
+    MW_PROBE_START_LAST,     /* the triangle touched last by this cursor, if any, and if m points at its front;
+                                else, and in further iterations, SAMPLE                                 */
+    MW_PROBE_START_SAMPLE,   /* the nearest of k random triangles whose fronts m points at [thesis App. G, Alg. 1] */
+    MW_PROBE_START_RANDOM,   /* a random triangle whose front m points at                               */
     MW_PROBE_START_COUNT
 } mw_probe_start;
 /* "auto", "last", "sample", "random"; NULL for another number. */
@@ -103,7 +102,7 @@ typedef struct mw_probe_options {
                             several. In certain mode nothing races                                                 */
     uint32_t threads;    /* batches without a race: 0 = what OpenMP gives                                          */
     uint64_t seed;
-    int count; /* 1: fill the counters */
+    int counters; /* 1: fill the counters */
     uint32_t reserved[7];
 } mw_probe_options;
 
@@ -131,7 +130,7 @@ typedef struct mw_probe_cursor {
 
 /* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown start, `certain` without boxes, a distance that is
  * negative or NaN. */
-MW_API mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *prober, const mw_probe_options *options,
+MW_API mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options, mw_probe_cursor *cursor,
                                       mw_error *error);
 
 /* One probe. Thread-safe with one cursor per thread; without a race no allocation, no failure. With one,
@@ -140,7 +139,7 @@ MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const
                          const double motion[3]);
 
 /* n probes: x, y, z, mx, my, mz of query i at queries[i * stride]; stride in doubles, 0 = 6. Results in input order;
- * the same for every number of threads, without a race. Each begins as the start says; MW_PROBE_LAST: with the
+ * the same for every number of threads, without a race. Each begins as the start says; MW_PROBE_START_LAST: with the
  * triangle of the query before it in its chunk of 4,096. Of a shared surface, each query is answered as a whole, but
  * an update may come between two of a batch. MW_ERROR_ARGUMENT as mw_probe_cursor_init. */
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
@@ -164,17 +163,17 @@ MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, co
  * origin is: mostly by less than 2^-48 of itself, but not where q is that near the surface and next to an edge, nor
  * in very thin triangles. The point is rounded to its own coordinates beyond that, and lies in the box round its
  * triangle; a corner is exactly that. Triangles without area own no nearest point. */
-typedef struct mw_surface_hit {
+typedef struct mw_nearest_surface_point {
     uint32_t triangle; /* the caller's number; MW_NONE where the point is not finite, or no usable triangle in reach */
     double distance;   /* infinite beyond the largest double; this and what follows NaN without a triangle           */
     double point[3];
     double weight[3];
-} mw_surface_hit;
+} mw_nearest_surface_point;
 
 /* max_distance: look no farther (INFINITY: anywhere); triangle is MW_NONE where there is none. MW_ERROR_ARGUMENT:
  * the prober has no boxes, or they are not up to date; the distance is negative or NaN. Thread-safe. */
 MW_API mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
-                                       mw_surface_hit *hit, mw_error *error);
+                                       mw_nearest_surface_point *nearest, mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -76,9 +76,9 @@ MW_API void mw_star_describe(const mw_star *star, mw_star_info *info);
 
 /* Every defect of the arrays as a polyhedron star-shaped about the centre of the options: those of
  * mw_surface_check_arrays, but facets may be oriented either way, so MW_DEFECT_CLASHING stands for edges at which no
- * orientation agrees (of one-sided surfaces) only; MW_DEFECT_OPEN_EDGE, MW_DEFECT_THROUGH_CENTRE, MW_DEFECT_TURNED;
- * and if there is none of all these MW_DEFECT_COVERED. Of arrays that are unusable only what makes them so.
- * check->embedding: 1 if mw_star_create takes it. O(n). MW_OK also when defects were found. Release with
+ * orientation agrees (of one-sided surfaces) only; MW_DEFECT_OPEN_EDGE, MW_DEFECT_THROUGH_CENTRE,
+ * MW_DEFECT_BACK_FACING; and if there is none of all these MW_DEFECT_COVERED. Of arrays that are unusable only what
+ * makes them so. check->valid: 1 if mw_star_create takes it. O(n). MW_OK also when defects were found. Release with
  * mw_check_release. Thread-safe. */
 MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options,
                                       mw_check *check, mw_error *error);
@@ -88,10 +88,10 @@ MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const m
 /* The direction of a longitude and a latitude in degrees: x to (0, 0), y to (90, 0), z to the north pole. Multiples
  * of 90 degrees give exact directions, and longitudes that differ by 360 the same one; others are rounded, each
  * coordinate off by less than 2^-52. NaN where an argument is not finite, or the latitude's magnitude is above 90. */
-MW_API void mw_lonlat_direction(double longitude, double latitude, double direction[3]);
+MW_API void mw_lonlat_to_direction(double longitude, double latitude, double direction[3]);
 /* The longitude (-180 to 180) and latitude of a direction (not zero, of any length; else NaN), rounded. The
  * longitude of a pole is 0. */
-MW_API void mw_direction_lonlat(const double direction[3], double *longitude, double *latitude);
+MW_API void mw_direction_to_lonlat(const double direction[3], double *longitude, double *latitude);
 
 /* --- queries ------------------------------------------------------------------------------------------------------ */
 
@@ -128,10 +128,10 @@ typedef struct mw_star_query_options {
     mw_star_start_kind start;
     mw_star_walk_kind finish; /* the final location of the orthogonal walk: MW_STAR_WALK_STOCHASTIC, or
                                  MW_STAR_WALK_FORGETFUL, which counts as the paper does; 0 = stochastic           */
-    uint32_t sample;          /* MW_STAR_START_SAMPLE: facets looked at; 0 = 2 times the fourth root of the vertices */
+    uint32_t samples;         /* MW_STAR_START_SAMPLE: facets looked at; 0 = 2 times the fourth root of the vertices */
     uint64_t seed;            /* for everything random; answers do not depend on it                               */
     uint32_t threads;         /* batches: 0 = what OpenMP gives                                                   */
-    int count;                /* 1: fill the counters                                                             */
+    int counters;             /* 1: fill the counters                                                             */
     const mw_star_index *index; /* for the starts that have one, NULL else; must outlive the cursor               */
     uint32_t reserved[6];
 } mw_star_query_options;
@@ -153,7 +153,7 @@ typedef struct mw_star_cursor {
  * forgetful, a start without its index, an index of another start, the orthogonal walk on a star without angles.
  * MW_STAR_START_SORTED means MW_STAR_START_LAST in single queries; in a batch of more queries than facets each begins
  * at the facet of the one before, in one of fewer where the curve leads. */
-MW_API mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const mw_star_query_options *options,
+MW_API mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *options, mw_star_cursor *cursor,
                                      mw_error *error);
 
 /* The facet that the ray from the centre through `point` meets. where: MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD

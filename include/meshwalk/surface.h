@@ -103,7 +103,7 @@ typedef struct mw_surface_info {
 MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, mw_error *error);
 
 /* Find every defect of the arrays as a surface: the unusable group of mw_defect_kind, then MW_DEFECT_CLASHING, and
- * MW_DEFECT_FLAT as a remark; `weld` as in the options. check->embedding: 1 if there is none but flat triangles. O(n);
+ * MW_DEFECT_FLAT as a remark; `weld` as in the options. check->valid: 1 if there is none but flat triangles. O(n);
  * of unusable arrays O(n log b) for b edges of one triangle. MW_OK also when defects were found. Release with
  * mw_check_release. Thread-safe. */
 MW_API mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld, mw_check *check, mw_error *error);

@@ -14,15 +14,21 @@
 extern "C" {
 #endif
 
-typedef struct mw_triangulation_report {
+typedef struct mw_delaunay_report {
     size_t points;              /* points given                                      */
     size_t duplicates;          /* points equal to an earlier one; in no triangle    */
     uint64_t triangles_visited; /* by the walks that located the points              */
-} mw_triangulation_report;
+} mw_delaunay_report;
+
+typedef struct mw_delaunay_options {
+    uint32_t threads; /* 0 = what OpenMP gives */
+    uint32_t reserved[7];
+} mw_delaunay_options;
 
 /* Delaunay triangulation of n points as a mesh whose vertex i is point i, all triangles counter-clockwise.
  *   points        x, y of point i at points[i * stride] and the double after it; read during the call only
  *   stride        in doubles, 0 = 2
+ *   options       NULL = all zero
  *   duplicate_of  NULL, or n numbers: MW_NONE, or the lowest-numbered point with the same coordinates. Such points are
  *                 vertices of the mesh that no triangle uses
  *   report        NULL or filled
@@ -31,25 +37,15 @@ typedef struct mw_triangulation_report {
  * MW_ERROR_INPUT: fewer than three different points, all points on one line, or a coordinate that is not finite (the
  * error names the point as its vertex). MW_ERROR_ARGUMENT: NULL, or a stride of 1; MW_ERROR_LIMIT: over 2^29 points;
  * MW_ERROR_MEMORY: about 150 bytes per point are needed on the way, 80 of them for the mesh. The expected number of
- * triangles made is O(n log n) wherever the points lie; time is about linear. As many
- * threads as OpenMP gives; the result is the same for any number. Thread-safe. */
-MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
-                             mw_triangulation_report *report, mw_mesh **out, mw_error *error);
-
-typedef struct mw_delaunay_options {
-    uint32_t threads; /* 0 = what OpenMP gives */
-    uint32_t reserved[7];
-} mw_delaunay_options;
-
-/* The same with options, NULL = all zero. */
-MW_API mw_status mw_delaunay_with(const mw_delaunay_options *options, const double *points, size_t n, size_t stride,
-                                  uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out,
-                                  mw_error *error);
+ * triangles made is O(n log n) wherever the points lie; time is about linear. The result is the same for any number of
+ * threads. Thread-safe. */
+MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride, const mw_delaunay_options *options,
+                             uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error);
 
 /* --- other kinds of triangulation -------------------------------------------------------------------------------- */
 
 typedef enum mw_triangulation_kind {
-#define MW_KIND_ENTRY(id, symbol, name, source, help) MW_##id,
+#define MW_KIND_ENTRY(id, symbol, name, source, help) MW_KIND_##id,
 #include <meshwalk/kinds.def>
     MW_KIND_COUNT
 } mw_triangulation_kind;
@@ -61,22 +57,21 @@ MW_API const char *mw_kind_help(mw_triangulation_kind kind);
 
 /* What was made, whatever the kind. */
 typedef struct mw_kind_report {
-    mw_triangulation_report
-        delaunay;         /* of the Delaunay triangulation that each kind begins with                      */
-    double edge_length;   /* sum of the lengths of the edges, each counted once; rounded                   */
-    double largest_angle; /* in radians; rounded                                                           */
-    int optimal;          /* 1: it is a triangulation of its kind (of the least weight, of the least
+    mw_delaunay_report delaunay; /* of the Delaunay triangulation that each kind begins with                      */
+    double edge_length;          /* sum of the lengths of the edges, each counted once; rounded                   */
+    double largest_angle;        /* in radians; rounded                                                           */
+    int optimal;                 /* 1: it is a triangulation of its kind (of the least weight, of the least
                                          largest angle), up to rounding where stated; 0: a local optimum only, see
                                          mw_triangulate                                                                 */
-    size_t faces;         /* MW_MIN_WEIGHT: faces of more than three corners that the skeleton left        */
-    size_t largest_face;  /* of these, most corners of one                                                 */
-    size_t local_faces;   /* of these, too large, or not simple: filled by a local optimum                 */
+    size_t faces;        /* MW_KIND_MIN_WEIGHT: faces of more than three corners that the skeleton left        */
+    size_t largest_face; /* of these, most corners of one                                                 */
+    size_t local_faces;  /* of these, too large, or not simple: filled by a local optimum                 */
     uint32_t reserved[8];
 } mw_kind_report;
 
 /* How far the optimum is sought. 0: the search ends after about half a minute, with memory in proportion to the points.
- * Else MW_MIN_WEIGHT: faces of up to so many corners are filled optimally; MW_MIN_MAX_ANGLE: the optimum is sought for up
- * to so many points; either however long it takes, and whatever memory. */
+ * Else MW_KIND_MIN_WEIGHT: faces of up to so many corners are filled optimally; MW_KIND_MIN_MAX_ANGLE: the optimum is
+ * sought for up to so many points; either however long it takes, and whatever memory. */
 typedef struct mw_kind_options {
     uint32_t limit;
     uint32_t threads; /* for the Delaunay triangulation that each kind begins with; 0 = what OpenMP gives */
@@ -84,16 +79,19 @@ typedef struct mw_kind_options {
 } mw_kind_options;
 
 /* A triangulation of any kind; arguments as for mw_delaunay, options NULL = all zero, report NULL or filled on success.
- *   MW_GREEDY         Edges by increasing length (compared exactly), of equal ones by the numbers of their ends (the lower,
- *                     then the higher), each taken unless it crosses one taken before. About as long as sorting for
- *                     spread points, a square of the degree at a vertex that sees thousands; 200 bytes per point.
- *   MW_MIN_WEIGHT     Sums of lengths are compared in doubles, so of triangulations that differ in the last digits any
- *                     may be made. Faces that are too large for dynamic programming, or hold points, get a local optimum:
- *                     no exchange of the diagonal of a quadrilateral shortens it, and it is no longer than MW_GREEDY, up
- *                     to rounding. About 70 us and 700 bytes per spread point, up to 3000 bytes per point.
- *   MW_MIN_MAX_ANGLE  Angles are compared exactly. Always a local optimum, and above the limit that only: no exchange of a
- *                     diagonal makes the largest angle of its quadrilateral smaller; if `optimal`, the largest of all is the least
- *                     possible. About 10 us per spread point; the exchanges up to the local optimum have no bound on time.
+ *   MW_KIND_GREEDY         Edges by increasing length (compared exactly), of equal ones by the numbers of their ends
+ *                          (the lower, then the higher), each taken unless it crosses one taken before. About as long as
+ *                          sorting for spread points, a square of the degree at a vertex that sees thousands; 200
+ *                          bytes per point.
+ *   MW_KIND_MIN_WEIGHT     Sums of lengths are compared in doubles, so of triangulations that differ in the last digits
+ *                          any may be made. Faces that are too large for dynamic programming, or hold points, get a
+ *                          local optimum: no exchange of the diagonal of a quadrilateral shortens it, and it is no
+ *                          longer than MW_KIND_GREEDY, up to rounding. About 70 us and 700 bytes per spread point, up
+ *                          to 3000 bytes per point.
+ *   MW_KIND_MIN_MAX_ANGLE  Angles are compared exactly. Always a local optimum, and above the limit that only: no
+ *                          exchange of a diagonal makes the largest angle of its quadrilateral smaller; if `optimal`,
+ *                          the largest of all is the least possible. About 10 us per spread point; the exchanges up to
+ *                          the local optimum have no bound on time.
  * Errors as for mw_delaunay (duplicate_of is unspecified then), and MW_ERROR_ARGUMENT for an unknown kind. After
  * the Delaunay triangulation one thread; thread-safe. docs/guarantees.md tells what is optimal, and what makes it slow. */
 MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,
@@ -109,13 +107,13 @@ typedef struct mw_constraints {
     size_t stride;            /* in doubles, 0 = 2                                                         */
     const uint32_t *segments; /* two numbers of points per segment; one with equal ends is passed over     */
     size_t segment_count;
-    const uint32_t *polygon; /* NULL, or per segment the number of the polygon whose ring it belongs to;
+    const uint32_t *polygon;  /* NULL, or per segment the number of the polygon whose ring it belongs to;
                                 MW_NONE: a line, which bounds nothing. A place is inside a polygon where an odd number of
                                 its segments lie on the way to infinity, so rings may come in any order and direction:
                                 outlines, holes, islands in them; a segment given twice counts twice       */
-    const double *holes;     /* x, y of a place in each part that is to be removed, packed. One outside the hull removes
-                                nothing, one on a constraint the parts on all its sides                    */
-    size_t hole_count;
+    const double *hole_seeds; /* x, y of a seed point in each part that is to be removed, packed. One outside the hull
+                                 removes nothing, one on a constraint the parts on all its sides           */
+    size_t hole_seed_count;
 } mw_constraints;
 
 typedef enum mw_keep {
@@ -123,7 +121,7 @@ typedef enum mw_keep {
         0,         /* inside, if any segment belongs to a polygon or there are holes; else the hull                 */
     MW_KEEP_HULL,  /* all triangles of the convex hull, holes too                                               */
     MW_KEEP_INSIDE /* with polygons those inside at least one of them, else those that segments part from the
-                         outside; of either, those that segments part from each of the holes' places               */
+                         outside; of either, those that segments part from each of the seed points of holes        */
 } mw_keep;
 
 typedef struct mw_constrain_options {
@@ -134,44 +132,44 @@ typedef struct mw_constrain_options {
 } mw_constrain_options;
 
 typedef struct mw_constrain_report {
-    mw_triangulation_report
-        delaunay;      /* of the points without the constraints                                         */
-    size_t pieces;     /* edges of the result that are constraints                                      */
-    size_t added;      /* with options.split: vertices made where segments cross                        */
-    size_t removed;    /* triangles outside and in holes                                                */
-    uint64_t crossed;  /* triangles that segments crossed                                               */
-    uint32_t cross[2]; /* MW_ERROR_INPUT for segments that cross: their numbers; else MW_NONE           */
+    mw_delaunay_report delaunay;   /* of the points without the constraints                                 */
+    size_t constrained_edges;      /* edges of the result that are constraints                              */
+    size_t vertices_added;         /* with options.split: vertices made where segments cross                */
+    size_t triangles_removed;      /* outside and in holes                                                  */
+    uint64_t triangles_crossed;    /* by segments                                                           */
+    uint32_t crossing_segments[2]; /* MW_ERROR_INPUT for segments that cross: their numbers; else MW_NONE   */
     uint32_t reserved[6];
 } mw_constrain_report;
 
-/* The constrained edges of the result: piece i joins vertices edge[2 i] and edge[2 i + 1], in the direction of segment
+/* The constrained edges of the result: edge i joins vertices edge[2 i] and edge[2 i + 1], in the direction of segment
  * segment[i], of which it is a part: the lowest of those that share it. In the order of the triangles. */
-typedef struct mw_pieces {
+typedef struct mw_constrained_edges {
     uint32_t *edge, *segment;
     size_t count;
-} mw_pieces;
-MW_API void mw_pieces_release(mw_pieces *pieces); /* NULL and empty ones are allowed */
+} mw_constrained_edges;
+MW_API void mw_constrained_edges_release(mw_constrained_edges *edges); /* NULL and empty ones are allowed */
 
 /* Constrained Delaunay triangulation [Lee, Lin 1986; Chew 1989]: every segment is an edge, or a chain of edges with the
  * vertices that lie on it; no vertex that a triangle sees past the segments lies in its circle. Exact.
  *   options       NULL = all zero
  *   duplicate_of  NULL, or point_count numbers, as for mw_delaunay: segments end at the lowest-numbered point of a place
- *   pieces        NULL or filled; released by the caller
  *   report        NULL or filled, after a failure too
+ *   edges         NULL or filled; released by the caller
  *   out           the mesh, as of mw_delaunay: vertex i is point i; vertices made by options.split come after the points.
  *                 Its neighbours across a constraint are linked as any others
  * With options.split a point is rounded to doubles and a segment may be moved by as much; it is still an edge or a chain
  * of edges between its ends. Ends, and vertices that lie on a segment, are no crossings.
- * MW_ERROR_INPUT as for mw_delaunay, and: segments that cross (report->cross) without options.split, or so close that
- * rounding cannot part them with it; a polygon whose rings are not closed, where polygons decide what is kept (the error names
- * the point as its vertex); nothing left to keep. MW_ERROR_ARGUMENT: NULL for an array that should have members, or for out; a
- * stride of 1; an unknown `keep`; a segment that names no point; a place of a hole that is not finite. MW_ERROR_LIMIT: over 2^29
- * points, those made by options.split counted (k segments may cross in k^2 / 2 places), or 2^32 - 2 segments. MW_ERROR_MEMORY. Each
- * segment walks along itself: time in proportion to the triangles it crosses, and little more (docs/guarantees.md).
- * After the Delaunay triangulation one thread; thread-safe. */
+ * MW_ERROR_INPUT as for mw_delaunay, and: segments that cross (report->crossing_segments) without options.split,
+ * or so close that rounding cannot part them with it; a polygon whose rings are not closed, where polygons decide
+ * what is kept (the error names the point as its vertex); nothing left to keep. MW_ERROR_ARGUMENT: NULL for an
+ * array that should have members, or for out; a stride of 1; an unknown `keep`; a segment that names no point; a
+ * seed point of a hole that is not finite. MW_ERROR_LIMIT: over 2^29 points, those made by options.split counted
+ * (k segments may cross in k^2 / 2 places), or 2^32 - 2 segments. MW_ERROR_MEMORY. Each segment walks along
+ * itself: time in proportion to the triangles it crosses, and little more (docs/guarantees.md). After the Delaunay
+ * triangulation one thread; thread-safe. */
 MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
-                                         uint32_t *duplicate_of, mw_constrain_report *report, mw_pieces *pieces,
-                                         mw_mesh **out, mw_error *error);
+                                         uint32_t *duplicate_of, mw_constrain_report *report,
+                                         mw_constrained_edges *edges, mw_mesh **out, mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -53,7 +53,7 @@ mw_status mw_check_arrays(const mw_arrays *arrays, mw_check *check, mw_error *er
     }
     check->defects = defects.list;
     check->defect_count = defects.count;
-    check->embedding = defects.count == 0 || defects.list[0].kind == MW_DEFECT_FLAT; /* the last kind in their order */
+    check->valid = defects.count == 0 || defects.list[0].kind == MW_DEFECT_FLAT; /* the last kind in their order */
     return MW_OK;
 }
 

@@ -83,7 +83,7 @@ bool mw__find_turns(const mw_outline *outline, mw_defects *defects)
             uint32_t v = mesh->tri[t].v[k];
             if (turns[v] < MANY || !is_inner(outline, v)) continue;
             turns[v] = 0; /* told once */
-            mw_defect defect = mw__defect(MW_DEFECT_TURN, t);
+            mw_defect defect = mw__defect(MW_DEFECT_WINDING, t);
             defect.vertex = v;
             done = mw__defects_add(defects, defect);
         }

@@ -56,10 +56,10 @@ static bool is_delaunay(const mw_fabric *f)
     return true;
 }
 
-static mw_status choose_delaunay(mw_fabric *f, int wanted, mw_error *error)
+static mw_status choose_delaunay(mw_fabric *f, mw_delaunay_mode wanted, mw_error *error)
 {
-    f->delaunay = wanted != 2 && is_delaunay(f);
-    if (wanted != 1 || f->delaunay) return MW_OK;
+    f->delaunay = wanted != MW_DELAUNAY_NEVER && is_delaunay(f);
+    if (wanted != MW_DELAUNAY_MAKE || f->delaunay) return MW_OK;
     mw_status status = mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, true) ? mw__fabric_mend(f, error)
                                                                                    : mw__fail_memory(error);
     if (status) return status;
@@ -98,13 +98,13 @@ static mw_status make(mw_editor *editor, const mw_mesh *mesh, const mw_editor_op
     locator->mesh = &editor->view;
     mw_status status = mw__tiling_create(mesh, false, &locator->tiling, error);
     if (!status) status = mw__fabric_create(f, &locator->tiling, mesh, error);
-    if (!status) status = mw__fix_edges(f, options->constraints, options->constraint_count, error);
+    if (!status) status = mw__fix_edges(f, options->constrained_edges, options->constrained_edge_count, error);
     if (!status) status = choose_delaunay(f, options->delaunay, error);
     if (!status && !copy_fields(editor, mesh)) status = mw__fail_memory(error);
     if (status) return status;
     mw__editor_look(editor);
     status = mw__upkeep_create(&editor->upkeep, locator, f, error);
-    return status ? status : mw_cursor_init(&editor->cursor, locator, NULL, error);
+    return status ? status : mw_cursor_init(locator, NULL, &editor->cursor, error);
 }
 
 mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options, mw_editor **out, mw_error *error)
@@ -114,9 +114,9 @@ mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options
     *out = NULL;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
-    if (options->delaunay < 0 || options->delaunay > 2)
+    if ((unsigned)options->delaunay > MW_DELAUNAY_NEVER)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to keep a mesh Delaunay");
-    if (options->constraint_count > 0 && !options->constraints)
+    if (options->constrained_edge_count > 0 && !options->constrained_edges)
         return mw__fail(error, MW_ERROR_ARGUMENT, "no constraints");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
@@ -277,7 +277,7 @@ static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *chang
 {
     const uint32_t before = editor->fabric.vertex_count;
     mw_status status = mw__editor_insert(editor, edit, MW_NONE, &change->vertex, error);
-    change->vertex_made = editor->fabric.vertex_count > before;
+    change->vertices_made = editor->fabric.vertex_count > before;
     return status;
 }
 
@@ -292,7 +292,7 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
         mw__fetch_tiles_round(f->tiling, f->tiling->tile_at[v]);
     }
     if (edit->kind == MW_EDIT_REMOVE) {
-        change->vertex_freed = 1;
+        change->vertices_freed = 1;
         return mw__fabric_remove(f, v, error);
     }
     if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
@@ -307,7 +307,7 @@ static mw_status change_edge(mw_fabric *f, const mw_edit *edit, mw_change *chang
     if (w == MW_NONE) return refuse_vertex(f, edit->other, error);
     if (v == w) return mw__fail_at(error, -1, edit->vertex, "both ends are vertex %" PRIu32, edit->vertex);
     if (edit->kind == MW_EDIT_FLIP) return mw__fabric_flip(f, v, w, error);
-    return mw__fabric_constrain(f, v, w, edit->kind == MW_EDIT_RELEASE, &change->pieces, error);
+    return mw__fabric_constrain(f, v, w, edit->kind == MW_EDIT_RELEASE, &change->constrained_edges, error);
 }
 
 static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *error)
@@ -426,8 +426,8 @@ static mw_change undone(const mw_fabric *f, const mw_step *step, uint32_t vertic
     mw_change change = {.vertex = MW_NONE};
     if (step->vertex == MW_NONE) return change;
     change.vertex = step->made > 0 ? step->vertices : f->vertex_number[step->vertex];
-    change.vertex_freed = (int)(vertices - f->vertex_count);
-    change.vertex_made = step->edit.kind == MW_EDIT_REMOVE;
+    change.vertices_freed = vertices - f->vertex_count;
+    change.vertices_made = step->edit.kind == MW_EDIT_REMOVE;
     return change;
 }
 

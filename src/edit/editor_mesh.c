@@ -108,7 +108,7 @@ mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t 
     return status;
 }
 
-uint32_t *mw_editor_constraints(const mw_editor *editor, size_t *count)
+uint32_t *mw_editor_constrained_edges(const mw_editor *editor, size_t *count)
 {
     const mw_fabric *f = &editor->fabric;
     uint32_t *ends = mw__alloc(f->fixed_count, 2 * sizeof *ends);
@@ -138,7 +138,7 @@ typedef struct anew {
 static mw_status fix_again(const mw_editor *editor, anew *a, mw_error *error)
 {
     size_t count;
-    uint32_t *ends = mw_editor_constraints(editor, &count);
+    uint32_t *ends = mw_editor_constrained_edges(editor, &count);
     if (!ends) return mw__fail_memory(error);
     for (size_t i = 0; i < 2 * count; i++) ends[i] = a->numbers.vertex[ends[i]];
     mw_status status = mw__fix_edges(&a->fabric, ends, count, error);

@@ -19,7 +19,7 @@ void mw_editor_describe(const mw_editor *editor, mw_editor_info *info)
         .triangles = tiling->tri_count - tiling->ghost_count,
         .vertex_range = f->vertex_count,
         .triangle_range = tiling->number_count,
-        .constraints = f->fixed_count,
+        .constrained_edges = f->fixed_count,
         .delaunay = f->delaunay,
         .convex = f->convex,
         .undoable = editor->undoable,
@@ -72,7 +72,7 @@ static bool is_edge(const mw_fabric *f, uint32_t half)
     return mw__is_users(f, mw__link_triangle(half)) || (other != MW_NONE && mw__is_users(f, mw__link_triangle(other)));
 }
 
-size_t mw_editor_around(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours, size_t capacity)
+size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours, size_t capacity)
 {
     const mw_fabric *f = &editor->fabric;
     uint32_t v = mw__vertex_there(f, vertex);
@@ -97,20 +97,20 @@ size_t mw_editor_around(const mw_editor *editor, uint32_t vertex, uint32_t *neig
     return n;
 }
 
-int mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to)
+mw_edge_kind mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to)
 {
     const mw_fabric *f = &editor->fabric;
     uint32_t v = mw__vertex_there(f, from), w = mw__vertex_there(f, to);
     uint32_t half = v == MW_NONE || w == MW_NONE || v == w ? MW_NONE : mw__fabric_edge(f, v, w);
-    if (half == MW_NONE || !is_edge(f, half)) return 0;
+    if (half == MW_NONE || !is_edge(f, half)) return MW_EDGE_NONE;
     uint32_t other = mw__beyond(f, half);
     bool border =
         other == MW_NONE || mw__is_users(f, mw__link_triangle(half)) != mw__is_users(f, mw__link_triangle(other));
-    if (border && !(f->convex && mw__is_fixed(f, half))) return 3;
-    return mw__is_fixed(f, half) ? 2 : 1;
+    if (border && !(f->convex && mw__is_fixed(f, half))) return MW_EDGE_BORDER;
+    return mw__is_fixed(f, half) ? MW_EDGE_CONSTRAINED : MW_EDGE_UNCONSTRAINED;
 }
 
-uint32_t mw_editor_field(const mw_editor *editor, const char *name)
+uint32_t mw_editor_field_by_name(const mw_editor *editor, const char *name)
 {
     const double *values = mw_mesh_field(&editor->view, name);
     for (uint32_t i = 0; values && i < editor->view.field_count; i++)

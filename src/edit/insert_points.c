@@ -181,8 +181,8 @@ static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertice
         if (vertices) vertices[at] = vertex;
         mw__upkeep_grow(&editor->upkeep);
     }
-    own->vertex_made = (int)(f->vertex_count - before);
-    if (own->vertex_made > 0) own->vertex = before;
+    own->vertices_made = f->vertex_count - before;
+    if (own->vertices_made > 0) own->vertex = before;
     return MW_OK;
 }
 

@@ -48,9 +48,9 @@ static bool grow_segments(mw_constraint_builder *builder)
     if (segments) file->segments = segments;
     uint32_t *polygon = segments ? grown(file->polygon, count, &room, sizeof *polygon) : NULL;
     if (polygon) file->polygon = polygon;
-    uint32_t *place = polygon ? grown(file->place, count, &room, sizeof *place) : NULL;
+    uint32_t *place = polygon ? grown(file->record, count, &room, sizeof *place) : NULL;
     if (!place) return false;
-    file->place = place;
+    file->record = place;
     builder->segment_room = room;
     return true;
 }
@@ -65,7 +65,7 @@ mw_status mw__constraint_segment(mw_constraint_builder *builder, uint32_t a, uin
     file->segments[2 * i] = a;
     file->segments[2 * i + 1] = b;
     file->polygon[i] = polygon;
-    file->place[i] = place < UINT32_MAX ? (uint32_t)place : UINT32_MAX;
+    file->record[i] = place < UINT32_MAX ? (uint32_t)place : UINT32_MAX;
     file->segment_count++;
     return MW_OK;
 }
@@ -73,14 +73,14 @@ mw_status mw__constraint_segment(mw_constraint_builder *builder, uint32_t a, uin
 mw_status mw__constraint_hole(mw_constraint_builder *builder, double x, double y, mw_error *error)
 {
     mw_constraint_file *file = builder->file;
-    if (file->hole_count == builder->hole_room) {
-        double *holes = grown(file->holes, file->hole_count, &builder->hole_room, 2 * sizeof *holes);
+    if (file->hole_seed_count == builder->hole_room) {
+        double *holes = grown(file->hole_seeds, file->hole_seed_count, &builder->hole_room, 2 * sizeof *holes);
         if (!holes) return mw__fail_memory(error);
-        file->holes = holes;
+        file->hole_seeds = holes;
     }
-    file->holes[2 * file->hole_count] = x;
-    file->holes[2 * file->hole_count + 1] = y;
-    file->hole_count++;
+    file->hole_seeds[2 * file->hole_seed_count] = x;
+    file->hole_seeds[2 * file->hole_seed_count + 1] = y;
+    file->hole_seed_count++;
     return MW_OK;
 }
 
@@ -179,7 +179,7 @@ void mw_constraint_file_release(mw_constraint_file *file)
     free(file->points);
     free(file->segments);
     free(file->polygon);
-    free(file->place);
-    free(file->holes);
+    free(file->record);
+    free(file->hole_seeds);
     *file = (mw_constraint_file){0};
 }

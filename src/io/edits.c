@@ -11,7 +11,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { NAME_LIMIT = 40 }; /* longer names of fields are written as numbers: MW_EDIT_TEXT has room for no more */
+enum { NAME_LIMIT = 40 }; /* longer names of fields are written as numbers: MW_EDIT_TEXT_SIZE has room for no more */
 
 /* What follows the first word: p a place (x and y), v a vertex, w another one, n a value with its field, o one that may be missing. */
 typedef struct edit_form {
@@ -46,7 +46,7 @@ const char *mw_edit_name(mw_edit_kind kind)
 typedef struct scan {
     const char *p;
     const edit_form *form;
-    const mw_edits_options *options;
+    const mw_edit_text_options *options;
     mw_error *error;
 } scan;
 
@@ -139,7 +139,7 @@ static bool is_digits(const char *text, size_t length)
 }
 
 /* The number of a field; field_count where none has that name. */
-static size_t find_field(const mw_edits_options *options, const char *name, size_t length)
+static size_t find_field(const mw_edit_text_options *options, const char *name, size_t length)
 {
     for (size_t f = 0; f < options->field_count; f++)
         if (strlen(options->fields[f]) == length && memcmp(options->fields[f], name, length) == 0) return f;
@@ -147,7 +147,7 @@ static size_t find_field(const mw_edits_options *options, const char *name, size
 }
 
 /* The field that is meant where none is named; MW_NONE: there is no such. */
-static uint32_t usual_field(const mw_edits_options *options)
+static uint32_t usual_field(const mw_edit_text_options *options)
 {
     if (!options->fields) return 0;
     size_t field = find_field(options, "z", 1);
@@ -157,7 +157,7 @@ static uint32_t usual_field(const mw_edits_options *options)
 static mw_status read_field(scan *s, uint32_t *field)
 {
     mw_text_field word;
-    const mw_edits_options *options = s->options;
+    const mw_edit_text_options *options = s->options;
     if (!next_word(s, &word) || word.length == 0) {
         *field = usual_field(options);
         return *field != MW_NONE ? MW_OK : bad(s, "the mesh has no z; name a field behind the value");
@@ -221,7 +221,7 @@ static mw_status unknown_word(const scan *s, mw_text_field word)
     return bad(s, "unknown edit '%s'; there are %s", mw__excerpt_of(word.text, word.length).text, known);
 }
 
-static mw_status parse(const char *text, const mw_edits_options *options, mw_edit_line *line, mw_error *error)
+static mw_status parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line, mw_error *error)
 {
     scan s = {.p = text, .options = options, .error = error};
     mw_text_field word;
@@ -239,9 +239,9 @@ static mw_status parse(const char *text, const mw_edits_options *options, mw_edi
     return status;
 }
 
-static const mw_edits_options by_number;
+static const mw_edit_text_options by_number;
 
-mw_status mw_edit_parse(const char *text, const mw_edits_options *options, mw_edit_line *line, mw_error *error)
+mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line, mw_error *error)
 {
     if (!text || !line) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_parse: NULL");
     *line = (mw_edit_line){0};
@@ -249,7 +249,7 @@ mw_status mw_edit_parse(const char *text, const mw_edits_options *options, mw_ed
 }
 
 /* Can a name stand in a line, and does it lead back to its field? *quotes: it has to stand in quotes. */
-static bool is_word(const mw_edits_options *options, uint32_t field, bool *quotes)
+static bool is_word(const mw_edit_text_options *options, uint32_t field, bool *quotes)
 {
     if (!options->fields || field >= options->field_count) return false;
     const char *name = options->fields[field];
@@ -272,10 +272,10 @@ static char *put_word(char *p, const char *word)
 static char *put_number(char *p, double value)
 {
     *p++ = ' ';
-    return p + mw_format_double(p, value);
+    return p + mw_format_double(value, p);
 }
 
-static char *put_value(char *p, const mw_edit *edit, const mw_edits_options *options)
+static char *put_value(char *p, const mw_edit *edit, const mw_edit_text_options *options)
 {
     bool quotes;
     p = put_number(p, edit->value);
@@ -284,7 +284,7 @@ static char *put_value(char *p, const mw_edit *edit, const mw_edits_options *opt
     return p + sprintf(p, quotes ? " \"%s\"" : " %s", options->fields[edit->field]);
 }
 
-static char *put_argument(char *p, char argument, const mw_edit *edit, const mw_edits_options *options)
+static char *put_argument(char *p, char argument, const mw_edit *edit, const mw_edit_text_options *options)
 {
     switch (argument) {
     case 'p': return put_number(put_number(p, edit->x), edit->y);
@@ -295,7 +295,7 @@ static char *put_argument(char *p, char argument, const mw_edit *edit, const mw_
     }
 }
 
-size_t mw_edit_format(char text[MW_EDIT_TEXT], const mw_edit_line *line, const mw_edits_options *options)
+size_t mw_edit_format(const mw_edit_line *line, const mw_edit_text_options *options, char text[MW_EDIT_TEXT_SIZE])
 {
     char *p = text;
     const edit_form *form = form_of(line->kind, line->edit.kind);
@@ -310,11 +310,11 @@ size_t mw_edit_format(char text[MW_EDIT_TEXT], const mw_edit_line *line, const m
 
 struct mw_edit_reader {
     mw_source source;
-    mw_edits_options options;
+    mw_edit_text_options options;
     bool broken;
 };
 
-mw_status mw__edits_start(mw_source source, const mw_edits_options *options, mw_edit_reader **out, mw_error *error)
+mw_status mw__edits_start(mw_source source, const mw_edit_text_options *options, mw_edit_reader **out, mw_error *error)
 {
     mw_edit_reader *reader = mw__calloc(1, sizeof *reader);
     if (!reader) {
@@ -327,16 +327,17 @@ mw_status mw__edits_start(mw_source source, const mw_edits_options *options, mw_
     return MW_OK;
 }
 
-mw_status mw_edits_open(const char *path, const mw_edits_options *options, mw_edit_reader **out, mw_error *error)
+mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options, mw_edit_reader **out,
+                              mw_error *error)
 {
     if (out) *out = NULL;
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edits_open: NULL");
+    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_reader_open: NULL");
     mw_source source;
     mw_status status = mw__source_open(&source, path, error);
     return status ? status : mw__edits_start(source, options, out, error);
 }
 
-mw_status mw_edits_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error)
+mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error)
 {
     mw_error wrong;
     *line = (mw_edit_line){0};
@@ -353,7 +354,7 @@ mw_status mw_edits_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *er
     return MW_OK;
 }
 
-void mw_edits_close(mw_edit_reader *reader)
+void mw_edit_reader_close(mw_edit_reader *reader)
 {
     if (!reader) return;
     mw__source_close(&reader->source);

@@ -52,7 +52,7 @@ const mw_mesh_format *mw__format_by_name(const char *name)
     return NULL;
 }
 
-const char *mw_format_name(size_t i)
+const char *mw_mesh_format_name(size_t i)
 {
     for (size_t k = 0; k < FORMAT_COUNT; k++)
         if (formats[k].write && i-- == 0) return formats[k].name;

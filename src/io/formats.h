@@ -1,7 +1,7 @@
 /* formats.h - the table of file formats: who reads and writes which. Private.
  *
  * A new format is one file with its reader or writer and one row in formats.c; the program learns its name from there
- * (mw_format_name). */
+ * (mw_mesh_format_name). */
 #ifndef MW_SRC_IO_FORMATS_H
 #define MW_SRC_IO_FORMATS_H
 

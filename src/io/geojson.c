@@ -253,7 +253,7 @@ mw_status mw__read_geojson(mw_source *source, mw_constraint_builder *builder, mw
 {
     geojson g = {.builder = builder, .error = error};
     json_t *root;
-    builder->file->place_name = "feature";
+    builder->file->record_name = "feature";
     mw_status status = parse(source, &root, error);
     if (!status) status = read_root(&g, root);
     json_decref(root);

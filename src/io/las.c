@@ -208,7 +208,7 @@ static mw_status select_columns(mw_point_reader *reader, las *l, const char *sel
     return MW_OK;
 }
 
-mw_status mw__points_las(mw_point_reader *reader, const mw_points_options *options, mw_error *error)
+mw_status mw__points_las(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
 {
     reader->source.binary = true;
     las *l = mw__calloc(1, sizeof *l);

@@ -81,7 +81,7 @@ mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file)
                        .point_stride = 3,
                        .triangles = file->triangles,
                        .triangle_count = file->triangle_count,
-                       .index_type = MW_UINT32};
+                       .integer_type = MW_UINT32};
 }
 
 mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_error *error)
@@ -93,7 +93,7 @@ mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_bo
     return mw_output_close(output, 1, error);
 }
 
-mw_status mw_write_mesh(const char *path, const char *name, const mw_mesh_file *file, mw_error *error)
+mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *name, mw_error *error)
 {
     if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_mesh: NULL");
     const mw_mesh_format *format = name ? mw__format_by_name(name) : mw__format_by_path(path);

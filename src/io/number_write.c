@@ -206,7 +206,7 @@ static int digit_count(uint64_t n)
     return count;
 }
 
-size_t mw_format_double(char text[32], double value)
+size_t mw_format_double(double value, char text[32])
 {
     char *p = text;
     if (isnan(value)) {

@@ -219,7 +219,7 @@ void mw__output_word(mw_output *output, const mw_mesh_file *file, size_t field)
 void mw_output_double(mw_output *output, double value)
 {
     if (MW_UNLIKELY(ROOM - output->used < 32)) mw__output_flush(output);
-    output->used += mw_format_double(output->buffer + output->used, value);
+    output->used += mw_format_double(value, output->buffer + output->used);
 }
 
 void mw_output_printf(mw_output *output, const char *format, ...)

@@ -37,7 +37,7 @@ static mw_status check_selection(const char *columns, mw_error *error)
     return MW_OK;
 }
 
-static mw_status start(mw_point_reader *reader, const mw_points_options *options, mw_error *error)
+static mw_status start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
 {
     const char *head;
     size_t size;
@@ -53,9 +53,10 @@ static mw_status start(mw_point_reader *reader, const mw_points_options *options
     return mw__points_text(reader, options, error);
 }
 
-mw_status mw__points_start(mw_source source, const mw_points_options *options, mw_point_reader **out, mw_error *error)
+mw_status mw__points_start(mw_source source, const mw_point_reader_options *options, mw_point_reader **out,
+                           mw_error *error)
 {
-    static const mw_points_options none;
+    static const mw_point_reader_options none;
     mw_point_reader *reader = mw__calloc(1, sizeof *reader);
     if (!reader) {
         mw__source_close(&source);
@@ -64,38 +65,39 @@ mw_status mw__points_start(mw_source source, const mw_points_options *options, m
     reader->source = source;
     mw_status status = start(reader, options ? options : &none, error);
     if (status)
-        mw_points_close(reader);
+        mw_point_reader_close(reader);
     else
         *out = reader;
     return status;
 }
 
-mw_status mw_points_open(const char *path, const mw_points_options *options, mw_point_reader **out, mw_error *error)
+mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options, mw_point_reader **out,
+                               mw_error *error)
 {
     if (out) *out = NULL;
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_points_open: NULL");
+    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_open: NULL");
     mw_source source;
     mw_status status = mw__source_open(&source, path, error);
     return status ? status : mw__points_start(source, options, out, error);
 }
 
-size_t mw_points_width(const mw_point_reader *reader)
+size_t mw_point_reader_width(const mw_point_reader *reader)
 {
     return reader->width;
 }
 
-const char *mw_points_column(const mw_point_reader *reader, size_t column)
+const char *mw_point_reader_column(const mw_point_reader *reader, size_t column)
 {
     return column < reader->width ? reader->names[column] : NULL;
 }
 
-mw_status mw_points_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error)
+mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error)
 {
     *count = 0;
     return reader->read(reader, values, capacity, count, error);
 }
 
-void mw_points_close(mw_point_reader *reader)
+void mw_point_reader_close(mw_point_reader *reader)
 {
     if (!reader) return;
     mw__source_close(&reader->source);

@@ -16,11 +16,12 @@ struct mw_point_reader {
 };
 
 /* Make a reader of a source, which it takes over (it is closed also on failure). */
-mw_status mw__points_start(mw_source source, const mw_points_options *options, mw_point_reader **out, mw_error *error);
+mw_status mw__points_start(mw_source source, const mw_point_reader_options *options, mw_point_reader **out,
+                           mw_error *error);
 
 /* The two readers: look at the beginning, set width, names, read and state. */
-mw_status mw__points_text(mw_point_reader *reader, const mw_points_options *options, mw_error *error);
-mw_status mw__points_las(mw_point_reader *reader, const mw_points_options *options, mw_error *error);
+mw_status mw__points_text(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error);
+mw_status mw__points_las(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error);
 
 /* Add a column to the reader. */
 mw_status mw__points_add(mw_point_reader *reader, const char *name, mw_error *error);

@@ -214,7 +214,7 @@ static mw_status empty_table(mw_point_reader *reader, const char *selection, mw_
     return MW_OK;
 }
 
-mw_status mw__points_text(mw_point_reader *reader, const mw_points_options *options, mw_error *error)
+mw_status mw__points_text(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
 {
     mw_columns c = {.expected = UINT64_MAX};
     char separator = ' ';

@@ -117,7 +117,7 @@ mw_status mw__read_poly(mw_source *source, mw_constraint_builder *builder, mw_er
     mw_mesh_file mesh;
     mw_builder vertices;
     mw__build_start(&vertices, &mesh, source);
-    builder->file->place_name = "line";
+    builder->file->record_name = "line";
     mw_status status = read_vertices(source, &vertices, error);
     if (!status) status = read_rows(source, builder, &vertices, error);
     if (!status) status = read_rows(source, builder, NULL, error);

@@ -306,7 +306,8 @@ static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point 
     weight[mw__prev(e->edge)] = 0;
 }
 
-mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_border_hit *hit, mw_error *error)
+mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_nearest_border_point *hit,
+                            mw_error *error)
 {
     if (!locator || !hit || !isfinite(x) || !isfinite(y))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest border needs a locator and a finite point");
@@ -315,7 +316,7 @@ mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_bo
     const mw_border_edge *e = nearest(&locator->border, q);
     if (!e) return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border"); /* only a mesh that is no embedding */
     mw_point at = foot(e, q);
-    *hit = (mw_border_hit){e->triangle, e->edge, distance(e, q), {at.x, at.y}, {0}};
+    *hit = (mw_nearest_border_point){e->triangle, e->edge, distance(e, q), {at.x, at.y}, {0}};
     edge_weights(locator->mesh, e, q, hit->weight);
     return MW_OK;
 }

@@ -17,7 +17,7 @@ typedef struct mw_flight {
 /* Is that a tiling and a way to ask for such? Then the walk may be the remembering walk, whatever the cursor's. */
 static MW_INLINE bool mw__flies(const mw_tiling *tiling, const mw_query_options *options)
 {
-    return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && !options->count &&
+    return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && !options->counters &&
            options->arithmetic == MW_EXACT && !tiling->open && !tiling->cut;
 }
 

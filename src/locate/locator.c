@@ -51,7 +51,7 @@ static double expect_pace(uint32_t tiles, double width, double height)
 static bool wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
 {
     enum { TRIANGLES_PER_QUERY = 64 };
-    if (options->fill) return options->fill == 1;
+    if (options->fill != MW_FILL_AUTO) return options->fill == MW_FILL_YES;
     return options->queries == 0 || options->queries > mesh->tri_count / TRIANGLES_PER_QUERY;
 }
 
@@ -171,7 +171,7 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     *out = NULL;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
-    if (options->fill < 0 || options->fill > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
+    if ((unsigned)options->fill > MW_FILL_NO) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
     mw_locator *locator = mw__calloc(1, sizeof *locator);
@@ -205,10 +205,10 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
         .fill_bytes = tiling->ghost_count ? mw__tiling_copy_bytes(tiling) : 0,
         .ghost_triangles = tiling->ghost_count,
         .holes = tiling->hole_count,
-        .pieces = tiling->open ? tiling->open->piece_count : 1,
+        .components = tiling->open ? tiling->open->piece_count : 1,
         .copied = !tiling->borrowed,
         .embedding = tiling->embedding,
-        .open = tiling->open != NULL,
+        .unfilled = tiling->open != NULL,
     };
 }
 

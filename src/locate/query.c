@@ -242,7 +242,7 @@ static bool is_near(mw_start_kind start)
     return start != MW_START_RANDOM && start != MW_START_SAMPLE && start != MW_START_CENTRE;
 }
 
-mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_query_options *options, mw_error *error)
+mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *options, mw_cursor *cursor, mw_error *error)
 {
     static const mw_query_options defaults;
     if (!cursor || !locator) return mw__fail(error, MW_ERROR_ARGUMENT, "a cursor needs a locator");
@@ -268,17 +268,17 @@ mw_status mw_cursor_init(mw_cursor *cursor, const mw_locator *locator, const mw_
         .random = mw__random_seed(options->seed, 0),
         .tolerance = options->tolerance,
         .last = mw__tile_named(&locator->tiling, locator->centre),
-        .sample = mw__sample_count(&locator->tiling, options->sample),
+        .sample = mw__sample_count(&locator->tiling, options->samples),
         .steps = options->steps,
         .fuel = mw__walk_fuel(walk, options->arithmetic, &locator->tiling),
         .walk = (uint8_t)walk,
         .start = (uint8_t)start,
         .finish = (uint8_t)(options->finish ? options->finish : locator->finish),
         .arithmetic = (uint8_t)options->arithmetic,
-        .count = options->count != 0,
+        .count = options->counters != 0,
         .plain = is_near(start) && mw__flies(&locator->tiling, options),
         .live = locator->tiling.tile_of != NULL,
-        .asked = options->sample,
+        .asked = options->samples,
         .last_name = locator->centre,
         .epoch = locator->epoch,
     };

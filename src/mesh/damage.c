@@ -12,7 +12,7 @@ static bool repair_triangle(mw_repair *repair, const mw_arrays *arrays, uint32_t
         uint32_t v = mw__index_at(arrays, 3 * (size_t)t + k);
         repair->triangles[3 * (size_t)t + k] = v;
         if (v < arrays->point_count) continue;
-        mw_defect defect = mw__defect(MW_DEFECT_INDEX, t);
+        mw_defect defect = mw__defect(MW_DEFECT_MISSING_VERTEX, t);
         defect.vertex = v;
         repair->replaced[t] = 1;
         if (!mw__defects_add(defects, defect)) return false;
@@ -28,7 +28,7 @@ mw_status mw__repair(mw_repair *repair, const mw_arrays *arrays, mw_defects *def
                           .replaced = mw__calloc(arrays->triangle_count, sizeof(uint8_t))};
     if (!repair->triangles || !repair->replaced) return mw__fail_memory(error);
     repair->arrays.triangles = repair->triangles;
-    repair->arrays.index_type = MW_UINT32;
+    repair->arrays.integer_type = MW_UINT32;
     for (uint32_t t = 0; t < arrays->triangle_count; t++)
         if (!repair_triangle(repair, arrays, t, defects)) return mw__fail_memory(error);
     return MW_OK;
@@ -97,7 +97,7 @@ static bool gather_unlinked(const mw_triangle *tri, uint32_t n, side **sides, si
 
 static mw_defect shared(const mw_triangle *tri, uint32_t half, uint32_t other)
 {
-    mw_defect defect = mw__defect(MW_DEFECT_EDGE_SHARED, mw__link_triangle(half));
+    mw_defect defect = mw__defect(MW_DEFECT_NON_MANIFOLD_EDGE, mw__link_triangle(half));
     defect.edge = (uint8_t)mw__user_edge(tri[defect.triangle].user, mw__link_edge(half));
     defect.other = other;
     return defect;

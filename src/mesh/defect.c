@@ -54,12 +54,12 @@ void mw__defects_release(mw_defects *defects)
 const char *mw_defect_text(mw_defect_kind kind)
 {
     switch (kind) {
-    case MW_DEFECT_INDEX: return "vertex that does not exist";
+    case MW_DEFECT_MISSING_VERTEX: return "vertex that does not exist";
     case MW_DEFECT_NOT_FINITE: return "vertex that is not finite";
     case MW_DEFECT_REPEATED_VERTEX: return "vertex twice in one triangle";
-    case MW_DEFECT_EDGE_SHARED: return "edge of three or more triangles";
+    case MW_DEFECT_NON_MANIFOLD_EDGE: return "edge of three or more triangles";
     case MW_DEFECT_FOLDED: return "folded along an edge";
-    case MW_DEFECT_TURN: return "more than one turn round a vertex";
+    case MW_DEFECT_WINDING: return "more than one turn round a vertex";
     case MW_DEFECT_CROSSING: return "borders that cross";
     case MW_DEFECT_VERTEX_IN_EDGE: return "vertex inside an edge";
     case MW_DEFECT_OVERLAP: return "overlap";
@@ -67,7 +67,7 @@ const char *mw_defect_text(mw_defect_kind kind)
     case MW_DEFECT_CLASHING: return "neighbours oriented differently";
     case MW_DEFECT_OPEN_EDGE: return "edge without a neighbour";
     case MW_DEFECT_THROUGH_CENTRE: return "plane through the centre";
-    case MW_DEFECT_TURNED: return "turned from the centre";
+    case MW_DEFECT_BACK_FACING: return "turned from the centre";
     case MW_DEFECT_COVERED: return "direction covered twice";
     case MW_DEFECT_COUNT: break;
     }
@@ -101,7 +101,7 @@ static void describe_in_space(const mw_defect *d, char *text, size_t size)
     case MW_DEFECT_THROUGH_CENTRE:
         snprintf(text, size, "triangle %" PRIu32 ": its plane passes through the centre", t);
         return;
-    case MW_DEFECT_TURNED:
+    case MW_DEFECT_BACK_FACING:
         if (d->other == MW_NONE)
             snprintf(text, size, "triangle %" PRIu32 ": turns its back to the centre, unlike most", t);
         else
@@ -121,7 +121,7 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
     uint32_t t = d->triangle, v = d->vertex;
     unsigned e = d->edge;
     switch (d->kind) {
-    case MW_DEFECT_INDEX:
+    case MW_DEFECT_MISSING_VERTEX:
         if (v == MW_NONE)
             snprintf(text, size, "triangle %" PRIu32 ": a vertex number is out of range", t);
         else
@@ -133,7 +133,7 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
     case MW_DEFECT_REPEATED_VERTEX:
         snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t, v);
         return;
-    case MW_DEFECT_EDGE_SHARED:
+    case MW_DEFECT_NON_MANIFOLD_EDGE:
         snprintf(text, size, "triangle %" PRIu32 ": two others share its edge %u, one is triangle %" PRIu32, t, e,
                  d->other);
         return;
@@ -141,7 +141,7 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
         snprintf(text, size, "triangle %" PRIu32 ": triangle %" PRIu32 " is folded back onto it at edge %u", t,
                  d->other, e);
         return;
-    case MW_DEFECT_TURN:
+    case MW_DEFECT_WINDING:
         snprintf(text, size, "triangle %" PRIu32 ": the triangles round its vertex %" PRIu32 " turn more than once", t,
                  v);
         return;
@@ -157,7 +157,7 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
     case MW_DEFECT_CLASHING:
     case MW_DEFECT_OPEN_EDGE:
     case MW_DEFECT_THROUGH_CENTRE:
-    case MW_DEFECT_TURNED:
+    case MW_DEFECT_BACK_FACING:
     case MW_DEFECT_COVERED: describe_in_space(d, text, size); return;
     case MW_DEFECT_COUNT: break;
     }

@@ -14,7 +14,7 @@ mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_erro
     if (arrays->point_stride > 0 && arrays->point_stride < dimension)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a point stride of %zu holds no %c", arrays->point_stride,
                         arrays->point_stride == 1 ? 'y' : 'z');
-    if (arrays->index_type > MW_INT64) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of index");
+    if (arrays->integer_type > MW_INT64) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of index");
     if (arrays->point_count > MW_MAX_VERTICES)
         return mw__fail(error, MW_ERROR_LIMIT, "%zu vertices, at most %" PRIu32 " are possible", arrays->point_count,
                         MW_MAX_VERTICES);
@@ -132,7 +132,8 @@ static mw_status copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, uint32_t th
 
 static mw_status fill(mw_mesh *mesh, const mw_arrays *arrays, const mw_mesh_options *options, mw_error *error)
 {
-    bool lay_out = !mesh->tolerant && (options->layout == 1 || (options->layout == 0 && mw__is_scattered(arrays)));
+    bool lay_out = !mesh->tolerant && (options->layout == MW_LAYOUT_HILBERT ||
+                                       (options->layout == MW_LAYOUT_AUTO && mw__is_scattered(arrays)));
     mw_links links = mw__no_links();
     mw_status status = lay_out ? mw__lay_out(mesh, arrays, options->threads, &links, error)
                                : copy_arrays(mesh, arrays, options->threads, &links, error);
@@ -148,7 +149,7 @@ mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options
     *out = NULL;
     static const mw_mesh_options defaults;
     if (!options) options = &defaults;
-    if (options->layout < 0 || options->layout > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
+    if ((unsigned)options->layout > MW_LAYOUT_AS_GIVEN) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
     mw_status status = mw__check_arguments(arrays, 2, error);
     if (status) return status;
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);

@@ -124,9 +124,9 @@ static MW_INLINE uint32_t mw__users_vertex(const mw_mesh *mesh, uint32_t place)
 /* Number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
 static MW_INLINE uint32_t mw__index_at(const mw_arrays *from, size_t i)
 {
-    if (MW_LIKELY(from->index_type == MW_UINT32)) return ((const uint32_t *)from->triangles)[i];
+    if (MW_LIKELY(from->integer_type == MW_UINT32)) return ((const uint32_t *)from->triangles)[i];
     int64_t v =
-        from->index_type == MW_INT32 ? ((const int32_t *)from->triangles)[i] : ((const int64_t *)from->triangles)[i];
+        from->integer_type == MW_INT32 ? ((const int32_t *)from->triangles)[i] : ((const int64_t *)from->triangles)[i];
     return v < 0 || v >= MW_NONE ? MW_NONE : (uint32_t)v;
 }
 

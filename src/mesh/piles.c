@@ -29,9 +29,9 @@ typedef struct source {
 
 /* Triangles from number t on. Returns false where not all their numbers are those of vertices. Places are looked up without a
  * jump between, as many at a time as there are. */
-static MW_INLINE bool translate_as(const source *s, mw_index_type type, size_t t, uint32_t count, mw_corners *out)
+static MW_INLINE bool translate_as(const source *s, mw_integer_type type, size_t t, uint32_t count, mw_corners *out)
 {
-    const mw_arrays arrays = {.triangles = s->arrays->triangles, .index_type = type};
+    const mw_arrays arrays = {.triangles = s->arrays->triangles, .integer_type = type};
     const uint32_t *place = s->mesh->vertex_place, n = s->mesh->point_count;
     bool right = true;
     for (uint32_t i = 0; i < count; i++) {
@@ -47,7 +47,7 @@ static MW_INLINE bool translate_as(const source *s, mw_index_type type, size_t t
 
 static bool translate(const source *s, size_t t, uint32_t count, mw_corners *out)
 {
-    switch (s->arrays->index_type) {
+    switch (s->arrays->integer_type) {
     case MW_INT32: return translate_as(s, MW_INT32, t, count, out);
     case MW_INT64: return translate_as(s, MW_INT64, t, count, out);
     default: return translate_as(s, MW_UINT32, t, count, out);

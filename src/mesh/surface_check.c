@@ -85,7 +85,7 @@ mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld, mw_check *c
         return status;
     }
     mw__defects_sort(&defects);
-    *check = (mw_check){.defects = defects.list, .defect_count = defects.count, .embedding = 1};
-    for (size_t i = 0; i < defects.count; i++) check->embedding &= defects.list[i].kind == MW_DEFECT_FLAT;
+    *check = (mw_check){.defects = defects.list, .defect_count = defects.count, .valid = 1};
+    for (size_t i = 0; i < defects.count; i++) check->valid &= defects.list[i].kind == MW_DEFECT_FLAT;
     return MW_OK;
 }

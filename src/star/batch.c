@@ -147,7 +147,7 @@ mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t
                            .seed = options->seed,
                            .answer = answer},
                .star = star};
-    mw_status status = mw_star_cursor_init(&b.cursor, star, options, error);
+    mw_status status = mw_star_cursor_init(star, options, &b.cursor, error);
     if (status) return status;
     if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
     if (b.queries.stride < 3) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu holds no x, y, z", stride);

@@ -131,9 +131,9 @@ static bool add_turned(mw_survey *s, uint32_t t, bool fronts)
     for (uint32_t k = 0; k < 3; k++) {
         if (s->star->tri[t].link[k] == MW_NONE) continue;
         uint32_t other = mw__link_triangle(s->star->tri[t].link[k]);
-        if (s->faces[other] != LEVEL && is_front(s, other) == fronts) return add(s, MW_DEFECT_TURNED, t, other, k);
+        if (s->faces[other] != LEVEL && is_front(s, other) == fronts) return add(s, MW_DEFECT_BACK_FACING, t, other, k);
     }
-    return add(s, MW_DEFECT_TURNED, t, MW_NONE, 3);
+    return add(s, MW_DEFECT_BACK_FACING, t, MW_NONE, 3);
 }
 
 /* The piece's facets are in the queue. Afterwards turned[] is what makes their fronts face outwards. */

@@ -39,7 +39,7 @@ static double product(precise a, precise b)
  * are off by less than 0.7 such units, as glibc's are, a factor is off by less than 0.7 u and what its rests leave out,
  * which is below u / 1000; so a product of two that are at most 1 is off by less than 1.41 u, and rounding adds u / 2
  * at most: less than 2 u = 2^-52. */
-void mw_lonlat_direction(double longitude, double latitude, double direction[3])
+void mw_lonlat_to_direction(double longitude, double latitude, double direction[3])
 {
     if (!isfinite(longitude) || !(fabs(latitude) <= 90)) {
         direction[0] = direction[1] = direction[2] = NAN;
@@ -55,7 +55,7 @@ void mw_lonlat_direction(double longitude, double latitude, double direction[3])
 
 /* Scaled by a power of two to coordinates of about 1 at most, so that the length over- and underflows nowhere; zeros
  * are +0, so that there is one longitude on the seam, 180. */
-void mw_direction_lonlat(const double direction[3], double *longitude, double *latitude)
+void mw_direction_to_lonlat(const double direction[3], double *longitude, double *latitude)
 {
     double largest = fmax(fmax(fabs(direction[0]), fabs(direction[1])), fabs(direction[2]));
     *longitude = *latitude = NAN;

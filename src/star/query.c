@@ -3,7 +3,7 @@
 #include "star/index.h"
 #include "star/locate.h"
 
-mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const mw_star_query_options *options,
+mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *options, mw_star_cursor *cursor,
                               mw_error *error)
 {
     static const mw_star_query_options defaults;
@@ -25,11 +25,11 @@ mw_status mw_star_cursor_init(mw_star_cursor *cursor, const mw_star *star, const
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),
         .last = MW_NONE,
-        .sample = options->sample,
+        .sample = options->samples,
         .walk = (uint8_t)options->walk,
         .start = (uint8_t)start,
         .finish = (uint8_t)options->finish,
-        .count = options->count != 0,
+        .count = options->counters != 0,
     };
     return MW_OK;
 }

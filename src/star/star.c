@@ -220,6 +220,6 @@ mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_
         return status;
     }
     mw__defects_sort(&defects);
-    *check = (mw_check){.defects = defects.list, .defect_count = defects.count, .embedding = sound};
+    *check = (mw_check){.defects = defects.list, .defect_count = defects.count, .valid = sound};
     return MW_OK;
 }

@@ -250,14 +250,15 @@ static void place(double point[3], const candidate *c, const view *v, const mw_c
 }
 
 /* `least`: the distance of its box. */
-static mw_surface_hit nearest_of_triangle(const mw_corners corner, const double q[3], double least)
+static mw_nearest_surface_point nearest_of_triangle(const mw_corners corner, const double q[3], double least)
 {
     view v;
     view_from(&v, q, corner);
     candidate c;
     if (!nearest_on_face(&v, &c)) c = nearest_on_edges(&v);
     double distance = length(c.away[0], c.away[1], c.away[2]) / v.after / v.before;
-    mw_surface_hit hit = {.distance = larger(distance, least), .weight = {c.weight[0], c.weight[1], c.weight[2]}};
+    mw_nearest_surface_point hit = {.distance = larger(distance, least),
+                                    .weight = {c.weight[0], c.weight[1], c.weight[2]}};
     place(hit.point, &c, &v, corner);
     return hit;
 }
@@ -273,7 +274,7 @@ typedef struct search {
     const double *point;
     double q[3], width, reach; /* in the frame */
     double max_distance;
-    mw_surface_hit nearest;
+    mw_nearest_surface_point nearest;
 } search;
 
 static void set_reach(search *s, double distance)
@@ -302,7 +303,7 @@ static void look_at_triangle(search *s, uint32_t t)
                                mw__surface_corner(surface, t, 2)};
     double least = distance_to_corners_box(corner, s->point);
     if (least > fmin(s->nearest.distance, s->max_distance)) return;
-    mw_surface_hit hit = nearest_of_triangle(corner, s->point, least);
+    mw_nearest_surface_point hit = nearest_of_triangle(corner, s->point, least);
     if (hit.distance > s->max_distance || hit.distance > s->nearest.distance) return;
     if (hit.distance == s->nearest.distance && t >= s->nearest.triangle) return;
     if (mw__collinear3(corner[0], corner[1], corner[2])) return;
@@ -339,10 +340,10 @@ static void search_boxes(search *s)
 }
 
 mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
-                                mw_surface_hit *hit, mw_error *error)
+                                mw_nearest_surface_point *hit, mw_error *error)
 {
     if (!prober || !point || !hit) return mw__fail(error, MW_ERROR_ARGUMENT, "no prober, no point or no place for it");
-    *hit = (mw_surface_hit){MW_NONE, NAN, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
+    *hit = (mw_nearest_surface_point){MW_NONE, NAN, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
     if (!prober->has_boxes)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest point needs a prober with options.boxes");
     if (!(max_distance >= 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");

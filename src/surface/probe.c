@@ -75,7 +75,7 @@ static mw_probe_options resolve(const mw_probe_options *options, const mw_surfac
     return all;
 }
 
-mw_status mw_probe_cursor_init(mw_probe_cursor *cursor, const mw_prober *prober, const mw_probe_options *options,
+mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options, mw_probe_cursor *cursor,
                                mw_error *error)
 {
     static const mw_probe_options defaults;
@@ -110,8 +110,8 @@ static bool is_coherent(const mw_prober *prober, const mw_probe_cursor *cursor, 
 {
     mw_probe_start start = cursor->options.start;
     if (cursor->prober != prober || cursor->last >= prober->surface->tri_count) return false;
-    return start == MW_PROBE_LAST ||
-           (start == MW_PROBE_AUTO && beats_sample(prober, cursor->last, q, cursor->options.samples));
+    return start == MW_PROBE_START_LAST ||
+           (start == MW_PROBE_START_AUTO && beats_sample(prober, cursor->last, q, cursor->options.samples));
 }
 
 static mw_search plan(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3])
@@ -123,12 +123,12 @@ static mw_search plan(const mw_prober *prober, mw_probe_cursor *cursor, const do
         .reach = options->max_distance > 0 ? options->max_distance : INFINITY,
         .last = is_coherent(prober, cursor, q) ? cursor->last : MW_NONE,
         .samples = options->samples,
-        .nearest = options->start != MW_PROBE_RANDOM,
+        .nearest = options->start != MW_PROBE_START_RANDOM,
         .iterations = options->iterations,
         .race = options->race,
         .steps = prober->surface->tri_count,
         .random = mw__random(&cursor->random),
-        .count = options->count != 0,
+        .count = options->counters != 0,
     };
 }
 
@@ -161,7 +161,7 @@ static mw_touch answer_certain(const mw_prober *prober, mw_search *search, doubl
 static mw_touch probe(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3],
                       mw_trace *trace)
 {
-    bool counted = cursor->options.count || trace; /* a walk that is written down counts */
+    bool counted = cursor->options.counters || trace; /* a walk that is written down counts */
     mw_probe_counters work = {0};
     mw_touch touch = mw__no_touch(MW_TOUCH_BAD);
     if (mw__is_finite3(q) && mw__is_finite3(m) && (m[0] != 0 || m[1] != 0 || m[2] != 0)) {
@@ -177,7 +177,7 @@ static mw_touch probe(const mw_prober *prober, mw_probe_cursor *cursor, const do
         cursor->prober = prober;
         cursor->last = touch.triangle;
     }
-    if (cursor->options.count) count(&cursor->counters, &work, hit);
+    if (cursor->options.counters) count(&cursor->counters, &work, hit);
     return touch;
 }
 

@@ -20,8 +20,8 @@ static mw_status check_segments(const mw_constraints *given, mw_error *error)
         if (given->segments[i] >= given->point_count)
             return mw__fail(error, MW_ERROR_ARGUMENT, "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
                             given->segments[i], given->point_count);
-    for (size_t i = 0; i < given->hole_count; i++)
-        if (!isfinite(given->holes[2 * i]) || !isfinite(given->holes[2 * i + 1]))
+    for (size_t i = 0; i < given->hole_seed_count; i++)
+        if (!isfinite(given->hole_seeds[2 * i]) || !isfinite(given->hole_seeds[2 * i + 1]))
             return mw__fail(error, MW_ERROR_ARGUMENT, "the place of hole %zu is not finite", i);
     return MW_OK;
 }
@@ -32,7 +32,7 @@ static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, 
     if ((unsigned)keep > MW_KEEP_INSIDE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
     if (given->stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
     if ((given->point_count && !given->points) || (given->segment_count && !given->segments) ||
-        (given->hole_count && !given->holes))
+        (given->hole_seed_count && !given->hole_seeds))
         return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
     if (given->point_count > MW_MAX_TRIANGLES / 2)
         return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", given->point_count);
@@ -153,7 +153,7 @@ static uint32_t *order_stretches(const mw_cdt *m)
 }
 
 /* Triangulate the points and force the stretches in, as far as nothing crosses, or, if `all`, all that do not cross. */
-static mw_status cdt_make(mw_cdt *m, bool all, mw_triangulation_report *report, mw_error *error)
+static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_error *error)
 {
     uint32_t n = (uint32_t)m->point_count;
     if (m->stretches.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
@@ -209,18 +209,19 @@ static mw_status fail_crossing(const mw_cdt *m, const char *why, mw_constrain_re
     finder f = {m, MW_NONE};
     mw__segment_insertion_trace(&m->net, s->from, s->to, find_piece, &f);
     const mw_stretch *p = &m->pieces.item[f.piece];
-    report->cross[0] = s->segment < p->segment ? s->segment : p->segment;
-    report->cross[1] = s->segment < p->segment ? p->segment : s->segment;
-    const uint32_t *a = &m->given->segments[2 * (size_t)report->cross[0]];
-    const uint32_t *b = &m->given->segments[2 * (size_t)report->cross[1]];
+    report->crossing_segments[0] = s->segment < p->segment ? s->segment : p->segment;
+    report->crossing_segments[1] = s->segment < p->segment ? p->segment : s->segment;
+    const uint32_t *a = &m->given->segments[2 * (size_t)report->crossing_segments[0]];
+    const uint32_t *b = &m->given->segments[2 * (size_t)report->crossing_segments[1]];
     mw_point place = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
     return mw__fail(error, MW_ERROR_INPUT,
                     "segments %" PRIu32 " (from point %" PRIu32 " to %" PRIu32 ") and %" PRIu32 " (from point %" PRIu32
                     " to %" PRIu32 ") cross near %.9g %.9g%s",
-                    report->cross[0], a[0], a[1], report->cross[1], b[0], b[1], place.x, place.y, why);
+                    report->crossing_segments[0], a[0], a[1], report->crossing_segments[1], b[0], b[1], place.x,
+                    place.y, why);
 }
 
-static mw_status make_all(mw_cdt *m, bool split, mw_triangulation_report *delaunay, mw_constrain_report *report,
+static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
                           mw_error *error);
 
 /* The ends of stretches, in the order of their numbers: number[p] is the one of point p among them, or MW_NONE. */
@@ -299,7 +300,7 @@ static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *e
 
 /* Each round puts points where stretches cross. Most are then done; but points are rounded, so a stretch may come to
  * cross another by that, and of many that cross one another each round lets some in, and parts the others. */
-static mw_status make_all(mw_cdt *m, bool split, mw_triangulation_report *delaunay, mw_constrain_report *report,
+static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
                           mw_error *error)
 {
     enum { MOST_ROUNDS = 200 };
@@ -337,35 +338,35 @@ static mw_status cdt_take(mw_cdt *m, mw_error *error)
 }
 
 static mw_status cdt_build(mw_cdt *m, const mw_constrain_options *options, uint32_t *duplicate_of,
-                           mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error)
+                           mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out, mw_error *error)
 {
     mw_status status = cdt_take(m, error);
     if (status == MW_OK) status = make_all(m, options->split, &report->delaunay, report, error);
-    report->crossed = m->crossed;
+    report->triangles_crossed = m->crossed;
     if (status == MW_OK) status = mw__cdt_keep_triangles(m, options->keep, error);
-    if (status == MW_OK) status = mw__cdt_output(m, report, pieces, out, error);
+    if (status == MW_OK) status = mw__cdt_output(m, report, edges, out, error);
     if (duplicate_of && status == MW_OK)
         for (size_t i = 0; i < m->given->point_count; i++) duplicate_of[i] = m->twin[i];
     return status;
 }
 
 mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
-                                  uint32_t *duplicate_of, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out,
-                                  mw_error *error)
+                                  uint32_t *duplicate_of, mw_constrain_report *report, mw_constrained_edges *edges,
+                                  mw_mesh **out, mw_error *error)
 {
     static const mw_constrain_options defaults;
     mw_constrain_report unread;
     if (!report) report = &unread;
-    *report = (mw_constrain_report){.cross = {MW_NONE, MW_NONE}};
-    if (pieces) *pieces = (mw_pieces){0};
+    *report = (mw_constrain_report){.crossing_segments = {MW_NONE, MW_NONE}};
+    if (edges) *edges = (mw_constrained_edges){0};
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
     if (!options) options = &defaults;
     mw_status status = cdt_check_arguments(constraints, options->keep, error);
     if (status) return status;
     mw_cdt m = {.given = constraints, .threads = options->threads};
-    status = cdt_build(&m, options, duplicate_of, report, pieces, out, error);
+    status = cdt_build(&m, options, duplicate_of, report, edges, out, error);
     cdt_release(&m);
-    if (status && pieces) mw_pieces_release(pieces);
+    if (status && edges) mw_constrained_edges_release(edges);
     return status;
 }

@@ -69,8 +69,9 @@ mw_status mw__cdt_split_crossings(mw_cdt *m, int round, mw_error *error);
 /* Set m->kept. MW_ERROR_INPUT: a polygon that is not closed; MW_ERROR_MEMORY. */
 mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error);
 
-/* Make the mesh and, unless NULL, the pieces; fills what concerns them in the report. m->point and m->tri may be moved
- * into the mesh. MW_ERROR_INPUT: nothing is kept; MW_ERROR_MEMORY: the caller releases the pieces. */
-mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error);
+/* Make the mesh and, unless NULL, the edges; fills what concerns them in the report. m->point and m->tri may be moved
+ * into the mesh. MW_ERROR_INPUT: nothing is kept; MW_ERROR_MEMORY: the caller releases the edges. */
+mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out,
+                         mw_error *error);
 
 #endif

@@ -248,8 +248,8 @@ static void remove_holes(flood *f)
     const mw_constraints *given = f->m->given;
     uint64_t random = 1;
     uint32_t t = 0;
-    for (size_t i = 0; i < given->hole_count; i++) {
-        mw_point q = {given->holes[2 * i], given->holes[2 * i + 1]};
+    for (size_t i = 0; i < given->hole_seed_count; i++) {
+        mw_point q = {given->hole_seeds[2 * i], given->hole_seeds[2 * i + 1]};
         if (!keep_walk(f->m, q, &random, &t)) continue;
         remove_touched(f, t, q);
         flood_spread(f);
@@ -268,7 +268,7 @@ static bool any_polygon(const mw_constraints *given)
 mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error)
 {
     bool polygons = any_polygon(m->given);
-    if (keep == MW_KEEP_AUTO) keep = polygons || m->given->hole_count ? MW_KEEP_INSIDE : MW_KEEP_HULL;
+    if (keep == MW_KEEP_AUTO) keep = polygons || m->given->hole_seed_count ? MW_KEEP_INSIDE : MW_KEEP_HULL;
     m->kept = mw__alloc(m->tri_count, sizeof *m->kept);
     if (!m->kept) return mw__fail_memory(error);
     for (uint32_t t = 0; t < m->tri_count; t++) m->kept[t] = 1;

@@ -1,4 +1,4 @@
-/* cdt_output.c - what was made, as a mesh and a list of pieces. */
+/* cdt_output.c - what was made, as a mesh and a list of edges. */
 #include "triangulate/constrained/cdt.h"
 
 #include "mesh/layout.h"
@@ -6,12 +6,12 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-void mw_pieces_release(mw_pieces *pieces)
+void mw_constrained_edges_release(mw_constrained_edges *edges)
 {
-    if (!pieces) return;
-    free(pieces->edge);
-    free(pieces->segment);
-    *pieces = (mw_pieces){0};
+    if (!edges) return;
+    free(edges->edge);
+    free(edges->segment);
+    *edges = (mw_constrained_edges){0};
 }
 
 /* Points made twice, or where one of the caller's lies, are not vertices: number those that are. NULL when out of
@@ -61,7 +61,7 @@ static void move_triangles(mw_cdt *m, mw_mesh *mesh)
 }
 
 /* Pieces of the triangles kept, each once, in the order of the triangles. With out NULL they are only counted. */
-static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_pieces *out)
+static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_constrained_edges *out)
 {
     size_t made = 0;
     for (uint32_t t = 0; t < m->tri_count; t++)
@@ -80,7 +80,7 @@ static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_piece
     return made;
 }
 
-static bool give_pieces(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_pieces *out)
+static bool give_pieces(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
 {
     if (!out) return true;
     out->edge = mw__alloc(2 * count, sizeof *out->edge);
@@ -112,15 +112,15 @@ static void give_points(mw_cdt *m, const uint32_t *vertex, mw_mesh *mesh)
 }
 
 /* Move what was made into a mesh. */
-static bool give_mesh(mw_cdt *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh *mesh)
+static bool give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh *mesh)
 {
     uint32_t *vertex = number_points(m, &mesh->point_count), *number = number_triangles(m, &mesh->tri_count);
     bool done = vertex && number;
     if (done) {
-        report->removed = m->tri_count - mesh->tri_count;
-        report->added = mesh->point_count - m->given->point_count;
-        report->pieces = list_subsegments(m, vertex, NULL);
-        done = give_pieces(m, vertex, report->pieces, pieces) && give_triangles(m, number, vertex, mesh);
+        report->triangles_removed = m->tri_count - mesh->tri_count;
+        report->vertices_added = mesh->point_count - m->given->point_count;
+        report->constrained_edges = list_subsegments(m, vertex, NULL);
+        done = give_pieces(m, vertex, report->constrained_edges, edges) && give_triangles(m, number, vertex, mesh);
     }
     if (done) give_points(m, vertex, mesh);
     free(vertex);
@@ -128,16 +128,17 @@ static bool give_mesh(mw_cdt *m, mw_constrain_report *report, mw_pieces *pieces,
     return done;
 }
 
-mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_pieces *pieces, mw_mesh **out, mw_error *error)
+mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out,
+                         mw_error *error)
 {
     bool any = false;
     for (uint32_t t = 0; t < m->tri_count && !any; t++) any = m->kept[t];
-    report->removed = any ? 0 : m->tri_count;
+    report->triangles_removed = any ? 0 : m->tri_count;
     if (!any)
         return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
                         m->tri_count);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
-    if (mesh && give_mesh(m, report, pieces, mesh) && mw__lay_out_vertices(mesh, m->threads)) {
+    if (mesh && give_mesh(m, report, edges, mesh) && mw__lay_out_vertices(mesh, m->threads)) {
         *out = mesh;
         return MW_OK;
     }

@@ -203,7 +203,7 @@ static bool delaunay_collect(delaunay *d, mw_triangle **tri, uint32_t *tri_count
 }
 
 mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
-                              uint32_t *duplicate_of, mw_triangulation_report *report, mw_triangle **tri,
+                              uint32_t *duplicate_of, mw_delaunay_report *report, mw_triangle **tri,
                               uint32_t *tri_count, mw_error *error)
 {
     delaunay d = {.given = points, .setup = *setup, .ground = {.n = n}};
@@ -218,7 +218,7 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
     if (status == MW_OK) {
         const mw_patch *whole = &d.patches.patch[0];
         if (duplicate_of) report_duplicates(&d, duplicate_of);
-        if (report) *report = (mw_triangulation_report){n, whole->duplicates, whole->visited};
+        if (report) *report = (mw_delaunay_report){n, whole->duplicates, whole->visited};
         if (!delaunay_collect(&d, tri, tri_count)) status = mw__fail_memory(error);
     }
     if (d.setup.order) {
@@ -229,9 +229,8 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
     return status;
 }
 
-mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of,
-                                 mw_triangulation_report *report, mw_triangle **tri, uint32_t *tri_count,
-                                 mw_error *error)
+mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of, mw_delaunay_report *report,
+                                 mw_triangle **tri, uint32_t *tri_count, mw_error *error)
 {
     const mw_delaunay_setup alone = {.threads = 1};
     return mw__delaunay_set_up(points, n, &alone, duplicate_of, report, tri, tri_count, error);
@@ -257,8 +256,7 @@ static const mw_point *delaunay_read_points(const double *from, size_t stride, u
 }
 
 static mw_status delaunay_make_mesh(const mw_point *given, mw_delaunay_setup setup, bool laid_out,
-                                    uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh *mesh,
-                                    mw_error *error)
+                                    uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh *mesh, mw_error *error)
 {
     uint32_t *order = NULL, n = mesh->point_count;
     if (laid_out && mw__are_scattered(given, n)) setup.order = &order;
@@ -268,7 +266,7 @@ static mw_status delaunay_make_mesh(const mw_point *given, mw_delaunay_setup set
 }
 
 mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *points, size_t n, size_t stride,
-                            uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+                            uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error)
 {
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
@@ -293,14 +291,8 @@ mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *point
     return status;
 }
 
-mw_status mw_delaunay_with(const mw_delaunay_options *options, const double *points, size_t n, size_t stride,
-                           uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error)
+mw_status mw_delaunay(const double *points, size_t n, size_t stride, const mw_delaunay_options *options,
+                      uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error)
 {
     return mw__delaunay_mesh(options ? options->threads : 0, true, points, n, stride, duplicate_of, report, out, error);
-}
-
-mw_status mw_delaunay(const double *points, size_t n, size_t stride, uint32_t *duplicate_of,
-                      mw_triangulation_report *report, mw_mesh **out, mw_error *error)
-{
-    return mw_delaunay_with(NULL, points, n, stride, duplicate_of, report, out, error);
 }

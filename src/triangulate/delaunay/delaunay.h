@@ -9,9 +9,8 @@
 /* Triangulate n points: *tri is set to an array of *tri_count counter-clockwise, linked records with vertex numbers of
  * `points`, in spatial order, `user` being the index; released with free(), NULL on failure. duplicate_of and report as
  * for mw_delaunay; errors too, and MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
-mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of,
-                                 mw_triangulation_report *report, mw_triangle **tri, uint32_t *tri_count,
-                                 mw_error *error);
+mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of, mw_delaunay_report *report,
+                                 mw_triangle **tri, uint32_t *tri_count, mw_error *error);
 
 typedef struct mw_delaunay_setup {
     uint32_t threads; /* 0 = as OpenMP gives; the result does not depend on it    */
@@ -23,12 +22,12 @@ typedef struct mw_delaunay_setup {
 
 /* The same by a setup. */
 mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
-                              uint32_t *duplicate_of, mw_triangulation_report *report, mw_triangle **tri,
+                              uint32_t *duplicate_of, mw_delaunay_report *report, mw_triangle **tri,
                               uint32_t *tri_count, mw_error *error);
 
 /* A mesh of its own; mw_delaunay_with, but for `laid_out`: its vertices lie along the curve if the points are many and do
  * not. */
 mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *points, size_t n, size_t stride,
-                            uint32_t *duplicate_of, mw_triangulation_report *report, mw_mesh **out, mw_error *error);
+                            uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error);
 
 #endif

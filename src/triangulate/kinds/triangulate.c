@@ -11,7 +11,7 @@ static const struct {
     const char *name, *source, *help;
     mw_make_kind *make;
 } kinds[MW_KIND_COUNT] = {
-#define MW_KIND_ENTRY(id, symbol, name, source, help) [MW_##id] = {name, source, help, mw__make_##symbol},
+#define MW_KIND_ENTRY(id, symbol, name, source, help) [MW_KIND_##id] = {name, source, help, mw__make_##symbol},
 #include <meshwalk/kinds.def>
 };
 
@@ -105,7 +105,7 @@ static mw_status kind_convert(mw_triangulation_kind kind, mw_mesh *mesh, const m
 {
     mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count};
     mw_status status = kinds[kind].make(&t, options, report, error);
-    if (status == MW_OK && kind != MW_DELAUNAY && !triangulation_lay_out(&t)) status = mw__fail_memory(error);
+    if (status == MW_OK && kind != MW_KIND_DELAUNAY && !triangulation_lay_out(&t)) status = mw__fail_memory(error);
     mesh->tri = t.tri;
     if (status == MW_OK) triangulation_measure(&t, report);
     return status;
@@ -122,7 +122,7 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
     if ((unsigned)kind >= MW_KIND_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of triangulation");
     if (!options) options = &defaults;
     mw_mesh *mesh;
-    mw_status status = mw__delaunay_mesh(options->threads, kind == MW_DELAUNAY, points, n, stride, duplicate_of,
+    mw_status status = mw__delaunay_mesh(options->threads, kind == MW_KIND_DELAUNAY, points, n, stride, duplicate_of,
                                          &made.delaunay, &mesh, error);
     if (status == MW_OK) status = kind_convert(kind, mesh, options, &made, error);
     if (status == MW_OK && !mw__lay_out_vertices(mesh, options->threads)) status = mw__fail_memory(error);
