@@ -1,6 +1,7 @@
-/* meshwalk - the program. Picks the sub-command; each has a file of its own. */
+/* meshwalk - the program. Runs the sub-command that the first argument names. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
+#include "cli/frame/help.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
@@ -18,7 +19,7 @@ static const command *const commands[] = {
 };
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
-static int print_help(void)
+static int main_print_help(void)
 {
     text t = {0};
     text_string(&t, "meshwalk - point location in triangle meshes by walking\n\n"
@@ -30,45 +31,44 @@ static int print_help(void)
     text_string(&t, "\noptions:\n"
                     "      --help            print this help; 'meshwalk COMMAND --help' tells about a command\n"
                     "      --version         print the version\n\n");
-    options_wrap(
-        &t,
-        "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. Constraints: GeoJSON, "
-        "Triangle .poly. Each also gzipped; '-' is standard input or output.",
-        0);
-    options_wrap(&t,
-                 "Exit codes: 0 done; 1 done, but points have no answer and --strict was given; 2 wrong usage; 3 "
-                 "input unreadable or invalid; 4 out of memory, a limit, or output that cannot be written.",
-                 0);
+    help_wrap(&t,
+              "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. Constraints: GeoJSON, "
+              "Triangle .poly. Each also gzipped; '-' is standard input or output.",
+              0);
+    help_wrap(&t,
+              "Exit codes: 0 done; 1 done, but points have no answer and --strict was given; 2 wrong usage; 3 "
+              "input unreadable or invalid; 4 out of memory, a limit, or output that cannot be written.",
+              0);
     return files_write_text(NULL, &t);
 }
 
-static int print_version(void)
+static int main_print_version(void)
 {
     text t = {0};
     text_printf(&t, "meshwalk %s\n", mw_version());
     return files_write_text(NULL, &t);
 }
 
-static int print_command_help(const command *c)
+static int command_print_help(const command *c)
 {
     text t = {0};
-    options_help(&t, c);
+    help_of_command(&t, c);
     return files_write_text(NULL, &t);
 }
 
-#define MOST_THREADS 256 /* a system refuses threads without bound, and OpenMP would end the program */
+#define MAX_THREADS 256 /* OpenMP ends the program when the system refuses more threads */
 
-static int run_command(const command *c, int count, char **arguments)
+static int command_run(const command *c, int count, char **arguments)
 {
-    const char *operands[MOST_OPERANDS] = {0};
+    const char *operands[MAX_OPERANDS] = {0};
     void *settings = calloc(1, c->settings_size);
     if (!settings) return fail_memory();
     int end = options_parse(c, count, arguments, settings, operands);
     const common_settings *common = settings;
     if (end == 0 && common->help) {
-        end = print_command_help(c);
-    } else if (end == 0 && common->threads > MOST_THREADS) {
-        complain("option '--threads' wants at most %d", MOST_THREADS);
+        end = command_print_help(c);
+    } else if (end == 0 && common->threads > MAX_THREADS) {
+        complain("option '--threads' wants at most %d", MAX_THREADS);
         end = END_USAGE;
     } else if (end == 0) {
         signals_begin();
@@ -80,7 +80,7 @@ static int run_command(const command *c, int count, char **arguments)
     return end;
 }
 
-static int unknown_command(const char *word)
+static int main_unknown_command(const char *word)
 {
     spelling s = spelling_of(word);
     for (size_t i = 0; i < COMMAND_COUNT; i++) spelling_try(&s, commands[i]->name);
@@ -90,42 +90,44 @@ static int unknown_command(const char *word)
     return END_USAGE;
 }
 
-/* Were a standard stream closed, the next file opened would take its number, and the output would go into it. */
-static void fill_standard_streams(void)
+/* Open closed standard streams on /dev/null. Else the next file that is opened would take the
+ * number of one, and output or messages would go into that file. */
+static void standard_streams_fill(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
 }
 
-/* OpenMP ends a program that cannot get its threads with 1, which means something else here. */
-static bool returned;
-static void end_by_limit(void)
+/* OpenMP ends a program that cannot get its threads with exit code 1, which has another meaning
+ * here. */
+static bool main_returned;
+static void exit_without_threads(void)
 {
-    if (returned) return;
-    signals_clean();
-    _exit(END_INTERNAL);
+    if (main_returned) return;
+    signals_remove_temporaries();
+    _exit(END_RESOURCE);
 }
 
-static int run_word(int count, char **arguments)
+static int main_run_arguments(int count, char **arguments)
 {
     if (count < 2) {
         complain("which command? 'meshwalk --help' lists them");
         return END_USAGE;
     }
     const char *word = arguments[1];
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return print_help();
-    if (strcmp(word, "--version") == 0) return print_version();
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
+    if (strcmp(word, "--version") == 0) return main_print_version();
     for (size_t i = 0; i < COMMAND_COUNT; i++)
-        if (strcmp(commands[i]->name, word) == 0) return run_command(commands[i], count - 2, arguments + 2);
-    return unknown_command(word);
+        if (strcmp(commands[i]->name, word) == 0) return command_run(commands[i], count - 2, arguments + 2);
+    return main_unknown_command(word);
 }
 
 int main(int count, char **arguments)
 {
-    fill_standard_streams();
-    signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error of the output like any other */
-    if (atexit(end_by_limit) != 0) return fail_memory();
-    int end = run_word(count, arguments);
-    returned = true;
+    standard_streams_fill();
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe is then an error of the output */
+    if (atexit(exit_without_threads) != 0) return fail_memory();
+    int end = main_run_arguments(count, arguments);
+    main_returned = true;
     return end;
 }

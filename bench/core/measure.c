@@ -2,7 +2,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "bench/core/rounds.h"
-#include "cli/frame/tally.h"
+#include "cli/frame/monotonic_clock.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,10 +49,10 @@ static int make_locator(scene *s, mw_triangulation_kind kind, preparation how)
     mw_locator_options options = {
         .areas = how == AREAS, .fill = how == OPEN ? MW_FILL_NO : MW_FILL_YES, .threads = s->trial->threads};
     if (s->locator[kind][how]) return 0;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     if (mw_locator_create(s->mesh[kind], &options, &s->locator[kind][how], &error) != MW_OK)
         return fail(s->trial, &error);
-    s->seconds[kind][how] = tally_clock() - clock;
+    s->seconds[kind][how] = monotonic_seconds() - clock;
     return 0;
 }
 
@@ -111,11 +111,11 @@ static int triangulate(scene *s, outcome *o)
         mw_error error;
         mw_triangulation_kind kind = s->trial->algorithms[i]->kind;
         if (!s->mesh[kind]) {
-            double clock = tally_clock();
+            double clock = monotonic_seconds();
             if (mw_triangulate(kind, data->points, data->count, 2, NULL, NULL, &report, &s->mesh[kind], &error) !=
                 MW_OK)
                 return fail(s->trial, &error);
-            seconds = tally_clock() - clock;
+            seconds = monotonic_seconds() - clock;
         }
         take_kind(s, i, &report, seconds, o);
     }
@@ -199,7 +199,7 @@ int measure_compare(const char *name, const double *queries, size_t n, const cha
         if (a->triangle == b->triangle && a->where == b->where && a->hole == b->hole) continue;
         complain("%s: the walks %s and %s found different triangles at %.17g %.17g", name, walk, other, queries[2 * i],
                  queries[2 * i + 1]);
-        return END_INTERNAL;
+        return END_RESOURCE;
     }
     return 0;
 }
@@ -306,9 +306,9 @@ static int time_one(void *self, size_t entry, size_t begin, size_t n, double *ti
     options.seed = s->trial->seed + begin;
     if (mw_cursor_init(locator_for(s, a), &options, &cursor, &error) != MW_OK) return fail(s->trial, &error);
     const double *q = s->queries + 2 * begin;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     for (size_t i = 0; i < n; i++) s->locations[i] = mw_locate(locator_for(s, a), &cursor, q[2 * i], q[2 * i + 1]);
-    *time = 1e6 * (tally_clock() - clock) / (double)n;
+    *time = 1e6 * (monotonic_seconds() - clock) / (double)n;
     return 0;
 }
 

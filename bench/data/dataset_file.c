@@ -25,7 +25,7 @@ static int read_mesh(mw_mesh_file *file, const char *path, bool *none)
 {
     mw_error error;
     *file = (mw_mesh_file){0};
-    *none = files_is_stream(path);
+    *none = files_is_standard(path);
     if (*none || mw_read_mesh(path, file, &error) == MW_OK) return 0;
     *none = is_unknown(&error);
     return *none ? 0 : fail_reading(&error);

@@ -1,6 +1,6 @@
 /* Our editors. */
 #include "bench/edits/editings.h"
-#include "cli/frame/tally.h"
+#include "cli/frame/monotonic_clock.h"
 
 #include <meshwalk/meshwalk.h>
 
@@ -87,10 +87,10 @@ static double run(void *self, const script *s, double *corners)
     mw_status status = MW_OK;
     uint32_t inserted = (uint32_t)s->point_count;
     const mw_locator *locator = mw_editor_locator(o->editor);
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     if (s->at_once) {
         status = insert_points(o, s);
-        return status == MW_OK ? tally_clock() - clock : EDITING_FAILED;
+        return status == MW_OK ? monotonic_seconds() - clock : EDITING_FAILED;
     }
     for (const script_step *step = s->steps; step < s->steps + s->count && status == MW_OK; step++) {
         const double *p = step->point;
@@ -108,7 +108,7 @@ static double run(void *self, const script *s, double *corners)
             break;
         }
     }
-    return status == MW_OK ? tally_clock() - clock : EDITING_FAILED;
+    return status == MW_OK ? monotonic_seconds() - clock : EDITING_FAILED;
 }
 
 static uint64_t sum(const void *self)

@@ -6,7 +6,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "bench/core/rounds.h"
-#include "cli/frame/tally.h"
+#include "cli/frame/monotonic_clock.h"
 
 #include <meshwalk/meshwalk.h>
 
@@ -73,12 +73,12 @@ static int remove_one(rebuild *r)
 static int run_own(rebuild *r, double *edits, double *all)
 {
     int end = 0;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     for (size_t i = 0; i < r->stride && end == 0; i++) end = i % 2 ? remove_one(r) : insert_one(r);
-    *edits = tally_clock() - clock;
+    *edits = monotonic_seconds() - clock;
     for (size_t i = 0; i < QUERIES && end == 0; i++)
         r->found[i] = mw_locate(mw_editor_locator(r->editor), &r->cursor, r->queries[2 * i], r->queries[2 * i + 1]);
-    *all = tally_clock() - clock;
+    *all = monotonic_seconds() - clock;
     return end;
 }
 
@@ -92,7 +92,7 @@ static int check_own(const rebuild *r)
         if (engine_contains(c, c + 2, c + 4, r->queries + 2 * i)) continue;
         complain("%s: %.17g %.17g was found in a triangle that does not hold it", r->plan->name, r->queries[2 * i],
                  r->queries[2 * i + 1]);
-        return END_INTERNAL;
+        return END_RESOURCE;
     }
     return 0;
 }
@@ -144,12 +144,12 @@ static int run_anew(rebuild *r, size_t k, double *time)
     *time = build + locate;
     if (locate < 0) {
         complain("%s: %s has failed", r->plan->name, e->name);
-        return END_INTERNAL;
+        return END_RESOURCE;
     }
     r->wrong[k] = fmax(r->wrong[k], count_wrong(r));
     if (r->wrong[k] == 0 || !engines[e->engine].exact) return 0;
     complain("%s: %g answers of %s are wrong", r->plan->name, r->wrong[k], e->name);
-    return END_INTERNAL;
+    return END_RESOURCE;
 }
 
 /* --- rounds and rows

@@ -8,7 +8,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "bench/core/rounds.h"
-#include "cli/frame/tally.h"
+#include "cli/frame/monotonic_clock.h"
 
 #include <meshwalk/meshwalk.h>
 
@@ -71,7 +71,7 @@ static mw_edit next_edit(session *s, size_t i)
 
 static int edit_until(session *s, double edits)
 {
-    double clock = tally_clock(), before = s->edits;
+    double clock = monotonic_seconds(), before = s->edits;
     for (; s->edits < edits; s->edits++) {
         mw_error error;
         mw_change change;
@@ -79,7 +79,7 @@ static int edit_until(session *s, double edits)
         if (mw_edit_apply(s->editor, &edit, &change, &error) != MW_OK) return fail(s, &error);
         if (edit.kind == MW_EDIT_INSERT) s->alive[s->alive_count++] = change.vertex;
     }
-    s->ns = 1e9 * (tally_clock() - clock) / fmax(1, edits - before);
+    s->ns = 1e9 * (monotonic_seconds() - clock) / fmax(1, edits - before);
     return 0;
 }
 
@@ -95,9 +95,9 @@ static int locate(session *s, const beginning *b, size_t begin, size_t n, mw_cou
         .start = b->start, .index = b->index, .seed = s->plan->seed + begin, .counters = counters != NULL};
     if (mw_cursor_init(s->locator, &options, &cursor, &error) != MW_OK) return fail(s, &error);
     const double *q = s->queries + 2 * begin;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     for (size_t i = 0; i < n; i++) s->found[i] = mw_locate(s->locator, &cursor, q[2 * i], q[2 * i + 1]);
-    *seconds = tally_clock() - clock;
+    *seconds = monotonic_seconds() - clock;
     if (counters) *counters = cursor.counters;
     return 0;
 }
@@ -121,7 +121,7 @@ static int check(const session *s)
         if (engine_contains(c, c + 2, c + 4, s->queries + 2 * i)) continue;
         complain("%s: %.17g %.17g was found in a triangle that does not hold it", s->plan->name, s->queries[2 * i],
                  s->queries[2 * i + 1]);
-        return END_INTERNAL;
+        return END_RESOURCE;
     }
     return 0;
 }
@@ -229,9 +229,9 @@ static int prepare(session *s, size_t edits)
 static int compact(session *s)
 {
     mw_error error;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     if (mw_editor_compact(s->editor, NULL, NULL, &error) != MW_OK) return fail(s, &error);
-    s->ns = 1e9 * (tally_clock() - clock);
+    s->ns = 1e9 * (monotonic_seconds() - clock);
     return 0;
 }
 

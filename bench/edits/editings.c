@@ -113,7 +113,7 @@ static int judge(trials *t, const runner *r, const void *self)
     if (right && t->answers == 0) t->answers = answers;
     if (right && answers == t->answers) return 0;
     complain("%s: %s is wrong after '%s'", t->plan->name, editors[r->id].name, editings_task(t->task));
-    return END_INTERNAL;
+    return END_RESOURCE;
 }
 
 static int run_once(trials *t, runner *r, double *time)
@@ -122,7 +122,7 @@ static int run_once(trials *t, runner *r, double *time)
     if (!self) return fail_memory();
     memset(t->corners, 0, (6 * t->script.located + 1) * sizeof *t->corners);
     double seconds = r->code->run(self, &t->script, t->corners);
-    int end = seconds < 0 ? END_INTERNAL : judge(t, r, self);
+    int end = seconds < 0 ? END_RESOURCE : judge(t, r, self);
     if (seconds < 0) complain("%s: %s has failed", t->plan->name, editors[r->id].name);
     r->code->destroy(self);
     *time = 1e9 * seconds / (double)t->script.count;

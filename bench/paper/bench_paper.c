@@ -74,8 +74,8 @@ static int check_file(const char *path, void *self)
         complain("option '--data' wants files separated by commas, not '%s'", p->settings->data);
         return END_USAGE;
     }
-    int end = files_check(p->settings->common.output, &path, 1);
-    return end || !p->settings->plot ? end : files_check(p->settings->plot, &path, 1);
+    int end = files_check_output(p->settings->common.output, &path, 1);
+    return end || !p->settings->plot ? end : files_check_output(p->settings->plot, &path, 1);
 }
 
 int bench_paper(const bench_settings *s, const char *name)

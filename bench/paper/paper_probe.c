@@ -12,7 +12,7 @@
 #include "bench/data/polyhedra.h"
 #include "cli/frame/progress.h"
 #include "bench/core/rounds.h"
-#include "cli/frame/tally.h"
+#include "cli/frame/monotonic_clock.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -215,7 +215,7 @@ static int compare(const scene *s, size_t n)
             continue;
         complain("%s: a touch that a complete search does not find, from %.17g %.17g %.17g along %.17g %.17g %.17g",
                  s->name, q[0], q[1], q[2], q[3], q[4], q[5]);
-        return END_INTERNAL;
+        return END_RESOURCE;
     }
     return 0;
 }
@@ -268,9 +268,9 @@ static int time_one(void *self, size_t entry, size_t begin, size_t n, double *ti
     options.seed += begin + entry;
     if (mw_probe_cursor_init(s->prober, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
     const double *q = s->queries + 6 * begin;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     for (size_t i = 0; i < n; i++) s->touches[i] = mw_probe(s->prober, &cursor, q + 6 * i, q + 6 * i + 3);
-    *time = 1e6 * (tally_clock() - clock) / (double)n;
+    *time = 1e6 * (monotonic_seconds() - clock) / (double)n;
     return 0;
 }
 

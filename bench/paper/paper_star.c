@@ -8,7 +8,7 @@
 #include "bench/data/polyhedra.h"
 #include "cli/frame/progress.h"
 #include "bench/core/rounds.h"
-#include "cli/frame/tally.h"
+#include "cli/frame/monotonic_clock.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -105,7 +105,7 @@ static int compare(const scene *s, size_t n, const char *walk)
         if (a->triangle == b->triangle && a->where == b->where) continue;
         complain("%s: the walks %s and auto found different facets towards %.17g %.17g %.17g", s->name, walk, q[0],
                  q[1], q[2]);
-        return END_INTERNAL;
+        return END_RESOURCE;
     }
     return 0;
 }
@@ -181,9 +181,9 @@ static int time_one(void *self, size_t i, size_t begin, size_t n, double *time)
     options.seed += begin;
     if (mw_star_cursor_init(s->star, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
     const double *q = s->queries + 3 * begin;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     for (size_t k = 0; k < n; k++) s->locations[k] = mw_star_locate(s->star, &cursor, q + 3 * k);
-    *time = 1e6 * (tally_clock() - clock) / (double)n;
+    *time = 1e6 * (monotonic_seconds() - clock) / (double)n;
     return 0;
 }
 

@@ -120,7 +120,7 @@ static int check_set(const char *name, void *self)
 static int check_file(const char *path, void *self)
 {
     const run *r = self;
-    if (*path) return files_check(r->settings->common.output, &path, 1);
+    if (*path) return files_check_output(r->settings->common.output, &path, 1);
     complain("option '--data' wants files separated by commas, not '%s'", r->settings->data);
     return END_USAGE;
 }

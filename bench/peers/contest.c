@@ -127,7 +127,7 @@ static int contradicted(const contest *c, size_t i)
 {
     const double *q = c->course->queries + 2 * i;
     complain("%s: nothing was found at %.17g %.17g, where there is a triangle", c->ground->name, q[0], q[1]);
-    return END_INTERNAL;
+    return END_RESOURCE;
 }
 
 static int judge(const contest *c, const built *b, contestant *e)
@@ -146,7 +146,7 @@ static int judge(const contest *c, const built *b, contestant *e)
     if (wrong > e->wrong) e->wrong = wrong;
     if (wrong == 0 || engines[e->id].library != LIBRARY_MESHWALK) return 0;
     complain("%s: %zu answers of %s are wrong", c->ground->name, wrong, engines[e->id].name);
-    return END_INTERNAL;
+    return END_RESOURCE;
 }
 
 /* --- rounds ------------------------------------------------------------------------------------------------------ */
@@ -155,7 +155,7 @@ static int judge(const contest *c, const built *b, contestant *e)
 static int leave_out(contestant *e)
 {
     e->out = true;
-    return engines[e->id].library == LIBRARY_MESHWALK ? END_INTERNAL : 0;
+    return engines[e->id].library == LIBRARY_MESHWALK ? END_RESOURCE : 0;
 }
 
 static int fail_engine(const contest *c, contestant *e)

@@ -1,6 +1,6 @@
 /* Our engines. */
 #include "bench/peers/engines.h"
-#include "cli/frame/tally.h"
+#include "cli/frame/monotonic_clock.h"
 
 #include <meshwalk/meshwalk.h>
 #include <stdlib.h>
@@ -49,8 +49,8 @@ static double build_own(const engine_mesh *m, unsigned threads, mw_start_kind st
 {
     own *o = calloc(1, sizeof *o);
     *self = o;
-    double clock = tally_clock();
-    if (o && make(o, m, threads, start)) return tally_clock() - clock;
+    double clock = monotonic_seconds();
+    if (o && make(o, m, threads, start)) return monotonic_seconds() - clock;
     destroy(o);
     *self = NULL;
     return ENGINE_FAILED;
@@ -104,9 +104,9 @@ static double locate_batch(void *self, const double *queries, size_t n, unsigned
     own *o = self;
     mw_query_options options = {.threads = threads, .index = o->index};
     if (!make_room(o, n)) return ENGINE_FAILED;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     if (mw_locate_batch(o->locator, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK) return ENGINE_FAILED;
-    double seconds = tally_clock() - clock;
+    double seconds = monotonic_seconds() - clock;
     take_answers(o, n, answers);
     return seconds;
 }
@@ -116,9 +116,9 @@ static double locate_one_by_one(own *o, const double *queries, size_t n, mw_star
     mw_cursor cursor;
     mw_query_options options = {.start = start, .index = o->index};
     if (!make_room(o, n) || mw_cursor_init(o->locator, &options, &cursor, NULL) != MW_OK) return ENGINE_FAILED;
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     for (size_t i = 0; i < n; i++) o->found[i] = mw_locate(o->locator, &cursor, queries[2 * i], queries[2 * i + 1]);
-    double seconds = tally_clock() - clock;
+    double seconds = monotonic_seconds() - clock;
     take_answers(o, n, answers);
     return seconds;
 }
@@ -138,9 +138,9 @@ static double triangulate(const double *points, size_t n, unsigned threads, size
 {
     mw_mesh *mesh;
     mw_delaunay_options options = {.threads = threads};
-    double clock = tally_clock();
+    double clock = monotonic_seconds();
     if (mw_delaunay(points, n, 2, &options, NULL, NULL, &mesh, NULL) != MW_OK) return ENGINE_FAILED;
-    double seconds = tally_clock() - clock;
+    double seconds = monotonic_seconds() - clock;
     *size = mw_mesh_bytes(mesh);
     mw_mesh_destroy(mesh);
     return seconds;

@@ -4,6 +4,7 @@
 
 #include "bench/peers/engine.h"
 #include "cli/frame/options.h"
+#include "cli/frame/text.h"
 
 typedef struct engine {
     const char *name, *help;

@@ -212,7 +212,7 @@ static int draw_sorted(ground *g, double *queries, size_t n)
     uint32_t *place = places(g);
     mw_location *found = malloc(n * sizeof *found);
     placed *all = malloc(n * sizeof *all);
-    int end = !place ? END_INTERNAL : found && all ? draw_inside(g, queries, n) : fail_memory();
+    int end = !place ? END_RESOURCE : found && all ? draw_inside(g, queries, n) : fail_memory();
     if (end == 0) end = locate(g, queries, n, found);
     for (size_t i = 0; i < n && end == 0; i++)
         all[i] = (placed){{queries[2 * i], queries[2 * i + 1]}, place[found[i].triangle]};

@@ -1,16 +1,17 @@
-/* check - every defect of a mesh, with its place; of a mesh in the plane, a surface or a star-shaped polyhedron. */
+/* check - every defect of a mesh, with its place; of a mesh in the plane, a surface or a
+ * star-shaped polyhedron. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
-#include "cli/input/taken_as.h"
+#include "cli/input/mesh_space.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 
 static const option check_options[] = {
-    {"json", 0, OPTION_FLAG, offsetof(taken_as, json), NULL, "print the defects as JSON", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(mesh_space_settings, json), NULL, "print the defects as JSON", NULL},
     {0},
 };
 
@@ -33,50 +34,51 @@ static const char *const kind_names[MW_DEFECT_COUNT] = {
     [MW_DEFECT_COVERED] = "covered",
 };
 
-static void place(text *t, const char *name, uint32_t value, uint32_t none)
+static void check_json_number(text *t, const char *name, uint32_t value, uint32_t none)
 {
     if (value != none) text_printf(t, ", \"%s\": %" PRIu32, name, value);
 }
 
-static void defect_as_json(text *t, const mw_defect *d)
+static void check_json_defect(text *t, const mw_defect *d)
 {
     char words[256];
     mw_defect_describe(d, words, sizeof words);
     text_printf(t, "  {\"kind\": \"%s\"", kind_names[d->kind]);
-    place(t, "triangle", d->triangle, MW_NONE);
-    place(t, "edge", d->edge, 255);
-    place(t, "other", d->other, MW_NONE);
-    place(t, "other_edge", d->other_edge, 255);
-    place(t, "vertex", d->vertex, MW_NONE);
+    check_json_number(t, "triangle", d->triangle, MW_NONE);
+    check_json_number(t, "edge", d->edge, 255);
+    check_json_number(t, "other", d->other, MW_NONE);
+    check_json_number(t, "other_edge", d->other_edge, 255);
+    check_json_number(t, "vertex", d->vertex, MW_NONE);
     text_string(t, ", \"text\": ");
     report_quote(t, words);
     text_string(t, "}");
 }
 
-/* How the verdict reads, by what the mesh is taken as. */
-static const struct verdict {
+/* The words of the verdict for each way to take a mesh. */
+static const struct verdict_words {
     const char *key; /* in JSON */
     const char *good, *bad, *empty;
 } verdicts[] = {
-    [AS_PLANE] = {"embedding", "an embedding", "no embedding", "nothing to locate in"},
-    [AS_SURFACE] = {"surface", "a sound surface", "no sound surface", "nothing to touch"},
-    [AS_STAR] = {"star_shaped", "star-shaped about the centre", "not star-shaped about the centre", "nothing to meet"},
+    [SPACE_PLANE] = {"embedding", "an embedding", "no embedding", "nothing to locate in"},
+    [SPACE_SURFACE] = {"surface", "a sound surface", "no sound surface", "nothing to touch"},
+    [SPACE_STAR] = {"star_shaped", "star-shaped about the centre", "not star-shaped about the centre",
+                    "nothing to meet"},
 };
 
-/* What a check comes to. */
-typedef struct outcome {
-    const struct verdict *verdict;
+/* The result of a check. */
+typedef struct check_outcome {
+    const struct verdict_words *verdict;
     char words[128];
-    bool sound; /* what the mesh is taken as, it is              */
-    bool good;  /* and there is something to find, so that every promise holds */
-} outcome;
+    bool sound; /* the mesh is what it is taken as                                  */
+    bool good;  /* it also has a triangle with an area: every promise holds */
+} check_outcome;
 
-static outcome outcome_of(const taken_as *s, const mw_check *check, const mw_mesh_file *file)
+static check_outcome check_outcome_of(const mesh_space_settings *s, const mw_check *check, const mw_mesh_file *file)
 {
     size_t flat = 0;
     for (size_t i = 0; i < check->defect_count; i++) flat += check->defects[i].kind == MW_DEFECT_FLAT;
-    bool area = s->as == AS_PLANE ? files_has_area(file) : flat < file->triangle_count;
-    outcome o = {&verdicts[s->as], .sound = check->valid, .good = check->valid && area};
+    bool area = s->space == SPACE_PLANE ? files_has_area(file) : flat < file->triangle_count;
+    check_outcome o = {&verdicts[s->space], .sound = check->valid, .good = check->valid && area};
     size_t defects = check->defect_count - flat;
     char remark[48] = "";
     if (flat) snprintf(remark, sizeof remark, "; %zu flat triangle%s", flat, flat == 1 ? "" : "s");
@@ -90,7 +92,7 @@ static outcome outcome_of(const taken_as *s, const mw_check *check, const mw_mes
     return o;
 }
 
-static void as_json(text *t, const char *path, const mw_check *check, const outcome *o)
+static void check_as_json(text *t, const char *path, const mw_check *check, const check_outcome *o)
 {
     text_string(t, "{\n \"file\": ");
     report_quote(t, path);
@@ -99,12 +101,12 @@ static void as_json(text *t, const char *path, const mw_check *check, const outc
     text_string(t, ",\n \"defects\": [");
     for (size_t i = 0; i < check->defect_count; i++) {
         text_string(t, i ? ",\n" : "\n");
-        defect_as_json(t, &check->defects[i]);
+        check_json_defect(t, &check->defects[i]);
     }
     text_string(t, check->defect_count ? "\n ]\n}\n" : "]\n}\n");
 }
 
-static void as_text(text *t, const char *path, const mw_check *check, const outcome *o)
+static void check_as_text(text *t, const char *path, const mw_check *check, const check_outcome *o)
 {
     for (size_t i = 0; i < check->defect_count; i++) {
         char words[256];
@@ -114,16 +116,16 @@ static void as_text(text *t, const char *path, const mw_check *check, const outc
     text_printf(t, "%s: %s\n", path, o->words);
 }
 
-static mw_status check_arrays(const taken_as *s, const mw_arrays *arrays, mw_check *check, mw_error *error)
+static mw_status check_arrays(const mesh_space_settings *s, const mw_arrays *arrays, mw_check *check, mw_error *error)
 {
     mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]}};
-    int weld = taken_as_welded(s);
-    if (s->as == AS_SURFACE) return mw_surface_check_arrays(arrays, weld, check, error);
-    if (s->as == AS_STAR) return mw_star_check_arrays(arrays, weld, &star, check, error);
+    int weld = mesh_space_is_welded(s);
+    if (s->space == SPACE_SURFACE) return mw_surface_check_arrays(arrays, weld, check, error);
+    if (s->space == SPACE_STAR) return mw_star_check_arrays(arrays, weld, &star, check, error);
     return mw_check_arrays(arrays, check, error);
 }
 
-static int check_file(const taken_as *s, const char *path, const mw_mesh_file *file)
+static int check_mesh_file(const mesh_space_settings *s, const char *path, const mw_mesh_file *file)
 {
     mw_error error;
     mw_check check;
@@ -131,28 +133,28 @@ static int check_file(const taken_as *s, const char *path, const mw_mesh_file *f
     mw_arrays arrays = mw_mesh_file_arrays(file);
     progress_phase("checking", path);
     if (check_arrays(s, &arrays, &check, &error) != MW_OK) return fail_mesh(path, &error);
-    outcome o = outcome_of(s, &check, file);
+    check_outcome o = check_outcome_of(s, &check, file);
     if (s->json)
-        as_json(&t, path, &check, &o);
+        check_as_json(&t, path, &check, &o);
     else
-        as_text(&t, path, &check, &o);
+        check_as_text(&t, path, &check, &o);
     int end = files_write_text(s->common.output, &t);
     if (end == 0 && !o.good) end = END_INPUT;
     mw_check_release(&check);
     return end;
 }
 
-static int run(const void *settings, const char *const *operands)
+static int check_run(const void *settings, const char *const *operands)
 {
-    const taken_as *s = settings;
+    const mesh_space_settings *s = settings;
     mw_mesh_file file = {0};
-    int end = taken_as_read(s, operands, &file);
-    if (end == 0) end = check_file(s, operands[0], &file);
+    int end = mesh_space_read(s, operands, &file);
+    if (end == 0) end = check_mesh_file(s, operands[0], &file);
     mw_mesh_file_release(&file);
     return end;
 }
 
-static const option *const tables[] = {taken_as_options, check_options, common_options, NULL};
+static const option *const tables[] = {mesh_space_options, check_options, common_options, NULL};
 
 const command check_command = {
     .name = "check",
@@ -166,6 +168,6 @@ const command check_command = {
         "no harm. With --as, MESH is checked as a surface or as a star-shaped polyhedron in the same way. '-' is "
         "standard input.",
     .options = tables,
-    .settings_size = sizeof(taken_as),
-    .run = run,
+    .settings_size = sizeof(mesh_space_settings),
+    .run = check_run,
 };

@@ -1,6 +1,6 @@
-/* commands.h - the sub-commands, one file each. */
-#ifndef CLI_COMMANDS_H
-#define CLI_COMMANDS_H
+/* commands.h - the sub-commands of the program. Each has a file of its own in this room. */
+#ifndef MW_CLI_COMMANDS_COMMANDS_H
+#define MW_CLI_COMMANDS_COMMANDS_H
 
 #include "cli/frame/options.h"
 

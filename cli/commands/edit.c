@@ -1,14 +1,15 @@
 /* edit - change a mesh by a stream of edits, and locate points in between. */
 #include "cli/commands/commands.h"
-#include "cli/input/constraints.h"
 #include "cli/frame/files.h"
-#include "cli/commands/fixed_edges.h"
-#include "cli/frame/mesh_output.h"
 #include "cli/frame/message.h"
+#include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
-#include "cli/commands/query.h"
-#include "cli/commands/session.h"
-#include "cli/input/vertices.h"
+#include "cli/input/constraint_file.h"
+#include "cli/input/traced_constraints.h"
+#include "cli/input/vertex_table.h"
+#include "cli/output/mesh_output.h"
+#include "cli/stream/edit_stream.h"
+#include "cli/stream/point_query.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,9 +18,10 @@
 
 typedef struct edit_settings {
     common_settings common;
-    const char *constraints, *paths[SESSION_OUTPUTS];
+    const char *constraints, *paths[EDIT_STREAM_OUTPUTS];
     uint32_t undo, cells, layers;
-    int delaunay, format, walk, start; /* mw_delaunay_mode; number of a format; mw_walk_kind, mw_start_kind */
+    int delaunay, format; /* mw_delaunay_mode; a number of mesh_formats */
+    int walk, start;      /* mw_walk_kind, mw_start_kind */
     bool skip, heights, strict, stats, json;
 } edit_settings;
 
@@ -32,18 +34,18 @@ static const char *delaunay_help(int i)
     return (const char *[]){"keep a mesh Delaunay that is so, but for its border and constraints",
                             "make it so first, and keep it so", "flip no edge unless the stream asks for it"}[i];
 }
-static const choices delaunays = {"way of --delaunay", delaunay_name, delaunay_help};
+static const choices delaunay_choices = {"way of --delaunay", delaunay_name, delaunay_help};
 
 static const option edit_options[] = {
-    {"answers", 0, OPTION_TEXT, offsetof(edit_settings, paths[SESSION_ANSWERS]), "FILE",
+    {"answers", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_ANSWERS]), "FILE",
      "write the answers to locate lines to FILE (default: -, standard output)", NULL},
     {"heights", 0, OPTION_FLAG, offsetof(edit_settings, heights), NULL, "add the column z to the answers, interpolated",
      NULL},
-    {"changes", 0, OPTION_TEXT, offsetof(edit_settings, paths[SESSION_CHANGES]), "FILE",
+    {"changes", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_CHANGES]), "FILE",
      "write to FILE what each edit changed: its line, its vertex, the triangles made, reused and freed", NULL},
-    {"numbers", 0, OPTION_TEXT, offsetof(edit_settings, paths[SESSION_NUMBERS]), "FILE",
+    {"numbers", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_NUMBERS]), "FILE",
      "write to FILE which number became which in the mesh written, and at each compact line", NULL},
-    {"log", 0, OPTION_TEXT, offsetof(edit_settings, paths[SESSION_LOG]), "FILE",
+    {"log", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_LOG]), "FILE",
      "write to FILE the edits that took effect, as a stream that makes the same of MESH", NULL},
     {"constraints", 0, OPTION_TEXT, offsetof(edit_settings, constraints), "FILE",
      "the points, lines and polygons that MESH was made with: edges along them stay, as triangulate --constraints "
@@ -53,15 +55,15 @@ static const option edit_options[] = {
     {"undo", 0, OPTION_COUNT, offsetof(edit_settings, undo), "N",
      "undo lines can take back the last N edits (default: 0, the last 1000)", NULL},
     {"delaunay", 0, OPTION_CHOICE, offsetof(edit_settings, delaunay), "NAME",
-     "what becomes of edges that are not Delaunay (default: auto):", &delaunays},
+     "what becomes of edges that are not Delaunay (default: auto):", &delaunay_choices},
     {"skip", 0, OPTION_FLAG, offsetof(edit_settings, skip), NULL,
      "name lines that cannot be carried out, and go on; without it the first one ends the command", NULL},
     {"strict", 0, OPTION_FLAG, offsetof(edit_settings, strict), NULL,
      "exit with 1 if a point lies in no triangle, or --skip passed a line over", NULL},
     {"walk", 0, OPTION_CHOICE, offsetof(edit_settings, walk), "NAME",
-     "how to walk to the triangle of a point (default: auto):", &query_walks},
+     "how to walk to the triangle of a point (default: auto):", &point_query_walks},
     {"start", 0, OPTION_CHOICE, offsetof(edit_settings, start), "NAME",
-     "how to choose the first triangle (default: auto):", &query_starts},
+     "how to choose the first triangle (default: auto):", &point_query_starts},
     {"cells", 0, OPTION_COUNT, offsetof(edit_settings, cells), "N",
      "--start grid, two-level-grid, curve: as for locate (default: 0, by the size of the mesh)", NULL},
     {"layers", 0, OPTION_COUNT, offsetof(edit_settings, layers), "N",
@@ -73,66 +75,66 @@ static const option edit_options[] = {
     {0},
 };
 
-/* The session, and what it needs beside its editor. */
-typedef struct work {
-    session session;
-    fixed_edges fixed;
+/* The stream of edits, and what its editor needs. */
+typedef struct edit_work {
+    edit_stream stream;
+    traced_constraints constraints;
     char **names; /* of the fields */
     size_t name_count;
-    double begin, ready; /* tally_clock */
-} work;
+    double begin, ready; /* monotonic_seconds */
+} edit_work;
 
-static void release(work *w)
+static void edit_work_release(edit_work *w)
 {
-    session_release(&w->session);
-    fixed_edges_release(&w->fixed);
+    edit_stream_release(&w->stream);
+    traced_constraints_release(&w->constraints);
     for (size_t i = 0; w->names && i < w->name_count; i++) free(w->names[i]);
     free(w->names);
 }
 
-/* --- settings ------------------------------------------------------------------------------------------------------- */
+/* --- settings --------------------------------------------------------------------------------- */
 
-static void choose_outputs(const edit_settings *s, session *e)
+static void edit_choose_outputs(const edit_settings *s, edit_stream *e)
 {
-    static const char *const options[SESSION_OUTPUTS] = {"answers", "changes", "log", "numbers"};
-    bool taken = files_is_stream(s->common.output);
-    for (int i = 0; i < SESSION_OUTPUTS; i++) {
-        e->output[i] = (output_file){.option = options[i], .path = s->paths[i]};
-        taken = taken || (s->paths[i] && files_is_stream(s->paths[i]));
+    static const char *const options[EDIT_STREAM_OUTPUTS] = {"answers", "changes", "log", "numbers"};
+    bool taken = files_is_standard(s->common.output);
+    for (int i = 0; i < EDIT_STREAM_OUTPUTS; i++) {
+        e->output[i] = (side_output){.option = options[i], .path = s->paths[i]};
+        taken = taken || (s->paths[i] && files_is_standard(s->paths[i]));
     }
-    if (!s->paths[SESSION_ANSWERS] && !taken) e->output[SESSION_ANSWERS].path = "-";
+    if (!s->paths[EDIT_STREAM_ANSWERS] && !taken) e->output[EDIT_STREAM_ANSWERS].path = "-";
 }
 
-static int check_node(const edit_settings *s)
+static int edit_check_node_file(const edit_settings *s)
 {
     const char *output = s->common.output;
     if (!s->constraints || !mesh_output_is_node(output, s->format)) return 0;
-    return constraints_check_node(s->constraints, output);
+    return constraint_file_check_output(s->constraints, output);
 }
 
-/* What can be refused before the work begins. */
-static int check_settings(const edit_settings *s, const char *const *operands, const session *e)
+/* Refuse wrong settings before the work begins. */
+static int edit_check_settings(const edit_settings *s, const char *const *operands, const edit_stream *e)
 {
     const char *output = s->common.output, *inputs[3] = {operands[0], operands[1], s->constraints};
-    int count = s->constraints ? 3 : 2, end = query_check_index(s->cells, s->layers);
+    int count = s->constraints ? 3 : 2, end = point_query_check_index(s->cells, s->layers);
     if (end == 0) end = mesh_output_check("edit", output, s->format);
-    if (end == 0) end = files_check(output, inputs, count);
-    if (end == 0) end = check_node(s);
-    if (end == 0) end = outputs_check(e->output, SESSION_OUTPUTS, output, inputs, count);
+    if (end == 0) end = files_check_output(output, inputs, count);
+    if (end == 0) end = edit_check_node_file(s);
+    if (end == 0) end = side_outputs_check(e->output, EDIT_STREAM_OUTPUTS, output, inputs, count);
     return end;
 }
 
-/* --- the mesh ------------------------------------------------------------------------------------------------------- */
+/* --- the mesh --------------------------------------------------------------------------------- */
 
-static int fail_mesh_defect(const char *path, const mw_error *error)
+static int edit_fail_mesh(const char *path, const mw_error *error)
 {
     int end = fail_mesh(path, error);
     if (end == END_INPUT) complain("'meshwalk check %s' lists every defect", path);
     return end;
 }
 
-/* Heights and fields of the file. */
-static int set_fields(mw_mesh *mesh, const mw_mesh_file *file)
+/* Copy the heights and fields of a file to its mesh. */
+static int mesh_set_fields(mw_mesh *mesh, const mw_mesh_file *file)
 {
     mw_error error;
     mw_status status = file->has_z ? mw_mesh_set_field(mesh, "z", file->points + 2, 3, &error) : MW_OK;
@@ -142,7 +144,7 @@ static int set_fields(mw_mesh *mesh, const mw_mesh_file *file)
     return status == MW_OK ? 0 : fail_query(&error);
 }
 
-static int read_mesh(const char *path, uint32_t threads, mw_mesh **mesh)
+static int edit_read_mesh(const char *path, uint32_t threads, mw_mesh **mesh)
 {
     mw_error error;
     mw_mesh_file file;
@@ -151,15 +153,15 @@ static int read_mesh(const char *path, uint32_t threads, mw_mesh **mesh)
     mw_arrays arrays = mw_mesh_file_arrays(&file);
     progress_phase("preparing", path);
     if (mw_mesh_create(&arrays, &(mw_mesh_options){.threads = threads}, mesh, &error) != MW_OK)
-        end = fail_mesh_defect(path, &error);
+        end = edit_fail_mesh(path, &error);
     else
-        end = set_fields(*mesh, &file);
+        end = mesh_set_fields(*mesh, &file);
     mw_mesh_file_release(&file);
     return end;
 }
 
-/* The names of the fields by their numbers in the editor. */
-static int keep_names(work *w, const mw_mesh *mesh)
+/* Keep the names of the fields, by the numbers they have in the editor. */
+static int edit_work_keep_names(edit_work *w, const mw_mesh *mesh)
 {
     size_t count = mw_mesh_field_count(mesh);
     w->names = calloc(count + 1, sizeof *w->names);
@@ -167,15 +169,15 @@ static int keep_names(work *w, const mw_mesh *mesh)
     w->name_count = count;
     for (size_t i = 0; i < count; i++) {
         const char *name = mw_mesh_field_name(mesh, i);
-        w->names[mw_editor_field_by_name(w->session.editor, name)] = strdup(name);
+        w->names[mw_editor_field_by_name(w->stream.editor, name)] = strdup(name);
     }
     for (size_t i = 0; i < count; i++)
         if (!w->names[i]) return fail_memory();
-    w->session.fields = (mw_edit_text_options){.fields = (const char *const *)w->names, .field_count = count};
+    w->stream.fields = (mw_edit_text_options){.fields = (const char *const *)w->names, .field_count = count};
     return 0;
 }
 
-static int make_cursor(const edit_settings *s, session *e)
+static int edit_make_cursor(const edit_settings *s, edit_stream *e)
 {
     mw_error error;
     mw_start_kind start = (mw_start_kind)s->start;
@@ -188,50 +190,50 @@ static int make_cursor(const edit_settings *s, session *e)
     return mw_cursor_init(locator, &asking, &e->cursor, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
-static int make_editor(const edit_settings *s, const char *path, const mw_mesh *mesh, work *w)
+static int edit_work_make_editor(const edit_settings *s, const char *path, const mw_mesh *mesh, edit_work *w)
 {
     mw_error error;
     mw_editor_options options = {.delaunay = (mw_delaunay_mode)s->delaunay,
-                                 .undo = w->session.undo,
-                                 .constrained_edges = w->fixed.vertex,
-                                 .constrained_edge_count = w->fixed.count,
+                                 .undo = w->stream.undo,
+                                 .constrained_edges = w->constraints.vertex,
+                                 .constrained_edge_count = w->constraints.count,
                                  .threads = s->common.threads};
-    if (mw_editor_create(mesh, &options, &w->session.editor, &error) != MW_OK) return fail_mesh_defect(path, &error);
-    w->session.heights = s->heights ? mw_editor_field_by_name(w->session.editor, "z") : MW_NONE;
-    if (s->heights && w->session.heights == MW_NONE) {
+    if (mw_editor_create(mesh, &options, &w->stream.editor, &error) != MW_OK) return edit_fail_mesh(path, &error);
+    w->stream.heights = s->heights ? mw_editor_field_by_name(w->stream.editor, "z") : MW_NONE;
+    if (s->heights && w->stream.heights == MW_NONE) {
         complain("%s: has no heights for --heights", path);
         return END_INPUT;
     }
-    int end = keep_names(w, mesh);
-    return end ? end : make_cursor(s, &w->session);
+    int end = edit_work_keep_names(w, mesh);
+    return end ? end : edit_make_cursor(s, &w->stream);
 }
 
-static int prepare(const edit_settings *s, const char *path, work *w)
+static int edit_work_prepare(const edit_settings *s, const char *path, edit_work *w)
 {
     mw_mesh *mesh = NULL;
-    int end = read_mesh(path, s->common.threads, &mesh);
-    if (end == 0 && s->constraints) end = fixed_edges_read(&w->fixed, s->constraints, mesh, path);
-    if (end == 0) end = make_editor(s, path, mesh, w);
+    int end = edit_read_mesh(path, s->common.threads, &mesh);
+    if (end == 0 && s->constraints) end = traced_constraints_read(&w->constraints, s->constraints, mesh, path);
+    if (end == 0) end = edit_work_make_editor(s, path, mesh, w);
     mw_mesh_destroy(mesh);
-    w->ready = tally_clock();
+    w->ready = monotonic_seconds();
     return end;
 }
 
-static int write_mesh(const edit_settings *s, session *e, bool named)
+static int edit_write_mesh(const edit_settings *s, edit_stream *e, bool temporary)
 {
     mw_mesh *mesh = NULL;
-    vertices v = {0};
-    int end = session_mesh(e, &mesh);
-    if (end == 0) end = vertices_of_mesh(&v, mesh);
+    vertex_table v = {0};
+    int end = edit_stream_mesh(e, &mesh);
+    if (end == 0) end = vertex_table_of_mesh(&v, mesh);
     mw_mesh_destroy(mesh);
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, named);
-    vertices_release(&v);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, temporary);
+    vertex_table_release(&v);
     return end;
 }
 
-/* --- the report ------------------------------------------------------------------------------------------------------- */
+/* --- the report ------------------------------------------------------------------------------- */
 
-static void report_editor(report *r, const mw_editor *editor)
+static void edit_report_editor(report *r, const mw_editor *editor)
 {
     mw_editor_info info;
     mw_editor_describe(editor, &info);
@@ -248,7 +250,7 @@ static void report_editor(report *r, const mw_editor *editor)
     report_count(r, "refreshes", info.refreshes);
 }
 
-static void report_lines(report *r, const session *e)
+static void edit_report_lines(report *r, const edit_stream *e)
 {
     report_count(r, "lines", e->lines);
     for (int i = 0; i < MW_EDIT_KIND_COUNT; i++) report_count(r, mw_edit_name((mw_edit_kind)i), e->edits[i]);
@@ -258,52 +260,54 @@ static void report_lines(report *r, const session *e)
     for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(r, mw_where_name((mw_where)i), e->located.where[i]);
 }
 
-static int print_stats(const edit_settings *s, const work *w)
+static int edit_print_statistics(const edit_settings *s, const edit_work *w)
 {
     report r;
     report_begin(&r, s->json);
-    report_lines(&r, &w->session);
-    report_editor(&r, w->session.editor);
+    edit_report_lines(&r, &w->stream);
+    edit_report_editor(&r, w->stream.editor);
     report_string(&r, "walk", mw_walk_name((mw_walk_kind)s->walk));
     report_string(&r, "start", mw_start_name((mw_start_kind)s->start));
-    tally_report_run(&r, &s->common);
-    tally_report_walks(&r, &w->session.cursor.counters);
-    tally_report_seconds(&r, "seconds", tally_clock() - w->begin);
-    tally_report_seconds(&r, "preparing_seconds", w->ready - w->begin);
+    statistics_report_settings(&r, &s->common);
+    statistics_report_walks(&r, &w->stream.cursor.counters);
+    report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
+    report_rounded(&r, "preparing_seconds", w->ready - w->begin);
     report_end(&r);
-    return tally_print(&r);
+    return files_write_error_text(&r.text);
 }
 
-/* --- the command ------------------------------------------------------------------------------------------------------- */
+/* --- the command ------------------------------------------------------------------------------ */
 
-/* The outputs are open. The mesh comes first: where there is no room for it, none of the others appears. */
-static int edit_mesh(const edit_settings *s, const char *const *operands, work *w, bool named)
+/* The outputs are open. The mesh is written before they are closed: if there is no room for it,
+ * none of the others appears. */
+static int edit_work_run(const edit_settings *s, const char *const *operands, edit_work *w, bool temporary)
 {
-    int end = prepare(s, operands[0], w);
-    if (end == 0) end = session_run(&w->session, operands[1]);
-    if (end == 0 && !outputs_failed(w->session.output, SESSION_OUTPUTS)) end = write_mesh(s, &w->session, named);
+    int end = edit_work_prepare(s, operands[0], w);
+    if (end == 0) end = edit_stream_run(&w->stream, operands[1]);
+    if (end == 0 && !side_outputs_failed(w->stream.output, EDIT_STREAM_OUTPUTS))
+        end = edit_write_mesh(s, &w->stream, temporary);
     return end;
 }
 
-static int run(const void *settings, const char *const *operands)
+static int edit_run(const void *settings, const char *const *operands)
 {
     const edit_settings *s = settings;
-    work w = {.begin = tally_clock()};
-    session *e = &w.session;
-    bool named = false;
+    edit_work w = {.begin = monotonic_seconds()};
+    edit_stream *e = &w.stream;
+    bool temporary = false;
     e->undo = s->undo ? s->undo : USUAL_UNDO;
     e->skip = s->skip;
     e->quiet = s->common.quiet;
-    choose_outputs(s, e);
-    int end = check_settings(s, operands, e);
-    if (end == 0) end = files_try_output(s->common.output, &named);
-    if (end == 0) end = outputs_open(e->output, SESSION_OUTPUTS);
-    if (end == 0) end = edit_mesh(s, operands, &w, named);
-    int closed = outputs_close(e->output, SESSION_OUTPUTS, end == 0);
+    edit_choose_outputs(s, e);
+    int end = edit_check_settings(s, operands, e);
+    if (end == 0) end = files_try_output(s->common.output, &temporary);
+    if (end == 0) end = side_outputs_open(e->output, EDIT_STREAM_OUTPUTS);
+    if (end == 0) end = edit_work_run(s, operands, &w, temporary);
+    int closed = side_outputs_close(e->output, EDIT_STREAM_OUTPUTS, end == 0);
     if (end == 0) end = closed;
-    if (end == 0 && s->stats) end = print_stats(s, &w);
-    if (end == 0 && s->strict && (e->unanswered || e->skipped)) end = END_UNLOCATED;
-    release(&w);
+    if (end == 0 && s->stats) end = edit_print_statistics(s, &w);
+    if (end == 0 && s->strict && (e->unanswered || e->skipped)) end = END_UNANSWERED;
+    edit_work_release(&w);
     return end;
 }
 
@@ -332,5 +336,5 @@ const command edit_command = {
         "written is numbered anew, without gaps and in the same order. '-' is standard input.",
     .options = tables,
     .settings_size = sizeof(edit_settings),
-    .run = run,
+    .run = edit_run,
 };

@@ -4,17 +4,17 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
-#include "cli/input/taken_as.h"
+#include "cli/input/mesh_space.h"
 
 #include <math.h>
 
 static const option info_options[] = {
-    {"json", 0, OPTION_FLAG, offsetof(taken_as, json), NULL, "print the report as JSON", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(mesh_space_settings, json), NULL, "print the report as JSON", NULL},
     {0},
 };
 
-/* Numbers that may not be known: NaN. */
-static void report_known(report *r, const char *name, const double *values, size_t count, const char *missing)
+/* Report numbers, or why one of them is unknown (NaN). */
+static void info_report_known(report *r, const char *name, const double *values, size_t count, const char *missing)
 {
     for (size_t i = 0; i < count; i++)
         if (isnan(values[i])) {
@@ -24,8 +24,8 @@ static void report_known(report *r, const char *name, const double *values, size
     report_numbers(r, name, values, count);
 }
 
-/* The z of a mesh in the plane. */
-static void report_heights(report *r, const mw_mesh_file *file)
+/* Report the range of z of a mesh in the plane. */
+static void info_report_heights(report *r, const mw_mesh_file *file)
 {
     bool heights = file->has_z && file->point_count > 0;
     report_flag(r, "heights", heights);
@@ -36,19 +36,19 @@ static void report_heights(report *r, const mw_mesh_file *file)
             if (!(z >= range[0])) range[0] = isnan(z) ? range[0] : z;
             if (!(z <= range[1])) range[1] = isnan(z) ? range[1] : z;
         }
-        report_known(r, "height_range", range, 2, "none");
+        info_report_known(r, "height_range", range, 2, "none");
     }
 }
 
-static void report_file(report *r, const char *path, const mw_mesh_file *file, bool plane)
+static void info_report_file(report *r, const char *path, const mw_mesh_file *file, bool plane)
 {
     report_string(r, "file", path);
-    if (plane) report_heights(r, file);
+    if (plane) info_report_heights(r, file);
     report_strings(r, "fields", file->field_names, file->field_count);
     report_count(r, "welded_vertices", file->welded);
 }
 
-static void report_mesh(report *r, const mw_mesh_info *info)
+static void info_report_mesh(report *r, const mw_mesh_info *info)
 {
     report_count(r, "vertices", info->vertices);
     report_count(r, "unused_vertices", info->unused_vertices);
@@ -64,15 +64,15 @@ static void report_mesh(report *r, const mw_mesh_info *info)
         report_count(r, "holes", info->holes);
     else
         report_missing(r, "holes", "not known: no embedding");
-    report_known(r, "low", info->low, 2, "none");
-    report_known(r, "high", info->high, 2, "none");
+    info_report_known(r, "low", info->low, 2, "none");
+    info_report_known(r, "high", info->high, 2, "none");
     report_number(r, "area", info->area);
     report_flag(r, "embedding", info->embedding);
     report_flag(r, "convex", info->convex);
     report_flag(r, "delaunay", info->delaunay);
 }
 
-static void report_surface(report *r, const mw_surface_info *info)
+static void info_report_surface(report *r, const mw_surface_info *info)
 {
     report_count(r, "vertices", info->vertices);
     report_count(r, "unused_vertices", info->unused_vertices);
@@ -86,14 +86,14 @@ static void report_surface(report *r, const mw_surface_info *info)
     report_count(r, "pinched_vertices", info->pinched_vertices);
     report_count(r, "components", info->components);
     report_number(r, "euler", (double)info->euler);
-    report_known(r, "low", info->low, 3, "none");
-    report_known(r, "high", info->high, 3, "none");
+    info_report_known(r, "low", info->low, 3, "none");
+    info_report_known(r, "high", info->high, 3, "none");
     report_number(r, "area", info->area);
-    report_known(r, "volume", &info->volume, 1, "none: not closed, or not oriented");
+    info_report_known(r, "volume", &info->volume, 1, "none: not closed, or not oriented");
 }
 
-/* Is the surface star-shaped about the centre, and where not, why? */
-static int report_star(report *r, const taken_as *s, const char *path, const mw_surface *surface)
+/* Report whether the surface is star-shaped about the centre, and if not, why. */
+static int info_report_star(report *r, const mesh_space_settings *s, const char *path, const mw_surface *surface)
 {
     mw_error error;
     mw_star *star;
@@ -110,8 +110,8 @@ static int report_star(report *r, const taken_as *s, const char *path, const mw_
     return 0;
 }
 
-/* Each of these two adds to the report what the mesh is, and returns 0 or an exit code. */
-static int describe_plane(report *r, const char *path, const mw_mesh_file *file)
+/* The next two functions fill the report. They return 0 or an exit code. */
+static int info_describe_plane(report *r, const char *path, const mw_mesh_file *file)
 {
     mw_error error;
     mw_mesh *mesh;
@@ -121,56 +121,56 @@ static int describe_plane(report *r, const char *path, const mw_mesh_file *file)
     if (mw_mesh_create(&arrays, &options, &mesh, &error) != MW_OK) return fail_mesh(path, &error);
     int end = mw_mesh_describe(mesh, &info, &error) == MW_OK ? 0 : fail_mesh(path, &error);
     if (end == 0) {
-        report_file(r, path, file, true);
-        report_mesh(r, &info);
+        info_report_file(r, path, file, true);
+        info_report_mesh(r, &info);
         report_count(r, "memory_bytes", mw_mesh_bytes(mesh));
     }
     mw_mesh_destroy(mesh);
     return end;
 }
 
-static int describe_surface(report *r, const taken_as *s, const char *path, const mw_mesh_file *file)
+static int info_describe_surface(report *r, const mesh_space_settings *s, const char *path, const mw_mesh_file *file)
 {
     mw_error error;
     mw_surface *surface;
     mw_surface_info info;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_surface_options options = {.tolerant = 1, .weld = taken_as_welded(s)};
+    mw_surface_options options = {.tolerant = 1, .weld = mesh_space_is_welded(s)};
     if (mw_surface_create(&arrays, &options, &surface, &error) != MW_OK) return fail_mesh(path, &error);
     int end = mw_surface_describe(surface, &info, &error) == MW_OK ? 0 : fail_mesh(path, &error);
     if (end == 0) {
-        report_file(r, path, file, false);
-        report_surface(r, &info);
-        if (s->as == AS_STAR) end = report_star(r, s, path, surface);
+        info_report_file(r, path, file, false);
+        info_report_surface(r, &info);
+        if (s->space == SPACE_STAR) end = info_report_star(r, s, path, surface);
         report_count(r, "memory_bytes", mw_surface_bytes(surface));
     }
     mw_surface_destroy(surface);
     return end;
 }
 
-static int describe(const taken_as *s, const char *path, const mw_mesh_file *file)
+static int info_describe(const mesh_space_settings *s, const char *path, const mw_mesh_file *file)
 {
     report r;
     progress_phase("describing", path);
     report_begin(&r, s->json);
-    int end = s->as == AS_PLANE ? describe_plane(&r, path, file) : describe_surface(&r, s, path, file);
+    int end = s->space == SPACE_PLANE ? info_describe_plane(&r, path, file) : info_describe_surface(&r, s, path, file);
     report_end(&r);
     if (end == 0) return files_write_text(s->common.output, &r.text);
     text_release(&r.text);
     return end;
 }
 
-static int run(const void *settings, const char *const *operands)
+static int info_run(const void *settings, const char *const *operands)
 {
-    const taken_as *s = settings;
+    const mesh_space_settings *s = settings;
     mw_mesh_file file = {0};
-    int end = taken_as_read(s, operands, &file);
-    if (end == 0) end = describe(s, operands[0], &file);
+    int end = mesh_space_read(s, operands, &file);
+    if (end == 0) end = info_describe(s, operands[0], &file);
     mw_mesh_file_release(&file);
     return end;
 }
 
-static const option *const tables[] = {taken_as_options, info_options, common_options, NULL};
+static const option *const tables[] = {mesh_space_options, info_options, common_options, NULL};
 
 const command info_command = {
     .name = "info",
@@ -182,6 +182,6 @@ const command info_command = {
         "embedding, convex and Delaunay, and the memory it takes. With --as, MESH is described as a surface in "
         "space, or as a polyhedron: whether it is star-shaped about a centre. '-' is standard input.",
     .options = tables,
-    .settings_size = sizeof(taken_as),
-    .run = run,
+    .settings_size = sizeof(mesh_space_settings),
+    .run = info_run,
 };

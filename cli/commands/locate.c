@@ -1,11 +1,10 @@
 /* locate - which triangle contains each point. */
 #include "cli/commands/commands.h"
-#include "cli/frame/message.h"
-#include "cli/commands/query.h"
-#include "cli/frame/row.h"
+#include "cli/output/csv_row.h"
+#include "cli/stream/point_query.h"
 
 typedef struct locate_settings {
-    query_settings query;
+    point_query_settings query;
     bool details;
 } locate_settings;
 
@@ -17,45 +16,47 @@ static const option locate_options[] = {
     {0},
 };
 
-/* The nearest border edge is told of points that are not in a triangle. */
-static void details(const query *q, const double point[2], const mw_location *where, text *out)
+/* Write the cells of --details. Points that lie in no triangle have a nearest border edge. */
+static void locate_write_details(const point_query *q, const double point[2], const mw_location *where, text *out)
 {
     mw_nearest_border_point hit = {0};
     bool away = where->where == MW_OUTSIDE || where->where == MW_IN_HOLE || where->where == MW_NEAR;
     if (away) away = mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) == MW_OK;
-    row_count(out, where->local != 255, where->local);
-    row_count(out, away, hit.triangle);
-    row_count(out, away, hit.edge);
-    row_double(out, away, hit.distance);
-    row_count(out, where->hole != MW_NONE, where->hole);
+    csv_row_count(out, where->local != 255, where->local);
+    csv_row_count(out, away, hit.triangle);
+    csv_row_count(out, away, hit.edge);
+    csv_row_double(out, away, hit.distance);
+    csv_row_count(out, where->hole != MW_NONE, where->hole);
 }
 
-static bool locate_row(const query *q, const void *self, const double point[2], const mw_location *where, text *out)
+static bool locate_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
+                       text *out)
 {
     const locate_settings *s = self;
-    row_numbers(out, point, 2);
-    row_triangle(out, mw_where_name((mw_where)where->where), where->triangle);
-    row_weights(out, where->triangle, where->weight);
-    if (s->details) details(q, point, where, out);
-    row_end(out);
+    csv_row_numbers(out, point, 2);
+    csv_row_status(out, mw_where_name((mw_where)where->where), where->triangle);
+    csv_row_weights(out, where->triangle, where->weight);
+    if (s->details) locate_write_details(q, point, where, out);
+    csv_row_end(out);
     return where->triangle != MW_NONE;
 }
 
-static int run(const void *settings, const char *const *operands)
+static int locate_run(const void *settings, const char *const *operands)
 {
     const locate_settings *s = settings;
-    query q;
-    int end = query_open(&q, &s->query, operands, s->details, NULL, NULL);
+    point_query q;
+    int end = point_query_open(&q, &s->query, operands, s->details, NULL, NULL);
     if (end == 0)
-        end = query_run(&q, operands[1],
-                        s->details ? "x,y,status,triangle,w0,w1,w2,local,border_triangle,border_edge,distance,hole\n"
-                                   : "x,y,status,triangle,w0,w1,w2\n",
-                        locate_row, s);
-    query_release(&q);
+        end = point_query_run(&q, operands[1],
+                              s->details
+                                  ? "x,y,status,triangle,w0,w1,w2,local,border_triangle,border_edge,distance,hole\n"
+                                  : "x,y,status,triangle,w0,w1,w2\n",
+                              locate_row, s);
+    point_query_release(&q);
     return end;
 }
 
-static const option *const tables[] = {locate_options, query_options, stream_options, common_options, NULL};
+static const option *const tables[] = {locate_options, point_query_options, query_stream_options, common_options, NULL};
 
 const command locate_command = {
     .name = "locate",
@@ -69,5 +70,5 @@ const command locate_command = {
                    "input.",
     .options = tables,
     .settings_size = sizeof(locate_settings),
-    .run = run,
+    .run = locate_run,
 };

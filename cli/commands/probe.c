@@ -2,23 +2,25 @@
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
+#include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
-#include "cli/frame/row.h"
-#include "cli/input/stream.h"
+#include "cli/output/csv_row.h"
+#include "cli/stream/query_stream.h"
+#include "cli/stream/statistics.h"
 
 typedef struct probe_settings {
-    stream_settings stream;
+    query_stream_settings stream;
     double max_distance;
     uint32_t samples, iterations, race;
     int start; /* mw_probe_start */
     bool certain, weld, any;
 } probe_settings;
 
-static const char *start_name(int i)
+static const char *probe_start_name(int i)
 {
     return mw_probe_start_name((mw_probe_start)i);
 }
-static const char *start_help(int i)
+static const char *probe_start_help(int i)
 {
     static const char *const texts[MW_PROBE_START_COUNT] = {
         [MW_PROBE_START_AUTO] = "last where that triangle is near, else sample",
@@ -28,10 +30,10 @@ static const char *start_help(int i)
     };
     return texts[i];
 }
-static const choices starts = {"start", start_name, start_help};
+static const choices starts = {"start", probe_start_name, probe_start_help};
 
 static const option probe_options[] = {
-    {"max-distance", 0, OPTION_REACH, offsetof(probe_settings, max_distance), "D",
+    {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(probe_settings, max_distance), "D",
      "touch nothing that is farther than D from the point, either way; 0: only what lies at the point (default: no "
      "limit)",
      NULL},
@@ -62,7 +64,7 @@ static const option probe_options[] = {
     {0},
 };
 
-/* Other commands promise more of these than probes by walks can keep. */
+/* These overrule the common options: probes by walks cannot keep what those promise. */
 static const option random_options[] = {
     {"threads", 0, OPTION_COUNT, offsetof(probe_settings, stream.common.threads), "N",
      "use at most N threads, those of --race apart (default: 0, all); without --race results do not depend on it",
@@ -74,19 +76,19 @@ static const option random_options[] = {
     {0},
 };
 
-/* A surface ready to be probed, and what came of it. */
-typedef struct probing {
+/* A surface that is ready for probes, and the statistics of its probes. */
+typedef struct probed_surface {
     const probe_settings *settings;
-    double begin; /* tally_clock */
+    double begin; /* monotonic_seconds */
     mw_surface *surface;
     mw_prober *prober;
     uint64_t states[MW_TOUCH_STATE_COUNT];
     mw_probe_counters counters;
-} probing;
+} probed_surface;
 
-/* --- the surface -------------------------------------------------------------------------------------------------- */
+/* --- the surface ------------------------------------------------------------------------------ */
 
-static int fail_surface(const probing *p, const char *path, const mw_error *error)
+static int probed_surface_fail(const probed_surface *p, const char *path, const mw_error *error)
 {
     int end = fail_mesh(path, error);
     if (end == END_INPUT && !p->settings->any)
@@ -95,7 +97,7 @@ static int fail_surface(const probing *p, const char *path, const mw_error *erro
     return end;
 }
 
-static int make_prober(probing *p, const char *path, const mw_mesh_file *file)
+static int probed_surface_prepare(probed_surface *p, const char *path, const mw_mesh_file *file)
 {
     const probe_settings *s = p->settings;
     mw_error error;
@@ -103,32 +105,32 @@ static int make_prober(probing *p, const char *path, const mw_mesh_file *file)
     mw_surface_options surface = {.tolerant = s->any, .weld = s->weld};
     mw_prober_options prober = {.boxes = s->certain};
     progress_phase("preparing", path);
-    if (mw_surface_create(&arrays, &surface, &p->surface, &error) != MW_OK) return fail_surface(p, path, &error);
+    if (mw_surface_create(&arrays, &surface, &p->surface, &error) != MW_OK) return probed_surface_fail(p, path, &error);
     if (mw_prober_create(p->surface, &prober, &p->prober, &error) != MW_OK) return fail_mesh(path, &error);
     return 0;
 }
 
-static int open_surface(probing *p, const char *path)
+static int probed_surface_open(probed_surface *p, const char *path)
 {
     mw_mesh_file file;
     int end = files_read_mesh(path, &file);
     if (end) return end;
-    end = make_prober(p, path, &file);
+    end = probed_surface_prepare(p, path, &file);
     mw_mesh_file_release(&file);
     return end;
 }
 
-static void release(probing *p)
+static void probed_surface_release(probed_surface *p)
 {
     mw_prober_destroy(p->prober);
     mw_surface_destroy(p->surface);
 }
 
-/* --- the probes --------------------------------------------------------------------------------------------------- */
+/* --- the probes ------------------------------------------------------------------------------- */
 
-static int answer_probes(void *self, const queries *block, void *answers)
+static int probed_surface_answer(void *self, const query_block *block, void *answers)
 {
-    probing *p = self;
+    probed_surface *p = self;
     const probe_settings *s = p->settings;
     const mw_touch *touches = answers;
     mw_error error;
@@ -141,7 +143,7 @@ static int answer_probes(void *self, const queries *block, void *answers)
         .iterations = s->iterations,
         .race = s->race,
         .threads = s->stream.common.threads,
-        .seed = s->stream.common.seed + block->block, /* other random numbers in each block */
+        .seed = s->stream.common.seed + block->block, /* each block has its own random numbers */
         .counters = s->stream.stats,
     };
     if (mw_probe_batch(p->prober, block->values, block->count, block->stride, &options, answers, &counters, &error) !=
@@ -152,82 +154,82 @@ static int answer_probes(void *self, const queries *block, void *answers)
     return 0;
 }
 
-/* That nothing is touched is an answer, too. */
+/* "none" is an answer too: nothing is touched. */
 static bool probe_row(const void *self, const double *query, const void *answer, text *out)
 {
     (void)self;
     const mw_touch *touch = answer;
-    row_numbers(out, query, 3);
-    row_triangle(out, mw_touch_state_name((mw_touch_state)touch->state), touch->triangle);
-    row_double(out, touch->triangle != MW_NONE, touch->distance);
-    row_weights(out, touch->triangle, touch->weight);
-    row_end(out);
+    csv_row_numbers(out, query, 3);
+    csv_row_status(out, mw_touch_state_name((mw_touch_state)touch->state), touch->triangle);
+    csv_row_double(out, touch->triangle != MW_NONE, touch->distance);
+    csv_row_weights(out, touch->triangle, touch->weight);
+    csv_row_end(out);
     return touch->state == MW_TOUCH_HIT || touch->state == MW_TOUCH_NONE;
 }
 
-static void report_counters(report *r, const mw_probe_counters *c)
+static void probe_report_counters(report *r, const mw_probe_counters *c)
 {
-    tally_report_mean(r, "samples", c->samples, c->queries);
-    tally_report_mean(r, "triangles_per_query", c->triangles, c->queries);
+    statistics_report_mean(r, "samples", c->samples, c->queries);
+    statistics_report_mean(r, "triangles_per_query", c->triangles, c->queries);
     report_count(r, "triangles_max", c->triangles_max);
-    tally_report_mean(r, "tests_per_query", c->tests, c->queries);
+    statistics_report_mean(r, "tests_per_query", c->tests, c->queries);
     report_count(r, "tests_max", c->tests_max);
-    tally_report_mean(r, "intersections", c->intersections, c->queries);
-    tally_report_mean(r, "iterations", c->iterations, c->queries);
+    statistics_report_mean(r, "intersections", c->intersections, c->queries);
+    statistics_report_mean(r, "iterations", c->iterations, c->queries);
     report_count(r, "iterations_max", c->iterations_max);
-    tally_report_mean(r, "boxes", c->boxes, c->queries);
-    tally_report_mean(r, "box_triangles", c->box_triangles, c->queries);
+    statistics_report_mean(r, "boxes", c->boxes, c->queries);
+    statistics_report_mean(r, "box_triangles", c->box_triangles, c->queries);
 }
 
-static void report_probes(const void *self, report *r)
+static void probed_surface_report(const void *self, report *r)
 {
-    const probing *p = self;
+    const probed_surface *p = self;
     mw_prober_info info;
     mw_prober_describe(p->prober, &info);
     for (int i = 0; i < MW_TOUCH_STATE_COUNT; i++)
         report_count(r, mw_touch_state_name((mw_touch_state)i), p->states[i]);
-    report_string(r, "start", start_name(p->settings->start));
+    report_string(r, "start", probe_start_name(p->settings->start));
     report_flag(r, "certain", p->settings->certain);
-    tally_report_run(r, &p->settings->stream.common);
-    report_counters(r, &p->counters);
+    statistics_report_settings(r, &p->settings->stream.common);
+    probe_report_counters(r, &p->counters);
     report_count(r, "surface_bytes", mw_surface_bytes(p->surface));
     report_count(r, "prober_bytes", info.bytes);
     report_count(r, "box_bytes", info.box_bytes);
-    tally_report_seconds(r, "box_seconds", info.fit_seconds);
+    report_rounded(r, "box_seconds", info.fit_seconds);
 }
 
-static int run_probes(probing *p, const char *path)
+static int probed_surface_run(probed_surface *p, const char *path)
 {
-    stream s = {
+    query_stream s = {
         .settings = &p->settings->stream,
         .begin = p->begin,
         .doing = "probing",
         .header = "x,y,z,status,triangle,distance,w0,w1,w2\n",
         .columns = {.names = {"x", "y", "z", "mx", "my", "mz"}, .count = 6},
         .answer_size = sizeof(mw_touch),
-        .answer = answer_probes,
+        .answer = probed_surface_answer,
         .row = probe_row,
-        .report = report_probes,
+        .report = probed_surface_report,
         .self = p,
     };
-    return stream_run(&s, path);
+    return query_stream_run(&s, path);
 }
 
-#define MOST_RACERS 256 /* threads */
+#define MAX_RACERS 256 /* threads */
 
-static int run(const void *settings, const char *const *operands)
+static int probe_run(const void *settings, const char *const *operands)
 {
     const probe_settings *s = settings;
-    probing p = {.settings = s, .begin = tally_clock()};
-    int end = files_check(s->stream.common.output, operands, 2);
-    if (end == 0) end = options_limit("race", s->race, MOST_RACERS, NULL);
-    if (end == 0) end = open_surface(&p, operands[0]);
-    if (end == 0) end = run_probes(&p, operands[1]);
-    release(&p);
+    probed_surface p = {.settings = s, .begin = monotonic_seconds()};
+    int end = files_check_output(s->stream.common.output, operands, 2);
+    if (end == 0) end = options_limit("race", s->race, MAX_RACERS, NULL);
+    if (end == 0) end = probed_surface_open(&p, operands[0]);
+    if (end == 0) end = probed_surface_run(&p, operands[1]);
+    probed_surface_release(&p);
     return end;
 }
 
-static const option *const tables[] = {probe_options, stream_options, random_options, common_options, NULL};
+static const option *const tables[] = {probe_options, query_stream_options, random_options, common_options, NULL};
 
 const command probe_command = {
     .name = "probe",
@@ -246,5 +248,5 @@ const command probe_command = {
         "is standard input.",
     .options = tables,
     .settings_size = sizeof(probe_settings),
-    .run = run,
+    .run = probe_run,
 };

@@ -1,9 +1,8 @@
 /* sample - the value the mesh has at each point. */
 #include "cli/commands/commands.h"
-#include "cli/frame/files.h"
 #include "cli/frame/message.h"
-#include "cli/commands/query.h"
-#include "cli/frame/row.h"
+#include "cli/output/csv_row.h"
+#include "cli/stream/point_query.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +11,7 @@
 enum { OUTSIDE_EMPTY = 0, OUTSIDE_NEAREST, OUTSIDE_LINEAR };
 
 typedef struct sample_settings {
-    query_settings query;
+    point_query_settings query;
     const char *field;
     int outside;
 } sample_settings;
@@ -26,24 +25,24 @@ static const char *outside_help(int i)
     return (const char *[]){"no value", "the value at the nearest point of the border",
                             "the plane of the nearest border triangle, continued"}[i];
 }
-static const choices outsides = {"way of --outside", outside_name, outside_help};
+static const choices outside_choices = {"way of --outside", outside_name, outside_help};
 
 static const option sample_options[] = {
     {"field", 0, OPTION_TEXT, offsetof(sample_settings, field), "NAME",
      "the value to sample: z or a field of MESH (default: z)", NULL},
     {"outside", 0, OPTION_CHOICE, offsetof(sample_settings, outside), "NAME",
-     "what a point outside the mesh gets (default: empty):", &outsides},
+     "what a point outside the mesh gets (default: empty):", &outside_choices},
     {0},
 };
 
-/* What the rows need. */
-typedef struct sampling {
-    const double *values; /* one per vertex */
+/* What the rows are made from. */
+typedef struct sampled_field {
+    const double *values; /* one for each vertex */
     int outside;
-} sampling;
+} sampled_field;
 
-/* Value at the point of the border that is nearest. */
-static double border_value(const query *q, const double *values, const mw_nearest_border_point *hit)
+/* The value at the nearest point of the border. */
+static double sample_border_value(const point_query *q, const double *values, const mw_nearest_border_point *hit)
 {
     mw_location at = {.weight = {hit->weight[0], hit->weight[1], hit->weight[2]}, .triangle = hit->triangle};
     double value;
@@ -51,8 +50,8 @@ static double border_value(const query *q, const double *values, const mw_neares
     return value;
 }
 
-/* Value at p of the plane through the three corners; NaN where they span none. */
-static double plane_value(const query *q, const double *values, uint32_t triangle, const double p[2])
+/* The value at p of the plane through the three corners. Not finite if they span no plane. */
+static double sample_plane_value(const point_query *q, const double *values, uint32_t triangle, const double p[2])
 {
     uint32_t v[3];
     double a[2], b[2], c[2];
@@ -65,29 +64,30 @@ static double plane_value(const query *q, const double *values, uint32_t triangl
     return values[v[0]] + wb * (values[v[1]] - values[v[0]]) + wc * (values[v[2]] - values[v[0]]);
 }
 
-static double value_outside(const query *q, const sampling *s, const double point[2])
+static double sample_value_outside(const point_query *q, const sampled_field *s, const double point[2])
 {
     mw_nearest_border_point hit;
     if (mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) != MW_OK) return NAN;
-    double value = s->outside == OUTSIDE_LINEAR ? plane_value(q, s->values, hit.triangle, point) : NAN;
-    return isfinite(value) ? value : border_value(q, s->values, &hit);
+    double value = s->outside == OUTSIDE_LINEAR ? sample_plane_value(q, s->values, hit.triangle, point) : NAN;
+    return isfinite(value) ? value : sample_border_value(q, s->values, &hit);
 }
 
-static bool sample_row(const query *q, const void *self, const double point[2], const mw_location *where, text *out)
+static bool sample_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
+                       text *out)
 {
-    const sampling *s = self;
+    const sampled_field *s = self;
     double value = NAN;
     if (where->triangle != MW_NONE)
         mw_interpolate(q->mesh, s->values, where, 1, &value);
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
-        value = value_outside(q, s, point);
-    row_numbers(out, point, 2);
-    row_double(out, !isnan(value), value);
-    row_end(out);
+        value = sample_value_outside(q, s, point);
+    csv_row_numbers(out, point, 2);
+    csv_row_double(out, !isnan(value), value);
+    csv_row_end(out);
     return !isnan(value);
 }
 
-static int no_such_field(const char *path, const mw_mesh_file *file, const char *field)
+static int sample_fail_field(const char *path, const mw_mesh_file *file, const char *field)
 {
     text names = {0};
     if (file->has_z) text_string(&names, " z");
@@ -103,8 +103,8 @@ static int no_such_field(const char *path, const mw_mesh_file *file, const char 
     return end;
 }
 
-/* Give the mesh the field to sample. */
-static int keep_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
+/* Copy the field to sample from the file to the mesh. */
+static int sample_load_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
 {
     mw_error error;
     const char *field = self;
@@ -116,12 +116,12 @@ static int keep_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file,
         values = file->points + 2;
         stride = 3;
     }
-    if (!values) return no_such_field(path, file, field);
+    if (!values) return sample_fail_field(path, file, field);
     return mw_mesh_set_field(mesh, field, values, stride, &error) == MW_OK ? 0 : fail_mesh(path, &error);
 }
 
-/* A name as one cell of CSV: quoted where it would be read as something else. */
-static void header_of(text *header, const char *field)
+/* Write the header. A name that would not be read as one cell of CSV is quoted. */
+static void sample_write_header(text *header, const char *field)
 {
     text_string(header, "x,y,");
     if (!field[strcspn(field, ",\"\r\n")]) {
@@ -131,28 +131,28 @@ static void header_of(text *header, const char *field)
         for (; *field; field++) text_bytes(header, *field == '"' ? "\"\"" : field, *field == '"' ? 2 : 1);
         text_string(header, "\"");
     }
-    text_bytes(header, "\n", 2); /* with the final 0 */
+    text_bytes(header, "\n", 2); /* and the terminating 0 */
 }
 
-static int run(const void *settings, const char *const *operands)
+static int sample_run(const void *settings, const char *const *operands)
 {
     const sample_settings *s = settings;
     const char *field = s->field ? s->field : "z";
-    query q;
+    point_query q;
     text header = {0};
-    sampling rows = {.outside = s->outside};
-    int end = query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, keep_field, field);
+    sampled_field rows = {.outside = s->outside};
+    int end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field, field);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);
-        header_of(&header, field);
-        end = header.failed ? fail_memory() : query_run(&q, operands[1], header.bytes, sample_row, &rows);
+        sample_write_header(&header, field);
+        end = header.failed ? fail_memory() : point_query_run(&q, operands[1], header.bytes, sample_row, &rows);
     }
     text_release(&header);
-    query_release(&q);
+    point_query_release(&q);
     return end;
 }
 
-static const option *const tables[] = {sample_options, query_options, stream_options, common_options, NULL};
+static const option *const tables[] = {sample_options, point_query_options, query_stream_options, common_options, NULL};
 
 const command sample_command = {
     .name = "sample",
@@ -163,5 +163,5 @@ const command sample_command = {
                    "triangle that contains the point, and empty where there is none. '-' is standard input.",
     .options = tables,
     .settings_size = sizeof(sample_settings),
-    .run = run,
+    .run = sample_run,
 };

@@ -2,52 +2,55 @@
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
+#include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
-#include "cli/frame/row.h"
-#include "cli/input/sphere.h"
-#include "cli/input/stream.h"
+#include "cli/input/lonlat_input.h"
+#include "cli/output/csv_row.h"
+#include "cli/stream/query_stream.h"
+#include "cli/stream/statistics.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 typedef struct star_settings {
-    stream_settings stream;
+    query_stream_settings stream;
     coordinates centre; /* not given: the origin */
     uint32_t sample, cells, levels;
-    int walk, start, finish; /* mw_star_walk_kind, mw_star_start_kind, number of a name of --finish */
+    int walk, start; /* mw_star_walk_kind, mw_star_start_kind */
+    int finish;      /* the number of a name of --finish */
     bool lonlat;
 } star_settings;
 
-static const char *walk_name(int i)
+static const char *star_walk_name(int i)
 {
     return mw_star_walk_name((mw_star_walk_kind)i);
 }
-static const char *walk_help(int i)
+static const char *star_walk_help(int i)
 {
     return mw_star_walk_help((mw_star_walk_kind)i);
 }
-static const char *start_name(int i)
+static const char *star_start_name(int i)
 {
     return mw_star_start_name((mw_star_start_kind)i);
 }
-static const char *start_help(int i)
+static const char *star_start_help(int i)
 {
     return mw_star_start_help((mw_star_start_kind)i);
 }
 
-/* What may end the walk whose own tests are only a guide. */
-static const mw_star_walk_kind finishes[] = {MW_STAR_WALK_AUTO, MW_STAR_WALK_STOCHASTIC, MW_STAR_WALK_FORGETFUL};
-static const char *finish_name(int i)
+/* The walks that may finish the one whose own tests only guide it. */
+static const mw_star_walk_kind star_finishes[] = {MW_STAR_WALK_AUTO, MW_STAR_WALK_STOCHASTIC, MW_STAR_WALK_FORGETFUL};
+static const char *star_finish_name(int i)
 {
-    return i < (int)(sizeof finishes / sizeof *finishes) ? mw_star_walk_name(finishes[i]) : NULL;
+    return i < (int)(sizeof star_finishes / sizeof *star_finishes) ? mw_star_walk_name(star_finishes[i]) : NULL;
 }
 
-static const choices walks = {"walk", walk_name, walk_help};
-static const choices starts = {"start", start_name, start_help};
-static const choices finish_choices = {"way to finish", finish_name, NULL};
+static const choices star_walk_choices = {"walk", star_walk_name, star_walk_help};
+static const choices star_start_choices = {"start", star_start_name, star_start_help};
+static const choices finish_choices = {"way to finish", star_finish_name, NULL};
 
 static const option star_options[] = {
-    {"centre", 0, OPTION_POINT, offsetof(star_settings, centre), "X,Y,Z",
+    {"centre", 0, OPTION_XYZ, offsetof(star_settings, centre), "X,Y,Z",
      "the point that rays come from, and that sees all facets from inside (default: 0,0,0)", NULL},
     {"lonlat", 0, OPTION_FLAG, offsetof(star_settings, lonlat), NULL,
      "DIRECTIONS are longitudes and latitudes in degrees; and so are x and y of a POLYHEDRON without z, which then "
@@ -55,9 +58,9 @@ static const option star_options[] = {
      "on the unit sphere",
      NULL},
     {"walk", 0, OPTION_CHOICE, offsetof(star_settings, walk), "NAME",
-     "how to walk to the facet (default: auto):", &walks},
+     "how to walk to the facet (default: auto):", &star_walk_choices},
     {"start", 0, OPTION_CHOICE, offsetof(star_settings, start), "NAME",
-     "how to choose the first facet (default: auto):", &starts},
+     "how to choose the first facet (default: auto):", &star_start_choices},
     {"finish", 0, OPTION_CHOICE, offsetof(star_settings, finish), "NAME",
      "the walk that ends the orthogonal one, whose own tests are only a guide (default: auto, which is stochastic):",
      &finish_choices},
@@ -75,27 +78,27 @@ static const option star_options[] = {
     {0},
 };
 
-/* A polyhedron ready to be asked, and what came of it. */
-typedef struct rays {
+/* A polyhedron that is ready for rays, and the statistics of its rays. */
+typedef struct ray_queries {
     const star_settings *settings;
-    double begin; /* tally_clock */
+    double begin; /* monotonic_seconds */
     mw_surface *surface;
     mw_star *star;
-    mw_star_index *index; /* NULL for starts that have none */
-    double *points;       /* of a block, where directions are longitudes and latitudes */
-    location_tally tally;
-} rays;
+    mw_star_index *index; /* NULL if the start has none */
+    double *points;       /* of a block, if directions are longitudes and latitudes */
+    location_statistics statistics;
+} ray_queries;
 
-/* --- the polyhedron ----------------------------------------------------------------------------------------------- */
+/* --- the polyhedron --------------------------------------------------------------------------- */
 
-/* The options that make 'check' look at what this command saw. */
-static const char *check_options(const star_settings *s, char words[128])
+/* The options with which 'check' reads the polyhedron as this command does. */
+static const char *star_check_arguments(const star_settings *s, char words[128])
 {
     text t = {0};
     text_string(&t, "--as star");
     if (s->centre.at[0] != 0 || s->centre.at[1] != 0 || s->centre.at[2] != 0) {
         text_string(&t, " --centre ");
-        row_numbers(&t, s->centre.at, 3);
+        csv_row_numbers(&t, s->centre.at, 3);
     }
     if (s->lonlat) text_string(&t, " --lonlat");
     snprintf(words, 128, "%.*s", t.failed ? 0 : (int)t.size, t.failed ? "" : t.bytes);
@@ -103,33 +106,34 @@ static const char *check_options(const star_settings *s, char words[128])
     return words;
 }
 
-static int fail_star(const rays *r, const char *path, bool flat, const mw_error *error)
+static int ray_queries_fail_star(const ray_queries *r, const char *path, bool flat, const mw_error *error)
 {
     char words[128];
     int end = fail_mesh(path, error);
     if (end == END_INPUT && flat)
         complain("%s: has no z; --lonlat takes x and y as longitude and latitude", path);
     else if (end == END_INPUT)
-        complain("'meshwalk check %s %s' lists every defect", check_options(r->settings, words), path);
+        complain("'meshwalk check %s %s' lists every defect", star_check_arguments(r->settings, words), path);
     return end;
 }
 
-static int make_star(rays *r, const char *path, const mw_mesh_file *file)
+static int ray_queries_make_star(ray_queries *r, const char *path, const mw_mesh_file *file)
 {
     const star_settings *s = r->settings;
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_surface_options surface = {.weld = 1}; /* the seam of a sphere closes, and its rows of vertices at the poles */
+    /* Welding closes the seam of a sphere, and joins its vertices at each pole. */
+    mw_surface_options surface = {.weld = 1};
     mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
                             .angles = s->walk == MW_STAR_WALK_ORTHOGONAL};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &r->surface, &error) != MW_OK ||
         mw_star_create(r->surface, &star, &r->star, &error) != MW_OK)
-        return fail_star(r, path, !file->has_z, &error);
+        return ray_queries_fail_star(r, path, !file->has_z, &error);
     return 0;
 }
 
-static int make_index(rays *r)
+static int ray_queries_make_index(ray_queries *r)
 {
     const star_settings *s = r->settings;
     mw_error error;
@@ -139,23 +143,23 @@ static int make_index(rays *r)
     return mw_star_index_create(r->star, start, &options, &r->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
-static int open_star(rays *r, const char *path)
+static int ray_queries_open(ray_queries *r, const char *path)
 {
     mw_mesh_file file;
     int end = files_read_mesh(path, &file);
     if (end) return end;
-    if (r->settings->lonlat) end = sphere_place(path, &file);
-    if (end == 0) end = make_star(r, path, &file);
+    if (r->settings->lonlat) end = lonlat_input_mesh(path, &file);
+    if (end == 0) end = ray_queries_make_star(r, path, &file);
     mw_mesh_file_release(&file);
-    if (end == 0) end = make_index(r);
+    if (end == 0) end = ray_queries_make_index(r);
     if (end == 0 && r->settings->lonlat) {
-        r->points = malloc(STREAM_BLOCK * 3 * sizeof *r->points);
+        r->points = malloc(QUERY_BLOCK_SIZE * 3 * sizeof *r->points);
         if (!r->points) end = fail_memory();
     }
     return end;
 }
 
-static void release(rays *r)
+static void ray_queries_release(ray_queries *r)
 {
     free(r->points);
     mw_star_index_destroy(r->index);
@@ -163,11 +167,11 @@ static void release(rays *r)
     mw_surface_destroy(r->surface);
 }
 
-/* --- the rays ----------------------------------------------------------------------------------------------------- */
+/* --- the rays --------------------------------------------------------------------------------- */
 
-static int answer_rays(void *self, const queries *block, void *answers)
+static int ray_queries_answer(void *self, const query_block *block, void *answers)
 {
-    rays *r = self;
+    ray_queries *r = self;
     const star_settings *s = r->settings;
     const common_settings *common = &s->stream.common;
     mw_error error;
@@ -175,8 +179,8 @@ static int answer_rays(void *self, const queries *block, void *answers)
     mw_star_query_options options = {
         .walk = (mw_star_walk_kind)s->walk,
         .start = (mw_star_start_kind)s->start,
-        .finish = finishes[s->finish],
-        .seed = common->seed + block->block, /* other random numbers in each block */
+        .finish = star_finishes[s->finish],
+        .seed = common->seed + block->block, /* each block has its own random numbers */
         .samples = s->sample,
         .threads = common->threads,
         .counters = s->stream.stats,
@@ -185,87 +189,88 @@ static int answer_rays(void *self, const queries *block, void *answers)
     const double *points = block->values;
     size_t stride = block->stride;
     if (s->lonlat) {
-        sphere_directions(block->values, stride, block->count, s->centre.at, tally_threads(common->threads), r->points);
+        lonlat_input_directions(block->values, stride, block->count, s->centre.at, options_threads(common->threads),
+                                r->points);
         points = r->points;
         stride = 3;
     }
     if (mw_star_locate_batch(r->star, points, block->count, stride, &options, answers, &counters, &error) != MW_OK)
         return fail_query(&error);
-    tally_locations(&r->tally, answers, block->count, &counters);
+    location_statistics_add(&r->statistics, answers, block->count, &counters);
     return 0;
 }
 
-static bool ray_row(const void *self, const double *direction, const void *answer, text *out)
+static bool ray_queries_write_row(const void *self, const double *direction, const void *answer, text *out)
 {
-    const rays *r = self;
+    const ray_queries *r = self;
     const mw_location *where = answer;
-    row_numbers(out, direction, r->settings->lonlat ? 2 : 3);
-    row_triangle(out, mw_where_name((mw_where)where->where), where->triangle);
-    row_weights(out, where->triangle, where->weight);
-    row_end(out);
+    csv_row_numbers(out, direction, r->settings->lonlat ? 2 : 3);
+    csv_row_status(out, mw_where_name((mw_where)where->where), where->triangle);
+    csv_row_weights(out, where->triangle, where->weight);
+    csv_row_end(out);
     return where->triangle != MW_NONE;
 }
 
-static void report_rays(const void *self, report *out)
+static void ray_queries_report(const void *self, report *out)
 {
     static const mw_where states[] = {MW_INSIDE, MW_ON_EDGE, MW_ON_VERTEX, MW_BAD};
-    const rays *r = self;
+    const ray_queries *r = self;
     mw_star_info star;
     mw_star_index_info index = {0};
     mw_star_describe(r->star, &star);
     if (r->index) mw_star_index_describe(r->index, &index);
     for (size_t i = 0; i < sizeof states / sizeof *states; i++)
-        report_count(out, mw_where_name(states[i]), r->tally.where[states[i]]);
-    report_string(out, "walk", walk_name(r->settings->walk));
-    report_string(out, "start", start_name(r->settings->start));
-    tally_report_run(out, &r->settings->stream.common);
-    tally_report_walks(out, &r->tally.counters);
+        report_count(out, mw_where_name(states[i]), r->statistics.where[states[i]]);
+    report_string(out, "walk", star_walk_name(r->settings->walk));
+    report_string(out, "start", star_start_name(r->settings->start));
+    statistics_report_settings(out, &r->settings->stream.common);
+    statistics_report_walks(out, &r->statistics.counters);
     report_count(out, "surface_bytes", mw_surface_bytes(r->surface));
     report_count(out, "star_bytes", star.bytes);
     report_count(out, "angle_bytes", star.angle_bytes);
     report_count(out, "start_bytes", index.bytes);
-    tally_report_seconds(out, "start_seconds", index.seconds);
+    report_rounded(out, "start_seconds", index.seconds);
 }
 
-static int run_rays(rays *r, const char *path)
+static int ray_queries_run(ray_queries *r, const char *path)
 {
     const star_settings *s = r->settings;
-    stream asked = {
+    query_stream asked = {
         .settings = &s->stream,
         .begin = r->begin,
         .doing = "locating",
         .header = s->lonlat ? "lon,lat,status,triangle,w0,w1,w2\n" : "x,y,z,status,triangle,w0,w1,w2\n",
         .columns = {.names = {"x", "y", "z"}, .count = 3, .hint = "; --lonlat reads longitude and latitude"},
         .answer_size = sizeof(mw_location),
-        .answer = answer_rays,
-        .row = ray_row,
-        .report = report_rays,
+        .answer = ray_queries_answer,
+        .row = ray_queries_write_row,
+        .report = ray_queries_report,
         .self = r,
     };
-    if (s->lonlat) asked.columns = (columns){.names = {"lon", "lat"}, .count = 2, .loose = true};
-    return stream_run(&asked, path);
+    if (s->lonlat) asked.columns = (query_columns){.names = {"lon", "lat"}, .count = 2, .accept_first = true};
+    return query_stream_run(&asked, path);
 }
 
-/* The limits of the library, found out before the polyhedron is read. */
-static int check_limits(const star_settings *s)
+/* Refuse values above the limits of the library, before the polyhedron is read. */
+static int star_check_limits(const star_settings *s)
 {
     int end = options_limit("cells", s->cells, UINT32_C(1) << 30, "2^30");
     return end ? end : options_limit("levels", s->levels, MW_STAR_MAX_LEVELS + 1, NULL);
 }
 
-static int run(const void *settings, const char *const *operands)
+static int star_run(const void *settings, const char *const *operands)
 {
     const star_settings *s = settings;
-    rays r = {.settings = s, .begin = tally_clock()};
-    int end = files_check(s->stream.common.output, operands, 2);
-    if (end == 0) end = check_limits(s);
-    if (end == 0) end = open_star(&r, operands[0]);
-    if (end == 0) end = run_rays(&r, operands[1]);
-    release(&r);
+    ray_queries r = {.settings = s, .begin = monotonic_seconds()};
+    int end = files_check_output(s->stream.common.output, operands, 2);
+    if (end == 0) end = star_check_limits(s);
+    if (end == 0) end = ray_queries_open(&r, operands[0]);
+    if (end == 0) end = ray_queries_run(&r, operands[1]);
+    ray_queries_release(&r);
     return end;
 }
 
-static const option *const tables[] = {star_options, stream_options, common_options, NULL};
+static const option *const tables[] = {star_options, query_stream_options, common_options, NULL};
 
 const command star_command = {
     .name = "star",
@@ -282,5 +287,5 @@ const command star_command = {
         "as that of a sphere does. '-' is standard input.",
     .options = tables,
     .settings_size = sizeof(star_settings),
-    .run = run,
+    .run = star_run,
 };

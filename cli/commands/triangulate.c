@@ -1,14 +1,14 @@
 /* triangulate - a mesh of points, of any kind, or with constraints. */
 #include "cli/commands/commands.h"
-#include "cli/input/constraints.h"
 #include "cli/frame/files.h"
-#include "cli/input/heights.h"
-#include "cli/frame/mesh_output.h"
 #include "cli/frame/message.h"
+#include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
-#include "cli/frame/tally.h"
-#include "cli/input/vertices.h"
+#include "cli/input/constraint_file.h"
+#include "cli/input/missing_values.h"
+#include "cli/input/vertex_table.h"
+#include "cli/output/mesh_output.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -72,37 +72,38 @@ static const option triangulate_options[] = {
     {0},
 };
 
-/* What is read and made. */
-typedef struct work {
-    vertices vertices;
+/* What the command reads and makes. */
+typedef struct triangulate_work {
+    vertex_table vertices;
     mw_constraint_file constraints;
-    uint32_t *duplicate_of; /* with constraints: as mw_constrained_delaunay tells */
+    uint32_t *duplicate_of; /* from mw_constrained_delaunay, with constraints only */
     mw_constrained_edges edges;
     mw_constrain_report constrained;
     mw_kind_report kind;
     double begin;
-} work;
+} triangulate_work;
 
-static void release(work *w)
+static void triangulate_work_release(triangulate_work *w)
 {
-    vertices_release(&w->vertices);
+    vertex_table_release(&w->vertices);
     mw_constraint_file_release(&w->constraints);
     mw_constrained_edges_release(&w->edges);
     free(w->duplicate_of);
 }
 
-/* The library's choice, but for a .poly, whose segments bound a domain as they do for Triangle. */
-static mw_keep keep_of(const triangulate_settings *s, const work *w)
+/* The library chooses the part to keep; but segments of a .poly bound a domain, as for Triangle. */
+static mw_keep triangulate_keep(const triangulate_settings *s, const triangulate_work *w)
 {
-    if (s->keep == MW_KEEP_AUTO && constraints_are_poly(&w->constraints)) return MW_KEEP_INSIDE;
+    if (s->keep == MW_KEEP_AUTO && constraint_file_is_poly(&w->constraints)) return MW_KEEP_INSIDE;
     return (mw_keep)s->keep;
 }
 
-static int fail_constrained(const triangulate_settings *s, const char *points, const work *w, const mw_error *error)
+static int triangulate_fail_constrained(const triangulate_settings *s, const char *points, const triangulate_work *w,
+                                        const mw_error *error)
 {
     const uint32_t *cross = w->constrained.crossing_segments;
     if (error->status == MW_ERROR_INPUT && cross[0] != MW_NONE)
-        return constraints_cross(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split);
+        return constraint_file_fail_crossing(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split);
     if (error->status == MW_ERROR_INPUT && w->constrained.triangles_removed > 0) {
         complain("%s: %s; --keep hull keeps them", s->constraints, error->message);
         return END_INPUT;
@@ -111,8 +112,8 @@ static int fail_constrained(const triangulate_settings *s, const char *points, c
     return fail_mesh(given ? points : s->constraints, error);
 }
 
-/* The triangulation of POINTS, if there are any, and the constraints. */
-static int constrain(const triangulate_settings *s, const char *points, work *w)
+/* Triangulate the constraints, together with POINTS if they are given. */
+static int triangulate_with_constraints(const triangulate_settings *s, const char *points, triangulate_work *w)
 {
     mw_error error;
     mw_mesh *mesh;
@@ -127,27 +128,27 @@ static int constrain(const triangulate_settings *s, const char *points, work *w)
                                   .polygon = c->polygon,
                                   .hole_seeds = c->hole_seeds,
                                   .hole_seed_count = c->hole_seed_count};
-    mw_constrain_options options = {.keep = keep_of(s, w), .split = s->split, .threads = s->common.threads};
+    mw_constrain_options options = {.keep = triangulate_keep(s, w), .split = s->split, .threads = s->common.threads};
     w->duplicate_of = malloc((count + 1) * sizeof *w->duplicate_of);
     w->constrained.crossing_segments[0] = w->constrained.crossing_segments[1] = MW_NONE;
     if (!w->duplicate_of) return fail_memory();
     progress_phase("triangulating", s->constraints);
     if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->edges, &mesh, &error) !=
         MW_OK)
-        return fail_constrained(s, points, w, &error);
-    int end = vertices_complete(&w->vertices, mesh);
+        return triangulate_fail_constrained(s, points, w, &error);
+    int end = vertex_table_complete(&w->vertices, mesh);
     mw_mesh_destroy(mesh);
-    bool flat = false;
-    if (end == 0) end = heights_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, &flat);
-    if (end == 0 && flat && !s->common.quiet)
+    bool on_a_line = false;
+    if (end == 0) end = missing_values_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, &on_a_line);
+    if (end == 0 && on_a_line && !s->common.quiet)
         complain("%s: warning: its points lie on one line, or are fewer than three, so vertices of constraints that "
                  "have no values of their own get nan",
                  points);
     return end;
 }
 
-/* Of what is said to be optimal but is not: why. */
-static void warn_if_local(const triangulate_settings *s, const char *path, const mw_kind_report *kind)
+/* Warn if a kind that should be optimal is only a local optimum, and say why. */
+static void triangulate_warn_if_local(const triangulate_settings *s, const char *path, const mw_kind_report *kind)
 {
     const char *name = kind_name(s->kind);
     if (kind->optimal || s->common.quiet) return;
@@ -162,7 +163,7 @@ static void warn_if_local(const triangulate_settings *s, const char *path, const
             path, name);
 }
 
-static int triangulate(const triangulate_settings *s, const char *path, work *w)
+static int triangulate_points(const triangulate_settings *s, const char *path, triangulate_work *w)
 {
     mw_error error;
     mw_mesh *mesh;
@@ -172,19 +173,13 @@ static int triangulate(const triangulate_settings *s, const char *path, work *w)
     if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
                        &mesh, &error) != MW_OK)
         return fail_mesh(path, &error);
-    int end = vertices_complete(&w->vertices, mesh);
+    int end = vertex_table_complete(&w->vertices, mesh);
     mw_mesh_destroy(mesh);
-    if (end == 0) warn_if_local(s, path, &w->kind);
+    if (end == 0) triangulate_warn_if_local(s, path, &w->kind);
     return end;
 }
 
-/* To three decimals. */
-static void report_rounded(report *r, const char *name, double value)
-{
-    report_number(r, name, (double)(int64_t)(value * 1000 + 0.5) / 1000);
-}
-
-static void report_constrained(report *r, const work *w)
+static void triangulate_report_constrained(report *r, const triangulate_work *w)
 {
     report_count(r, "constraints", w->constraints.segment_count);
     report_count(r, "pieces", w->constrained.constrained_edges);
@@ -193,7 +188,7 @@ static void report_constrained(report *r, const work *w)
     report_count(r, "crossed", w->constrained.triangles_crossed);
 }
 
-static void report_kind(report *r, const triangulate_settings *s, const mw_kind_report *kind)
+static void triangulate_report_kind(report *r, const triangulate_settings *s, const mw_kind_report *kind)
 {
     report_string(r, "kind", kind_name(s->kind));
     report_number(r, "edge_length", kind->edge_length);
@@ -205,8 +200,8 @@ static void report_kind(report *r, const triangulate_settings *s, const mw_kind_
     report_count(r, "local_faces", kind->local_faces);
 }
 
-/* The report goes to standard output, unless the mesh does. */
-static int print_report(const triangulate_settings *s, const work *w)
+/* Print the report on standard output; on standard error if the mesh goes to standard output. */
+static int triangulate_print_report(const triangulate_settings *s, const triangulate_work *w)
 {
     report r;
     if (s->common.quiet) return 0;
@@ -217,73 +212,72 @@ static int print_report(const triangulate_settings *s, const work *w)
     report_count(&r, "triangles", w->vertices.file.triangle_count);
     report_rounded(&r, "visited_per_point", made->points ? (double)made->triangles_visited / (double)made->points : 0);
     if (s->constraints)
-        report_constrained(&r, w);
+        triangulate_report_constrained(&r, w);
     else
-        report_kind(&r, s, &w->kind);
-    report_rounded(&r, "seconds", tally_clock() - w->begin);
+        triangulate_report_kind(&r, s, &w->kind);
+    report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
     report_end(&r);
-    if (!files_is_stream(s->common.output)) return files_write_text(NULL, &r.text);
-    progress_end();
-    int end = r.text.failed ? fail_memory() : 0;
-    if (end == 0) fwrite(r.text.bytes, 1, r.text.size, stderr);
-    text_release(&r.text);
-    return end;
+    return files_is_standard(s->common.output) ? files_write_error_text(&r.text) : files_write_text(NULL, &r.text);
 }
 
-static int refuse(const char *why)
+static int triangulate_refuse(const char *why)
 {
     complain("triangulate: %s", why);
     return END_USAGE;
 }
 
-/* Options that do not go together. */
-static int check_combination(const triangulate_settings *s, const char *points)
+/* Refuse options that contradict each other. */
+static int triangulate_check_combination(const triangulate_settings *s, const char *points)
 {
-    if (!points && !s->constraints) return refuse("wants POINTS, or --constraints FILE");
+    if (!points && !s->constraints) return triangulate_refuse("wants POINTS, or --constraints FILE");
     if (!points && (s->columns || s->classes))
-        return refuse("--columns and --class are about POINTS, which are missing");
-    if (!s->constraints && (s->keep || s->split)) return refuse("--keep and --split are about --constraints");
-    if (s->constraints && s->kind != MW_KIND_DELAUNAY) return refuse("--constraints are for --kind delaunay only");
+        return triangulate_refuse("--columns and --class are about POINTS, which are missing");
+    if (!s->constraints && (s->keep || s->split))
+        return triangulate_refuse("--keep and --split are about --constraints");
+    if (s->constraints && s->kind != MW_KIND_DELAUNAY)
+        return triangulate_refuse("--constraints are for --kind delaunay only");
     if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
-        return refuse("--limit is about --kind min-weight and min-max-angle");
+        return triangulate_refuse("--limit is about --kind min-weight and min-max-angle");
     return 0;
 }
 
-/* What can be refused before the work begins. */
-static int check_settings(const triangulate_settings *s, const char *points)
+/* Refuse wrong settings before the work begins. */
+static int triangulate_check_settings(const triangulate_settings *s, const char *points)
 {
     const char *output = s->common.output;
     const char *inputs[2] = {points ? points : s->constraints, s->constraints};
-    int end = check_combination(s, points);
+    int end = triangulate_check_combination(s, points);
     if (end) return end;
     end = mesh_output_check("triangulate", output, s->format);
     if (end) return end;
-    if (s->constraints && mesh_output_is_node(output, s->format)) end = constraints_check_node(s->constraints, output);
+    if (s->constraints && mesh_output_is_node(output, s->format))
+        end = constraint_file_check_output(s->constraints, output);
     if (end) return end;
-    return files_check(output, inputs, points && s->constraints ? 2 : 1);
+    return files_check_output(output, inputs, points && s->constraints ? 2 : 1);
 }
 
-static int read_input(const triangulate_settings *s, const char *points, work *w)
+static int triangulate_read_input(const triangulate_settings *s, const char *points, triangulate_work *w)
 {
-    int end = points ? vertices_read(&w->vertices, points, s->columns, s->classes) : 0;
+    int end = points ? vertex_table_read(&w->vertices, points, s->columns, s->classes) : 0;
     if (end || !s->constraints) return end;
-    end = constraints_read(s->constraints, &w->constraints);
-    return end ? end : vertices_append(&w->vertices, &w->constraints);
+    end = constraint_file_read(s->constraints, &w->constraints);
+    return end ? end : vertex_table_append(&w->vertices, &w->constraints);
 }
 
-static int run(const void *settings, const char *const *operands)
+static int triangulate_run(const void *settings, const char *const *operands)
 {
     const triangulate_settings *s = settings;
     const char *points = operands[0];
-    work w = {.begin = tally_clock()};
-    bool named = false;
-    int end = check_settings(s, points);
-    if (end == 0) end = files_try_output(s->common.output, &named);
-    if (end == 0) end = read_input(s, points, &w);
-    if (end == 0) end = s->constraints ? constrain(s, points, &w) : triangulate(s, points, &w);
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, named);
-    if (end == 0) end = print_report(s, &w);
-    release(&w);
+    triangulate_work w = {.begin = monotonic_seconds()};
+    bool temporary = false;
+    int end = triangulate_check_settings(s, points);
+    if (end == 0) end = files_try_output(s->common.output, &temporary);
+    if (end == 0) end = triangulate_read_input(s, points, &w);
+    if (end == 0)
+        end = s->constraints ? triangulate_with_constraints(s, points, &w) : triangulate_points(s, points, &w);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary);
+    if (end == 0) end = triangulate_print_report(s, &w);
+    triangulate_work_release(&w);
     return end;
 }
 
@@ -303,5 +297,5 @@ const command triangulate_command = {
         "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
     .settings_size = sizeof(triangulate_settings),
-    .run = run,
+    .run = triangulate_run,
 };

@@ -1,21 +1,22 @@
-/* picture.h - pictures as files: SVG, PNG or PDF, as the ending of the name says. Drawn with Cairo. */
-#ifndef CLI_PICTURE_H
-#define CLI_PICTURE_H
+/* picture.h - pictures in files, drawn with Cairo: SVG, PNG or PDF by the ending of the name. */
+#ifndef MW_CLI_DRAW_PICTURE_H
+#define MW_CLI_DRAW_PICTURE_H
 
 #include <stdbool.h>
 
-/* Is it the name of a picture, by its ending? */
+/* Is the ending that of a picture? */
 bool picture_named(const char *path);
 
-/* Can this program draw? Complains if it was built without Cairo. Returns 0 or an exit code. */
+/* Complain if the program was built without Cairo. Returns 0 or an exit code. */
 int picture_check(const char *path);
 
 struct _cairo; /* Cairo's cairo_t */
 
-/* Draw on a page whose origin is its upper left corner; measures are points. The page is white. */
+/* Draw the content of a white page. The origin is its upper left corner; the unit is a point. */
 typedef void picture_draw(struct _cairo *c, const void *self);
 
-/* Returns 0 or an exit code, after a complaint. The file appears under its name when it is complete. */
+/* Draw a picture and write it. The file appears under its name when it is complete. Returns 0, or
+ * an exit code after a complaint. */
 int picture_write(const char *path, double width, double height, picture_draw *draw, const void *self);
 
 #endif

@@ -1,6 +1,6 @@
-/* plot.h - pictures of figures: curves over numbers of vertices, and bars. */
-#ifndef CLI_PLOT_H
-#define CLI_PLOT_H
+/* plot.h - plots of measured figures: curves over numbers of vertices, and bars. */
+#ifndef MW_CLI_DRAW_PLOT_H
+#define MW_CLI_DRAW_PLOT_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -8,7 +8,7 @@
 #define PLOT_CURVES 8
 #define PLOT_POINTS 8
 
-/* What is measured, and what is published; NaN: none. */
+/* A figure that was measured, and the published one beside it; NaN: there is none. */
 typedef struct plot_point {
     double x, ours, published;
 } plot_point;
@@ -18,7 +18,7 @@ typedef struct plot_curve {
     size_t count;
 } plot_curve;
 
-/* A panel with curves; or, where all of them have one point, with bars. */
+/* A panel shows curves; or bars, if every curve has one point. */
 typedef struct plot_panel {
     const char *title;
     plot_curve curve[PLOT_CURVES];
@@ -27,16 +27,19 @@ typedef struct plot_panel {
 typedef struct plot {
     const char *title, *x_label, *y_label;
     bool log_y;
-    const char *name[PLOT_CURVES], *label[PLOT_CURVES]; /* of the curves: in the legend, and below a bar */
+    const char *name[PLOT_CURVES];  /* of each curve, in the legend */
+    const char *label[PLOT_CURVES]; /* of each curve, below its bar */
     size_t curves;
     const plot_panel *panels;
-    size_t count;
+    size_t count; /* of the panels */
 } plot;
 
-/* Can such a file be made? Complains if its ending is not known, or the program was built without Cairo. */
+/* Complain if the ending is not that of a picture, or the program was built without Cairo. Returns
+ * 0 or an exit code. */
 int plot_check(const char *path);
 
-/* Returns 0 or an exit code, after a complaint. The file appears under its name when it is complete. */
+/* Draw a plot and write it. The file appears under its name when it is complete. Returns 0, or an
+ * exit code after a complaint. */
 int plot_write(const plot *p, const char *path);
 
 #endif

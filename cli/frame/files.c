@@ -10,59 +10,60 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool files_is_stream(const char *path)
+bool files_is_standard(const char *path)
 {
     return !path || strcmp(path, "-") == 0;
 }
 
-/* The files a name can stand for: itself, and both halves of a .node/.ele pair; zipped ones are read, not written. */
+/* One path may stand for several files: itself, and the two halves .node and .ele of a mesh. The
+ * gzipped halves are read only, never written. */
 enum { OUTPUT_FORM_COUNT = 3, FORM_COUNT = 5 };
-static const char *const forms[FORM_COUNT] = {NULL, ".node", ".ele", ".node.gz", ".ele.gz"};
+static const char *const form_endings[FORM_COUNT] = {NULL, ".node", ".ele", ".node.gz", ".ele.gz"};
 
-static bool form_of(const char *path, int form, char *name, size_t size)
+static bool file_form_name(const char *path, int form, char *name, size_t size)
 {
     size_t stem = strlen(path);
-    if (!forms[form]) return snprintf(name, size, "%s", path) < (int)size;
+    if (!form_endings[form]) return snprintf(name, size, "%s", path) < (int)size;
     for (int i = 1; i < FORM_COUNT; i++) {
-        size_t end = strlen(forms[i]);
-        if (stem > end && strcmp(path + stem - end, forms[i]) == 0) {
+        size_t end = strlen(form_endings[i]);
+        if (stem > end && strcmp(path + stem - end, form_endings[i]) == 0) {
             stem -= end;
             break;
         }
     }
-    return snprintf(name, size, "%.*s%s", (int)stem, path, forms[form]) < (int)size;
+    return snprintf(name, size, "%.*s%s", (int)stem, path, form_endings[form]) < (int)size;
 }
 
-static bool stat_form(const char *path, bool output, int form, struct stat *s)
+static bool file_form_stat(const char *path, bool output, int form, struct stat *s)
 {
     char name[4096];
-    if (files_is_stream(path)) return form == 0 && fstat(output ? STDOUT_FILENO : STDIN_FILENO, s) == 0;
-    return strlen(path) < sizeof name - 16 && form_of(path, form, name, sizeof name) && stat(name, s) == 0;
+    if (files_is_standard(path)) return form == 0 && fstat(output ? STDOUT_FILENO : STDIN_FILENO, s) == 0;
+    return strlen(path) < sizeof name - 16 && file_form_name(path, form, name, sizeof name) && stat(name, s) == 0;
 }
 
-/* Devices and pipes may well be read and written at a time. */
+/* A device or a pipe may be read and written at the same time, so only regular files count. */
 static bool is_one_file(const struct stat *a, const struct stat *b)
 {
     return S_ISREG(a->st_mode) && a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
 
-static bool same_file(const char *output, const char *input)
+static bool file_is_same(const char *output, const char *input)
 {
     for (int i = 0; i < OUTPUT_FORM_COUNT; i++)
         for (int j = 0; j < FORM_COUNT; j++) {
             struct stat a, b;
-            if (!stat_form(output, true, i, &a) || !stat_form(input, false, j, &b)) continue;
+            if (!file_form_stat(output, true, i, &a) || !file_form_stat(input, false, j, &b)) continue;
             if (is_one_file(&a, &b)) return true;
         }
     return false;
 }
 
-int files_check(const char *output, const char *const *inputs, int count)
+int files_check_output(const char *output, const char *const *inputs, int count)
 {
     int streams = 0;
     for (int i = 0; i < count; i++) {
-        streams += files_is_stream(inputs[i]);
-        if (!same_file(output, inputs[i])) continue;
+        streams += files_is_standard(inputs[i]);
+        if (!file_is_same(output, inputs[i])) continue;
         complain("%s: is input and output: choose another output", inputs[i]);
         return END_USAGE;
     }
@@ -89,16 +90,16 @@ static bool stat_directory(const char *path, struct stat *s)
 bool files_same_output(const char *one, const char *other)
 {
     struct stat a, b;
-    bool exists = stat_form(one, true, 0, &a);
-    if (exists != stat_form(other, true, 0, &b)) return false;
+    bool exists = file_form_stat(one, true, 0, &a);
+    if (exists != file_form_stat(other, true, 0, &b)) return false;
     if (exists) return is_one_file(&a, &b);
-    if (files_is_stream(one) || files_is_stream(other)) return false;
+    if (files_is_standard(one) || files_is_standard(other)) return false;
     return strcmp(name_in_directory(one), name_in_directory(other)) == 0 && stat_directory(one, &a) &&
            stat_directory(other, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/* Does the file read as points? */
-static bool holds_points(const char *path)
+/* Can the file be read as points? */
+static bool file_holds_points(const char *path)
 {
     mw_point_reader *reader;
     if (mw_point_reader_open(path, NULL, &reader, NULL) != MW_OK) return false;
@@ -117,7 +118,7 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
     mw_status status = mw_read_mesh(path, file, &error);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
-    if (status == MW_ERROR_INPUT && !files_is_stream(path) && holds_points(path))
+    if (status == MW_ERROR_INPUT && !files_is_standard(path) && file_holds_points(path))
         complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh of them", path, path);
     return end;
 }
@@ -136,14 +137,14 @@ bool files_has_area(const mw_mesh_file *file)
     return false;
 }
 
-int files_try_output(const char *output, bool *named)
+int files_try_output(const char *output, bool *temporary)
 {
     mw_error error;
     mw_output *out;
-    if (named) *named = false;
-    if (files_is_stream(output)) return 0;
+    if (temporary) *temporary = false;
+    if (files_is_standard(output)) return 0;
     if (mw_output_open(output, &out, &error) != MW_OK) return fail_writing(&error);
-    if (named) *named = mw_output_temporary(out) != NULL;
+    if (temporary) *temporary = mw_output_temporary(out) != NULL;
     mw_output_close(out, 0, NULL);
     return 0;
 }
@@ -162,6 +163,15 @@ int files_write_text(const char *output, text *t)
         mw_output_write(out, t->bytes, t->size);
         if (mw_output_close(out, 1, &error) != MW_OK) end = fail_writing(&error);
     }
+    text_release(t);
+    return end;
+}
+
+int files_write_error_text(text *t)
+{
+    progress_end();
+    int end = t->failed ? fail_memory() : 0;
+    if (end == 0) fwrite(t->bytes, 1, t->size, stderr);
     text_release(t);
     return end;
 }

@@ -1,32 +1,37 @@
-/* files.h - the files a command reads and writes. */
-#ifndef CLI_FILES_H
-#define CLI_FILES_H
+/* files.h - the files that a command reads and writes. */
+#ifndef MW_CLI_FRAME_FILES_H
+#define MW_CLI_FRAME_FILES_H
 
 #include "cli/frame/text.h"
 
 #include <meshwalk/meshwalk.h>
 
-/* "-" and NULL: a standard stream. */
-bool files_is_stream(const char *path);
+/* Does a path mean standard input or standard output? "-" and NULL do. */
+bool files_is_standard(const char *path);
 
-/* Refuse an output that is one of the inputs, also through a link or as the other half of .node and .ele: complains and
- * returns END_USAGE. Also refuses to read standard input twice. Returns 0 if all is well. */
-int files_check(const char *output, const char *const *inputs, int count);
+/* Refuse an output that is also an input. Two paths may be one file by a link, or as the two halves
+ * .node and .ele of one mesh. Refuse also to read standard input twice. Returns 0, or END_USAGE
+ * after a complaint. */
+int files_check_output(const char *output, const char *const *inputs, int count);
 
-/* Would two outputs be one file, also by another name of its directory, or through a link? They need not exist yet. */
+/* Are two outputs the same file, by links or by other names of its directory too? Neither needs to
+ * exist. */
 bool files_same_output(const char *one, const char *other);
 
-/* Read a mesh, complaining about what is wrong with it. Returns 0 or an exit code. */
+/* Read a mesh. Returns 0, or an exit code after a complaint. */
 int files_read_mesh(const char *path, mw_mesh_file *file);
 
-/* Is there a triangle with an area? Without one no point can be located. */
+/* Does a triangle have an area? In a mesh without one no point can be located. */
 bool files_has_area(const mw_mesh_file *file);
 
-/* Can the output be written at all? Better asked before long work than after it. `named`, if not NULL, is set if the
- * system writes it under a temporary name. Returns 0 or an exit code. */
-int files_try_output(const char *output, bool *named);
+/* Find out before long work whether an output can be written. If `temporary` is not NULL,
+ * *temporary tells whether the system writes the file under a temporary name. Returns 0, or an exit
+ * code after a complaint. */
+int files_try_output(const char *output, bool *temporary);
 
-/* Write a text as a whole; output NULL is standard output. The text is released. Returns 0 or an exit code. */
+/* Write a text as one file, or to standard output if the path is NULL; or write it to standard
+ * error. Both release the text, and return 0, or an exit code after a complaint. */
 int files_write_text(const char *output, text *t);
+int files_write_error_text(text *t);
 
 #endif

@@ -1,18 +1,18 @@
-/* help.c - the text of --help, from the tables of options. */
-#include "cli/frame/options.h"
+#include "cli/frame/help.h"
 
 #include <string.h>
 
 #define LINE_WIDTH 80
 #define HELP_COLUMN 24
 
-static void blanks(text *t, size_t count)
+static void help_blanks(text *t, size_t count)
 {
     while (count--) text_string(t, " ");
 }
 
-/* Words from `column` on; later lines are indented. A newline in the words begins a new line. */
-static void wrap_from(text *t, const char *words, size_t column, size_t indent)
+/* Write the words from `column` on, and indent the lines after the first. A newline in the words
+ * begins a new line. */
+static void help_wrap_from(text *t, const char *words, size_t column, size_t indent)
 {
     bool first = true;
     while (*words) {
@@ -32,7 +32,7 @@ static void wrap_from(text *t, const char *words, size_t column, size_t indent)
             first = true;
         }
         if (column < indent) {
-            blanks(t, indent - column);
+            help_blanks(t, indent - column);
             column = indent;
         } else if (!first) {
             text_string(t, " ");
@@ -46,12 +46,12 @@ static void wrap_from(text *t, const char *words, size_t column, size_t indent)
     text_string(t, "\n");
 }
 
-void options_wrap(text *t, const char *words, size_t indent)
+void help_wrap(text *t, const char *words, size_t indent)
 {
-    wrap_from(t, words, 0, indent);
+    help_wrap_from(t, words, 0, indent);
 }
 
-static void row_of_choices(text *t, const choices *c)
+static void help_choices_row(text *t, const choices *c)
 {
     text row = {0};
     for (int i = 0; c->name(i); i++) text_printf(&row, "%s%s", i ? ", " : "", c->name(i));
@@ -59,11 +59,11 @@ static void row_of_choices(text *t, const choices *c)
     if (row.failed)
         t->failed = true;
     else
-        wrap_from(t, row.bytes, 0, HELP_COLUMN + 2);
+        help_wrap_from(t, row.bytes, 0, HELP_COLUMN + 2);
     text_release(&row);
 }
 
-static size_t longest_name(const choices *c)
+static size_t choices_longest_name(const choices *c)
 {
     size_t longest = 0;
     const char *name;
@@ -75,19 +75,19 @@ static size_t longest_name(const choices *c)
 static void help_of_choices(text *t, const choices *c)
 {
     if (!c->help) {
-        row_of_choices(t, c);
+        help_choices_row(t, c);
         return;
     }
     const char *name;
-    size_t indent = HELP_COLUMN + 4 + longest_name(c);
+    size_t indent = HELP_COLUMN + 4 + choices_longest_name(c);
     for (int i = 0; (name = c->name(i)); i++) {
         const char *help = c->help(i);
         if (!help) continue;
-        blanks(t, HELP_COLUMN + 2);
+        help_blanks(t, HELP_COLUMN + 2);
         text_string(t, name);
         size_t column = HELP_COLUMN + 2 + strlen(name);
-        blanks(t, indent - column);
-        wrap_from(t, help, indent, indent);
+        help_blanks(t, indent - column);
+        help_wrap_from(t, help, indent, indent);
     }
 }
 
@@ -104,13 +104,14 @@ static void help_of_option(text *t, const option *o)
         text_string(t, "\n");
         column = 0;
     }
-    blanks(t, HELP_COLUMN - column);
-    wrap_from(t, o->help, HELP_COLUMN, HELP_COLUMN);
+    help_blanks(t, HELP_COLUMN - column);
+    help_wrap_from(t, o->help, HELP_COLUMN, HELP_COLUMN);
     if (o->choices) help_of_choices(t, o->choices);
 }
 
-/* Has a table before it, or the same one, an option of this name? Then that one counts, and says what is true here. */
-static bool is_overruled(const command *c, const option *o)
+/* Does an option of the same name stand earlier in the tables? The earlier one counts then: a
+ * command overrules a common option to describe what is true for it. */
+static bool option_is_overruled(const command *c, const option *o)
 {
     for (const option *const *table = c->options; *table; table++)
         for (const option *other = *table; other->name; other++) {
@@ -120,14 +121,14 @@ static bool is_overruled(const command *c, const option *o)
     return false;
 }
 
-void options_help(text *t, const command *c)
+void help_of_command(text *t, const command *c)
 {
     text_printf(t, "meshwalk %s - %s\n\nusage: meshwalk %s [options] %s\n\n", c->name, c->summary, c->name,
                 c->operands);
-    options_wrap(t, c->description, 0);
+    help_wrap(t, c->description, 0);
     text_string(t, "\noptions:\n");
     for (const option *const *table = c->options; *table; table++)
         for (const option *o = *table; o->name; o++)
-            if (!is_overruled(c, o)) help_of_option(t, o);
+            if (!option_is_overruled(c, o)) help_of_option(t, o);
     text_printf(t, "\nThe manual page meshwalk-%s(1) tells more.\n", c->name);
 }

@@ -17,12 +17,12 @@ void complain(const char *format, ...)
     fprintf(stderr, "meshwalk: %s\n", line);
 }
 
-static int end_of(mw_status status)
+static int exit_code_of(mw_status status)
 {
     switch (status) {
     case MW_ERROR_ARGUMENT: return END_USAGE;
     case MW_ERROR_MEMORY:
-    case MW_ERROR_LIMIT: return END_INTERNAL;
+    case MW_ERROR_LIMIT: return END_RESOURCE;
     default: return END_INPUT;
     }
 }
@@ -30,23 +30,23 @@ static int end_of(mw_status status)
 int fail_reading(const mw_error *error)
 {
     complain("%s", error->message);
-    return end_of(error->status);
+    return exit_code_of(error->status);
 }
 
 int fail_mesh(const char *path, const mw_error *error)
 {
     complain("%s: %s", path, error->message);
-    return end_of(error->status);
+    return exit_code_of(error->status);
 }
 
 int fail_query(const mw_error *error)
 {
     complain("%s", error->message);
-    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
+    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_RESOURCE;
 }
 
-/* The reader at the other end of a pipe has seen enough: nothing went wrong that a person should read about. */
-static int closed_pipe(const mw_error *error)
+/* A closed pipe is no failure that a person should read about: its reader has seen enough. */
+static int is_closed_pipe(const mw_error *error)
 {
     const char *text = strerror(EPIPE);
     size_t all = strlen(error->message), end = strlen(text);
@@ -55,12 +55,12 @@ static int closed_pipe(const mw_error *error)
 
 int fail_writing(const mw_error *error)
 {
-    if (!closed_pipe(error)) complain("%s", error->message);
-    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_INTERNAL;
+    if (!is_closed_pipe(error)) complain("%s", error->message);
+    return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_RESOURCE;
 }
 
 int fail_memory(void)
 {
     complain("out of memory");
-    return END_INTERNAL;
+    return END_RESOURCE;
 }

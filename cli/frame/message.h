@@ -1,26 +1,27 @@
-/* message.h - what the program says on standard error, and how it ends. */
-#ifndef CLI_MESSAGE_H
-#define CLI_MESSAGE_H
+/* message.h - the messages of the program on standard error, and its exit codes. */
+#ifndef MW_CLI_FRAME_MESSAGE_H
+#define MW_CLI_FRAME_MESSAGE_H
 
 #include <meshwalk/meshwalk.h>
 
-/* Exit codes: a contract with scripts (meshwalk.1). */
+/* Exit codes. Scripts rely on them (meshwalk.1). */
 enum {
     END_DONE = 0,
-    END_UNLOCATED = 1, /* done, but some points have no answer and --strict was given */
+    END_UNANSWERED = 1, /* done, but some points have no answer and --strict was given */
     END_USAGE = 2,
-    END_INPUT = 3,    /* input unreadable or invalid */
-    END_INTERNAL = 4, /* out of memory, a limit, or the output could not be written */
+    END_INPUT = 3,    /* the input cannot be read, or is not valid */
+    END_RESOURCE = 4, /* out of memory, beyond a limit, or the output cannot be written */
 };
 
-/* One line "meshwalk: ..." on standard error. */
+/* Print one line "meshwalk: ..." on standard error. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Report a failure of the library and return the exit code it means.
- *   fail_reading  a reader's error: its message begins with the file
+/* Complain of an error of the library and return its exit code.
+ *   fail_reading  an error of a reader: its message names the file
  *   fail_mesh     an error about the mesh that was read from `path`
- *   fail_query    an option that the library refuses, or a limit
- *   fail_writing  an output's error; a closed pipe ends the program without a message */
+ *   fail_query    the library refuses an option, or a limit is reached
+ *   fail_writing  an error of an output; a closed pipe gives no message
+ *   fail_memory   out of memory */
 int fail_reading(const mw_error *error);
 int fail_mesh(const char *path, const mw_error *error);
 int fail_query(const mw_error *error);

@@ -11,6 +11,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 const option common_options[] = {
     {"output", 'o', OPTION_TEXT, offsetof(common_settings, output), "FILE",
@@ -53,7 +56,7 @@ static int unknown_option(const command *c, const char *name, size_t length)
     return END_USAGE;
 }
 
-/* Digits only: no sign, no blank, no rest. */
+/* Parse digits only, without a sign, a blank, or anything after them. */
 static bool parse_natural(const char *value, uint64_t most, uint64_t *number)
 {
     for (const char *c = value; *c; c++)
@@ -64,7 +67,8 @@ static bool parse_natural(const char *value, uint64_t most, uint64_t *number)
     return *value && errno == 0 && parsed <= most;
 }
 
-/* A finite decimal number up to `stop`: no hexadecimal, no blank, no rest. NULL, or what follows it. */
+/* Parse a finite decimal number that ends before `stop`: not hexadecimal, without blanks. Returns
+ * where it ends; NULL if there is no such number. */
 static const char *parse_number(const char *value, char stop, double *number)
 {
     size_t length = strspn(value, "0123456789.eE+-");
@@ -74,19 +78,20 @@ static const char *parse_number(const char *value, char stop, double *number)
     return end == value + length && isfinite(*number) ? end : NULL;
 }
 
-/* Is a number not 0, as it is written? */
+/* Does the text of a number have a digit other than 0 before the exponent? */
 static bool is_written_nonzero(const char *value)
 {
     return strcspn(value, "123456789") < strcspn(value, "eE");
 }
 
-/* A number >= 0; no decimal comma. What would be lost in rounding to 0 is refused like what is too large. */
+/* Parse a number that is not negative. A number so small that it rounds to 0 is refused, as one
+ * that is too large. */
 static bool parse_length(const char *value, double *number)
 {
     return parse_number(value, 0, number) && *number >= 0 && (*number > 0 || !is_written_nonzero(value));
 }
 
-/* So many numbers with commas between them. */
+/* Parse `count` numbers with commas between them. */
 static bool parse_numbers(const char *value, double *numbers, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
@@ -97,15 +102,15 @@ static bool parse_numbers(const char *value, double *numbers, uint32_t count)
     return true;
 }
 
-/* X,Y or X,Y,Z. */
-static bool parse_place(const char *value, coordinates *where)
+/* Parse X,Y or X,Y,Z. */
+static bool parse_coordinates(const char *value, coordinates *where)
 {
     for (where->count = 2; where->count <= 3; where->count++)
         if (parse_numbers(value, where->at, where->count)) return true;
     return false;
 }
 
-/* How many to sample: a number or the name of a rule. */
+/* Parse the size of a sample: a number, or the name of a rule. */
 static bool parse_sample(const char *value, uint32_t *sample)
 {
     uint64_t number = 0;
@@ -135,13 +140,13 @@ static int parse_choice(const option *o, const char *value, int *number)
     return END_USAGE;
 }
 
-static int bad_value(const option *o, const char *value, const char *wanted)
+static int option_bad_value(const option *o, const char *value, const char *wanted)
 {
     complain("option '--%s' wants %s, not '%s'", o->name, wanted, value);
     return END_USAGE;
 }
 
-static int take(const option *o, const char *value, void *settings)
+static int option_take(const option *o, const char *value, void *settings)
 {
     char *target = (char *)settings + o->offset;
     uint64_t natural = 0;
@@ -152,35 +157,35 @@ static int take(const option *o, const char *value, void *settings)
     switch (o->kind) {
     case OPTION_FLAG: memcpy(target, &(bool){true}, sizeof(bool)); return 0;
     case OPTION_TEXT:
-        if (!*value) return bad_value(o, value, "a text that is not empty");
+        if (!*value) return option_bad_value(o, value, "a text that is not empty");
         memcpy(target, &value, sizeof value);
         return 0;
     case OPTION_LENGTH:
-    case OPTION_REACH:
-        if (!parse_length(value, &length)) return bad_value(o, value, "a length, 0 or more");
-        if (o->kind == OPTION_REACH && length == 0) length = DBL_TRUE_MIN;
+    case OPTION_MAX_DISTANCE:
+        if (!parse_length(value, &length)) return option_bad_value(o, value, "a length, 0 or more");
+        if (o->kind == OPTION_MAX_DISTANCE && length == 0) length = DBL_TRUE_MIN;
         memcpy(target, &length, sizeof length);
         return 0;
-    case OPTION_POINT:
+    case OPTION_XYZ:
         where.count = 3;
-        if (!parse_numbers(value, where.at, where.count)) return bad_value(o, value, "a point X,Y,Z");
+        if (!parse_numbers(value, where.at, where.count)) return option_bad_value(o, value, "a point X,Y,Z");
         memcpy(target, &where, sizeof where);
         return 0;
-    case OPTION_PLACE:
-        if (!parse_place(value, &where)) return bad_value(o, value, "coordinates X,Y or X,Y,Z");
+    case OPTION_XY_OR_XYZ:
+        if (!parse_coordinates(value, &where)) return option_bad_value(o, value, "coordinates X,Y or X,Y,Z");
         memcpy(target, &where, sizeof where);
         return 0;
     case OPTION_COUNT:
-        if (!parse_natural(value, UINT32_MAX, &natural)) return bad_value(o, value, "a whole number below 2^32");
+        if (!parse_natural(value, UINT32_MAX, &natural)) return option_bad_value(o, value, "a whole number below 2^32");
         memcpy(target, &(uint32_t){(uint32_t)natural}, sizeof(uint32_t));
         return 0;
     case OPTION_SAMPLE:
         if (!parse_sample(value, &sample))
-            return bad_value(o, value, "a whole number from 1 to 2^32 - 2, cube-root or fourth-root");
+            return option_bad_value(o, value, "a whole number from 1 to 2^32 - 2, cube-root or fourth-root");
         memcpy(target, &sample, sizeof sample);
         return 0;
     case OPTION_SEED:
-        if (!parse_natural(value, UINT64_MAX, &natural)) return bad_value(o, value, "a whole number below 2^64");
+        if (!parse_natural(value, UINT64_MAX, &natural)) return option_bad_value(o, value, "a whole number below 2^64");
         memcpy(target, &natural, sizeof natural);
         return 0;
     case OPTION_CHOICE:
@@ -200,8 +205,18 @@ int options_limit(const char *name, uint32_t value, uint32_t most, const char *w
     return END_USAGE;
 }
 
-/* The argument of an option: what stands behind it in the same word, or the next word. */
-static const char *argument_of(const option *o, const char *attached, char ***word)
+int options_threads(uint32_t threads)
+{
+#ifdef _OPENMP
+    return threads > 0 ? (int)threads : omp_get_max_threads();
+#else
+    (void)threads;
+    return 1;
+#endif
+}
+
+/* The argument of an option: the rest of its word, or else the next word. */
+static const char *option_argument(const option *o, const char *attached, char ***word)
 {
     if (attached) return attached;
     if ((*word)[1]) return *++*word;
@@ -218,12 +233,12 @@ static int parse_long(const command *c, char ***word, void *settings)
     const option *o = option_named(c, name, length);
     if (!o) return unknown_option(c, name, length);
     if (o->kind == OPTION_FLAG) {
-        if (!attached) return take(o, NULL, settings);
+        if (!attached) return option_take(o, NULL, settings);
         complain("option '--%s' takes no argument", o->name);
         return END_USAGE;
     }
-    const char *value = argument_of(o, attached, word);
-    return value ? take(o, value, settings) : END_USAGE;
+    const char *value = option_argument(o, attached, word);
+    return value ? option_take(o, value, settings) : END_USAGE;
 }
 
 /* -q, -o value, -ovalue, and flags together: -qo value. */
@@ -236,16 +251,16 @@ static int parse_letters(const command *c, char ***word, void *settings)
             return END_USAGE;
         }
         if (o->kind == OPTION_FLAG) {
-            take(o, NULL, settings);
+            option_take(o, NULL, settings);
             continue;
         }
-        const char *value = argument_of(o, letter[1] ? letter + 1 : NULL, word);
-        return value ? take(o, value, settings) : END_USAGE;
+        const char *value = option_argument(o, letter[1] ? letter + 1 : NULL, word);
+        return value ? option_take(o, value, settings) : END_USAGE;
     }
     return 0;
 }
 
-int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MOST_OPERANDS])
+int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MAX_OPERANDS])
 {
     int found = 0, end = 0;
     bool options = true;

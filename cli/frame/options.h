@@ -1,84 +1,87 @@
-/* options.h - the options of a command: tables that parse, print the help, and are checked against the man pages.
+/* options.h - commands and their options. Tables of options parse the arguments and make the text
+ * of --help; the tests compare them with the manual pages.
  *
- * A command keeps what its options say in a structure of its own, its settings. Each option names a member of it. All
- * zero is the default of every setting. */
-#ifndef CLI_OPTIONS_H
-#define CLI_OPTIONS_H
+ * A command keeps the values of its options in a structure of its own, its settings. Each option
+ * names the member it sets. A setting that is all zero has its default. */
+#ifndef MW_CLI_FRAME_OPTIONS_H
+#define MW_CLI_FRAME_OPTIONS_H
 
-#include "cli/frame/text.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
+/* What an option's argument is, and the type of its setting. */
 typedef enum option_kind {
-    OPTION_FLAG,   /* bool: no argument                          */
-    OPTION_TEXT,   /* const char *; choices, if any, are for --help */
-    OPTION_LENGTH, /* double: finite and not negative            */
-    OPTION_REACH,  /* double: likewise, but 0 given is not the default: the least length above 0 stands for it */
-    OPTION_POINT,  /* coordinates: X,Y,Z, finite                 */
-    OPTION_PLACE,  /* coordinates: X,Y or X,Y,Z, finite          */
-    OPTION_COUNT,  /* uint32_t                                   */
-    OPTION_SAMPLE, /* uint32_t: a number, not 0, or MW_SAMPLE_.. */
-    OPTION_SEED,   /* uint64_t                                   */
-    OPTION_CHOICE, /* int: the number of a name, see choices     */
+    OPTION_FLAG,         /* bool: no argument                                                */
+    OPTION_TEXT,         /* const char *: not empty; its choices, if any, are for --help only */
+    OPTION_LENGTH,       /* double: finite, not negative                                     */
+    OPTION_MAX_DISTANCE, /* double: the same; a given 0 is stored as the least double above 0,
+                          * because 0 stands for the default, which is no limit              */
+    OPTION_XYZ,          /* coordinates: X,Y,Z, finite                                       */
+    OPTION_XY_OR_XYZ,    /* coordinates: X,Y or X,Y,Z, finite                                */
+    OPTION_COUNT,        /* uint32_t                                                         */
+    OPTION_SAMPLE,       /* uint32_t: at least 1, or a rule by name: MW_SAMPLE_CUBE_ROOT, ... */
+    OPTION_SEED,         /* uint64_t                                                         */
+    OPTION_CHOICE,       /* int: the number of a name among the option's choices             */
 } option_kind;
 
 typedef struct coordinates {
     double at[3];
-    uint32_t count; /* 0: not given */
+    uint32_t count; /* 2 or 3; 0: the option was not given */
 } coordinates;
 
-/* The names an OPTION_CHOICE accepts, or that may stand in a list. */
+/* The names that an option accepts: alone (OPTION_CHOICE) or in a list. */
 typedef struct choices {
-    const char *noun;         /* "walk" */
-    const char *(*name)(int); /* from 0; NULL beyond the last */
-    const char *(*help)(int); /* a line for --help, or NULL: not listed. No function: the names are listed in a row */
+    const char *noun;         /* for messages: "walk" */
+    const char *(*name)(int); /* the names from number 0; NULL after the last */
+    const char *(*help)(int); /* the line of a name in --help; NULL hides the name. Without this
+                               * function the names stand in one row */
 } choices;
 
 typedef struct option {
-    const char *name; /* "walk", given as --walk; NULL ends a table */
-    char letter;      /* 'o', given as -o; 0: none */
+    const char *name; /* "walk" for --walk; NULL ends a table */
+    char letter;      /* 'o' for -o; 0: none */
     option_kind kind;
-    size_t offset;        /* of the setting */
-    const char *argument; /* as the help calls it: "NAME" */
+    size_t offset;        /* of the member of the settings */
+    const char *argument; /* its name in the help: "NAME" */
     const char *help;
     const choices *choices;
 } option;
 
-#define MOST_OPERANDS 2
+#define MAX_OPERANDS 2
 
-/* A sub-command. */
+/* A sub-command of the program. */
 typedef struct command {
     const char *name;
     const char *operands;         /* as in the usage line: "MESH POINTS" */
-    int operand_count;            /* exactly so many */
-    int optional_operands;        /* but so many of the last ones may be missing: NULL then */
+    int operand_count;            /* how many operands there are ...  */
+    int optional_operands;        /* ... and how many of the last ones may be missing: NULL then */
     const char *summary;          /* one line */
     const char *description;      /* a paragraph or more */
-    const option *const *options; /* tables; NULL ends them. Of options of one name the first counts */
+    const option *const *options; /* tables; NULL ends them. The first option of a name counts */
     size_t settings_size;
     int (*run)(const void *settings, const char *const *operands); /* returns the exit code */
 } command;
 
-/* The settings every command begins with, and their options. */
+/* The first member of every command's settings, and its options. */
 typedef struct common_settings {
     const char *output; /* NULL or "-": standard output */
     uint64_t seed;
-    uint32_t threads;
+    uint32_t threads; /* 0: all there are, see options_threads */
     bool quiet, help;
 } common_settings;
 
 extern const option common_options[];
 
-/* Parse the arguments after the command's name. Returns 0, or an exit code after a complaint. With `help` set in the
- * settings nothing else has been checked. */
-int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MOST_OPERANDS]);
+/* Parse the arguments after the command's name. Returns 0, or an exit code after a complaint. If
+ * the settings then have `help` set, the operands have not been checked. */
+int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MAX_OPERANDS]);
 
-/* Refuse a count that the library does not take; `written`: the most as words, NULL: as digits. Returns 0 or an exit code
- * after a complaint. */
+/* Refuse a count above the maximum that the library takes. The message writes the maximum as
+ * `written`, or in digits if that is NULL. Returns 0, or END_USAGE after a complaint. */
 int options_limit(const char *name, uint32_t value, uint32_t most, const char *written);
 
-/* The text that `--help` prints. */
-void options_help(text *t, const command *c);
-
-/* Add words to a text, wrapped and indented. */
-void options_wrap(text *t, const char *words, size_t indent);
+/* How many threads a value of --threads means: 0 stands for all that the system offers. */
+int options_threads(uint32_t threads);
 
 #endif

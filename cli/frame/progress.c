@@ -1,5 +1,5 @@
-/* The library works without calling back, so a thread of its own watches the clock: it sleeps for a second, then
- * repaints the line a few times a second until it is told to stop. */
+/* The library does not call back while it works, so a thread shows the progress. It sleeps for a
+ * second, then paints the line a few times a second until it is told to stop. */
 #include "cli/frame/progress.h"
 
 #include <inttypes.h>
@@ -28,8 +28,8 @@ static double seconds_since(const struct timespec *begin)
     return (double)(now.tv_sec - begin->tv_sec) + 1e-9 * (double)(now.tv_nsec - begin->tv_nsec);
 }
 
-/* Sleep until told to stop or for the given time; the lock is held before and after. */
-static bool wait_for(time_t seconds, long nanoseconds)
+/* Sleep for the given time, or until told to stop. The caller holds the lock. */
+static bool progress_wait(time_t seconds, long nanoseconds)
 {
     struct timespec until;
     timespec_get(&until, TIME_UTC);
@@ -44,7 +44,7 @@ static bool wait_for(time_t seconds, long nanoseconds)
     return !watch.stop;
 }
 
-static void paint(void)
+static void progress_paint(void)
 {
     if (!watch.doing) return;
     fprintf(stderr, "\r\033[K%s", watch.doing);
@@ -55,11 +55,11 @@ static void paint(void)
     watch.shown = true;
 }
 
-static int run(void *unused)
+static int progress_run(void *unused)
 {
     (void)unused;
     mtx_lock(&watch.lock);
-    for (bool more = wait_for(1, 0); more; more = wait_for(0, REPAINT_NANOSECONDS)) paint();
+    for (bool more = progress_wait(1, 0); more; more = progress_wait(0, REPAINT_NANOSECONDS)) progress_paint();
     mtx_unlock(&watch.lock);
     return 0;
 }
@@ -71,7 +71,7 @@ void progress_begin(bool quiet)
     watch.stop = watch.shown = false;
     if (mtx_init(&watch.lock, mtx_plain) != thrd_success) return;
     if (cnd_init(&watch.wake) == thrd_success) {
-        watch.running = thrd_create(&watch.thread, run, NULL) == thrd_success;
+        watch.running = thrd_create(&watch.thread, progress_run, NULL) == thrd_success;
         if (!watch.running) cnd_destroy(&watch.wake);
     }
     if (!watch.running) mtx_destroy(&watch.lock);
@@ -87,7 +87,7 @@ void progress_phase(const char *doing, const char *what)
     mtx_unlock(&watch.lock);
 }
 
-static void count(uint64_t done, const char *unit)
+static void progress_count(uint64_t done, const char *unit)
 {
     if (!watch.running) return;
     mtx_lock(&watch.lock);
@@ -98,12 +98,12 @@ static void count(uint64_t done, const char *unit)
 
 void progress_points(uint64_t done)
 {
-    count(done, "points");
+    progress_count(done, "points");
 }
 
 void progress_lines(uint64_t done)
 {
-    count(done, "lines");
+    progress_count(done, "lines");
 }
 
 void progress_end(void)

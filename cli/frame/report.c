@@ -12,7 +12,7 @@ void report_begin(report *r, bool json)
     if (json) text_string(&r->text, "{");
 }
 
-static void name_of(report *r, const char *name)
+static void report_begin_value(report *r, const char *name)
 {
     if (r->json) {
         text_string(&r->text, r->values++ ? ",\n " : "\n ");
@@ -25,12 +25,12 @@ static void name_of(report *r, const char *name)
     for (size_t i = length; i < LABEL_WIDTH; i++) text_string(&r->text, " ");
 }
 
-static void end_of_value(report *r)
+static void report_end_value(report *r)
 {
     if (!r->json) text_string(&r->text, "\n");
 }
 
-static void number(report *r, double value)
+static void report_write_number(report *r, double value)
 {
     if (r->json && !isfinite(value))
         text_string(&r->text, "null");
@@ -40,50 +40,55 @@ static void number(report *r, double value)
 
 void report_count(report *r, const char *name, uint64_t value)
 {
-    name_of(r, name);
+    report_begin_value(r, name);
     text_printf(&r->text, "%" PRIu64, value);
-    end_of_value(r);
+    report_end_value(r);
 }
 
 void report_number(report *r, const char *name, double value)
 {
-    name_of(r, name);
-    number(r, value);
-    end_of_value(r);
+    report_begin_value(r, name);
+    report_write_number(r, value);
+    report_end_value(r);
+}
+
+void report_rounded(report *r, const char *name, double value)
+{
+    report_number(r, name, (double)(int64_t)(value * 1000 + 0.5) / 1000);
 }
 
 void report_numbers(report *r, const char *name, const double *values, size_t count)
 {
-    name_of(r, name);
+    report_begin_value(r, name);
     if (r->json) text_string(&r->text, "[");
     for (size_t i = 0; i < count; i++) {
         if (i) text_string(&r->text, r->json ? ", " : " ");
-        number(r, values[i]);
+        report_write_number(r, values[i]);
     }
     if (r->json) text_string(&r->text, "]");
-    end_of_value(r);
+    report_end_value(r);
 }
 
 void report_flag(report *r, const char *name, bool value)
 {
-    name_of(r, name);
+    report_begin_value(r, name);
     text_string(&r->text, r->json ? (value ? "true" : "false") : value ? "yes" : "no");
-    end_of_value(r);
+    report_end_value(r);
 }
 
 void report_string(report *r, const char *name, const char *value)
 {
-    name_of(r, name);
+    report_begin_value(r, name);
     if (r->json)
         report_quote(&r->text, value);
     else
         text_string(&r->text, value);
-    end_of_value(r);
+    report_end_value(r);
 }
 
 void report_strings(report *r, const char *name, char *const *values, size_t count)
 {
-    name_of(r, name);
+    report_begin_value(r, name);
     if (r->json) text_string(&r->text, "[");
     for (size_t i = 0; i < count; i++) {
         if (i) text_string(&r->text, ", ");
@@ -94,14 +99,14 @@ void report_strings(report *r, const char *name, char *const *values, size_t cou
     }
     if (r->json) text_string(&r->text, "]");
     if (!r->json && count == 0) text_string(&r->text, "none");
-    end_of_value(r);
+    report_end_value(r);
 }
 
 void report_missing(report *r, const char *name, const char *why)
 {
-    name_of(r, name);
+    report_begin_value(r, name);
     text_string(&r->text, r->json ? "null" : why);
-    end_of_value(r);
+    report_end_value(r);
 }
 
 void report_end(report *r)
@@ -109,7 +114,8 @@ void report_end(report *r)
     if (r->json) text_string(&r->text, "\n}\n");
 }
 
-/* Length of the UTF-8 sequence at s, 0 if there is none: no overlong forms, no surrogates, nothing above U+10FFFF. */
+/* The length of the UTF-8 sequence at s; 0 if there is none. Overlong forms, surrogates and codes
+ * above U+10FFFF are none. */
 static size_t utf8_length(const unsigned char *s)
 {
     if (s[0] < 0x80) return 1;

@@ -6,39 +6,41 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* held: no signal ends the program just now */
-static char doomed[MOST_TEMPORARIES][4096];              /* "": none; under the lock */
-static sigset_t ending;                                  /* written before the thread begins */
+/* While this is held, no signal ends the program. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static char temporaries[MAX_TEMPORARIES][4096]; /* "": none. Guarded by the lock */
+static sigset_t ending_signals;                 /* set before the thread starts */
 
-/* The signals that would end the program: one that is ignored, as under nohup, stays ignored. */
-static void collect_signals(void)
+/* Collect the signals that would end the program. An ignored one, as under nohup, stays ignored. */
+static void ending_signals_collect(void)
 {
     static const int numbers[] = {SIGHUP, SIGINT, SIGTERM, SIGQUIT};
-    sigemptyset(&ending);
+    sigemptyset(&ending_signals);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         struct sigaction action;
-        if (sigaction(numbers[i], NULL, &action) == 0 && action.sa_handler == SIG_DFL) sigaddset(&ending, numbers[i]);
+        if (sigaction(numbers[i], NULL, &action) == 0 && action.sa_handler == SIG_DFL)
+            sigaddset(&ending_signals, numbers[i]);
     }
 }
 
-/* Under the lock. */
-static void clean(void)
+/* The caller holds the lock. */
+static void temporaries_remove(void)
 {
-    for (size_t i = 0; i < MOST_TEMPORARIES; i++) {
-        if (*doomed[i]) unlink(doomed[i]);
-        *doomed[i] = 0;
+    for (size_t i = 0; i < MAX_TEMPORARIES; i++) {
+        if (*temporaries[i]) unlink(temporaries[i]);
+        *temporaries[i] = 0;
     }
 }
 
-/* Wait for a signal, clean up, and let it do to the program what it does by default. */
-static void *wait_for_signal(void *unused)
+/* Wait for a signal, remove the files, and then let the signal end the program as usual. */
+static void *signals_wait(void *unused)
 {
     int number;
     (void)unused;
-    if (sigwait(&ending, &number) != 0) return NULL;
+    if (sigwait(&ending_signals, &number) != 0) return NULL;
     pthread_mutex_lock(&lock);
-    clean();
-    pthread_sigmask(SIG_UNBLOCK, &ending, NULL);
+    temporaries_remove();
+    pthread_sigmask(SIG_UNBLOCK, &ending_signals, NULL);
     raise(number);
     return NULL;
 }
@@ -47,42 +49,44 @@ void signals_begin(void)
 {
     pthread_t thread;
     sigset_t before;
-    collect_signals();
-    if (pthread_sigmask(SIG_BLOCK, &ending, &before) != 0) return; /* every later thread inherits it */
-    if (pthread_create(&thread, NULL, wait_for_signal, NULL) == 0)
+    ending_signals_collect();
+    /* Threads that start later inherit the mask. */
+    if (pthread_sigmask(SIG_BLOCK, &ending_signals, &before) != 0) return;
+    if (pthread_create(&thread, NULL, signals_wait, NULL) == 0)
         pthread_detach(thread);
     else
         pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-/* Under the lock. */
-static void doom(const char *temporary)
+/* The caller holds the lock. */
+static void temporaries_add(const char *temporary)
 {
     size_t i = 0;
-    while (i < MOST_TEMPORARIES && *doomed[i]) i++;
-    if (!temporary || i == MOST_TEMPORARIES) return;
-    if (snprintf(doomed[i], sizeof doomed[i], "%s", temporary) >= (int)sizeof doomed[i]) *doomed[i] = 0;
+    while (i < MAX_TEMPORARIES && *temporaries[i]) i++;
+    if (!temporary || i == MAX_TEMPORARIES) return;
+    if (snprintf(temporaries[i], sizeof temporaries[i], "%s", temporary) >= (int)sizeof temporaries[i])
+        *temporaries[i] = 0;
 }
 
-void signals_remove(const char *temporary)
+void signals_set_temporary(const char *temporary)
 {
     pthread_mutex_lock(&lock);
-    for (size_t i = 0; i < MOST_TEMPORARIES; i++) *doomed[i] = 0;
-    doom(temporary);
+    for (size_t i = 0; i < MAX_TEMPORARIES; i++) *temporaries[i] = 0;
+    temporaries_add(temporary);
     pthread_mutex_unlock(&lock);
 }
 
-void signals_remove_too(const char *temporary)
+void signals_add_temporary(const char *temporary)
 {
     pthread_mutex_lock(&lock);
-    doom(temporary);
+    temporaries_add(temporary);
     pthread_mutex_unlock(&lock);
 }
 
-void signals_clean(void)
+void signals_remove_temporaries(void)
 {
     pthread_mutex_lock(&lock);
-    clean();
+    temporaries_remove();
     pthread_mutex_unlock(&lock);
 }
 

@@ -1,27 +1,29 @@
-/* signals.h - what an interrupt leaves behind: nothing.
+/* signals.h - an interrupted program leaves no temporary file behind.
  *
- * Where the system can write files without a name there is nothing to do. Elsewhere an output stands under a temporary
- * name until it is complete (mw_output_temporary), and these see to it. All threads but one hold back the signals that
- * ask the program to end; that one waits for them, so it may lock and clean up as any code may. */
-#ifndef CLI_SIGNALS_H
-#define CLI_SIGNALS_H
+ * An output has a temporary name until it is complete (mw_output_temporary) on systems that cannot
+ * write files without a name; on others there is nothing to remove. All threads but one block the
+ * signals that ask the program to end. That one waits for them, so it may lock a mutex and remove
+ * files, which a signal handler may not. */
+#ifndef MW_CLI_FRAME_SIGNALS_H
+#define MW_CLI_FRAME_SIGNALS_H
 
 #include <stdbool.h>
 
-/* Start to wait for signals; called once, before there are other threads. Where no thread can be had, signals end the
- * program as they would any other. */
+/* Start the waiting thread. Call it once, before other threads start. If the thread cannot be made,
+ * signals end the program as usual. */
 void signals_begin(void);
 
-/* When a signal asks the program to end: remove this file first, and no other. NULL: nothing to remove. */
-void signals_remove(const char *temporary);
-/* Remove this one, too, of up to MOST_TEMPORARIES. NULL: nothing more. */
-#define MOST_TEMPORARIES 4
-void signals_remove_too(const char *temporary);
+#define MAX_TEMPORARIES 4 /* files to remove at a time */
 
-/* Remove it now: the program ends without closing its output. */
-void signals_clean(void);
+/* Set the only file to remove when a signal ends the program; NULL: remove none. */
+void signals_set_temporary(const char *temporary);
+/* Add one more such file; NULL adds none. */
+void signals_add_temporary(const char *temporary);
 
-/* Let such signals wait until released, for outputs that the library writes on its own. */
+/* Remove the files now: the program ends without closing its outputs. */
+void signals_remove_temporaries(void);
+
+/* Hold signals back until released, while the library writes an output of its own. */
 void signals_hold(bool hold);
 
 #endif

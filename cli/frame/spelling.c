@@ -3,15 +3,16 @@
 
 #include <string.h>
 
-#define LONGEST 32 /* words longer than this are not compared */
+#define LONGEST 32 /* longer words are not compared */
 
-static size_t least(size_t a, size_t b)
+static size_t smaller(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
 
-/* Fewest letters inserted, deleted, replaced, or exchanged with their neighbour [Damerau 1964]. */
-static size_t distance(const char *a, size_t n, const char *b, size_t m)
+/* The least number of letters to insert, delete, replace or swap with their neighbour, which makes
+ * one word of the other [Damerau 1964]. */
+static size_t edit_distance(const char *a, size_t n, const char *b, size_t m)
 {
     size_t d[LONGEST + 1][LONGEST + 1];
     for (size_t i = 0; i <= n; i++) d[i][0] = i;
@@ -19,9 +20,9 @@ static size_t distance(const char *a, size_t n, const char *b, size_t m)
     for (size_t i = 1; i <= n; i++)
         for (size_t j = 1; j <= m; j++) {
             size_t replaced = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            d[i][j] = least(replaced, 1 + least(d[i - 1][j], d[i][j - 1]));
+            d[i][j] = smaller(replaced, 1 + smaller(d[i - 1][j], d[i][j - 1]));
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+                d[i][j] = smaller(d[i][j], d[i - 2][j - 2] + 1);
         }
     return d[n][m];
 }
@@ -35,9 +36,10 @@ void spelling_try(spelling *s, const char *candidate)
 {
     size_t n = strlen(s->word), m = strlen(candidate);
     if (n > LONGEST || m > LONGEST) return;
-    size_t d = distance(s->word, n, candidate, m);
-    /* A beginning of three letters or more is a good guess too: --thr, --arith. */
-    if (n >= 3 && n < m && strncmp(s->word, candidate, n) == 0) d = least(d, 1);
+    size_t d = edit_distance(s->word, n, candidate, m);
+    /* A word of three letters or more that begins the candidate is a good guess too: --thr,
+     * --arith. */
+    if (n >= 3 && n < m && strncmp(s->word, candidate, n) == 0) d = smaller(d, 1);
     if (d < s->distance) {
         s->distance = d;
         s->best = candidate;

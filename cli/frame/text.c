@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for `size` more bytes; NULL when out of memory. */
+/* Make room for `size` more bytes. Returns NULL if memory runs out. */
 static char *text_room(text *t, size_t size)
 {
     if (t->failed) return NULL;

@@ -1,13 +1,14 @@
-/* text.h - a text that grows: reports, help and rows are made here before they are written. */
-#ifndef CLI_TEXT_H
-#define CLI_TEXT_H
+/* text.h - a text that grows. Reports, help and rows of tables are made in one before they are
+ * written. */
+#ifndef MW_CLI_FRAME_TEXT_H
+#define MW_CLI_FRAME_TEXT_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-/* All zero is an empty text. When memory runs out, `failed` is set and everything added later is dropped: whoever
- * writes the text asks once, at the end. */
+/* A text that is all zero is empty. If memory runs out, `failed` is set and later additions do
+ * nothing, so the code that writes the text checks once, at the end. */
 typedef struct text {
     char *bytes; /* not terminated */
     size_t size, capacity;
@@ -17,7 +18,7 @@ typedef struct text {
 void text_bytes(text *t, const char *bytes, size_t size);
 void text_string(text *t, const char *string);
 void text_printf(text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The shortest decimal text that reads back as the same double. */
+/* Add the shortest decimal number that reads back as the same double. */
 void text_double(text *t, double value);
 void text_clear(text *t); /* keeps the memory */
 void text_release(text *t);

@@ -1,0 +1,91 @@
+#include "cli/input/constraint_file.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/input/gdal_constraints.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+static bool is_directory(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
+}
+
+int constraint_file_read(const char *path, mw_constraint_file *file)
+{
+    mw_error error;
+    progress_phase("reading", path);
+    mw_status status = mw_read_constraints(path, file, &error);
+    if (status == MW_OK) return 0;
+    bool unknown = status == MW_ERROR_INPUT && !files_is_standard(path) && !mw_constraints_known(path);
+    if (gdal_constraints_built() && (unknown || is_directory(path))) return gdal_constraints_read(path, file);
+    int end = fail_reading(&error);
+    if (unknown) complain("a program that was built with GDAL reads other vector files too");
+    return end;
+}
+
+bool constraint_file_is_poly(const mw_constraint_file *file)
+{
+    return strcmp(file->record_name, "line") == 0;
+}
+
+/* The length of a path without its ending, if that is one of these. */
+static int path_stem_length(const char *path, const char *const *endings)
+{
+    size_t length = strlen(path);
+    for (; *endings; endings++) {
+        size_t end = strlen(*endings);
+        if (length > end && strcasecmp(path + length - end, *endings) == 0) return (int)(length - end);
+    }
+    return (int)length;
+}
+
+static bool shares_node_file(const char *path, const char *output)
+{
+    static const char *const poly[] = {".poly", ".poly.gz", NULL}, *const node[] = {".node", ".ele", NULL};
+    char beside[4096], written[4096];
+    int stem = path_stem_length(path, poly), size = sizeof written;
+    if (stem == (int)strlen(path) || files_is_standard(output)) return false;
+    return snprintf(beside, sizeof beside, "%.*s.node", stem, path) < size &&
+           snprintf(written, sizeof written, "%.*s.node", path_stem_length(output, node), output) < size &&
+           files_same_output(beside, written);
+}
+
+int constraint_file_check_output(const char *path, const char *output)
+{
+    if (!shares_node_file(path, output)) return 0;
+    complain("%s: its points may stand in the .node file that would be written: choose another output", path);
+    return END_USAGE;
+}
+
+/* Where two segments cross, approximately. */
+static void segments_crossing(const double *points, const uint32_t *one, const uint32_t *other, double at[2])
+{
+    const double *a = points + 3 * (size_t)one[0], *b = points + 3 * (size_t)one[1];
+    const double *c = points + 3 * (size_t)other[0], *d = points + 3 * (size_t)other[1];
+    double far = mw_orient2d(c, d, b), near = mw_orient2d(c, d, a), t = near / (near - far);
+    for (int k = 0; k < 2; k++) at[k] = isfinite(t) ? a[k] + t * (b[k] - a[k]) : a[k];
+}
+
+int constraint_file_fail_crossing(const char *path, const mw_constraint_file *file, const double *points,
+                                  const uint32_t cross[2], bool split)
+{
+    const char *what = file->record_name;
+    uint32_t one = file->record[cross[0]], other = file->record[cross[1]];
+    double at[2];
+    char second[64];
+    segments_crossing(points, file->segments + 2 * (size_t)cross[0], file->segments + 2 * (size_t)cross[1], at);
+    if (one == other)
+        snprintf(second, sizeof second, "itself");
+    else
+        snprintf(second, sizeof second, "%s %" PRIu32, what, other);
+    complain("%s: %s %" PRIu32 " crosses %s near %.9g %.9g; %s", path, what, one, second, at[0], at[1],
+             split ? "others are so close there that rounding cannot part them" : "--split puts a vertex there");
+    return END_INPUT;
+}

@@ -1,0 +1,236 @@
+#include "cli/input/gdal_constraints.h"
+#include "cli/frame/message.h"
+
+#ifdef MW_GDAL
+
+#include <dlfcn.h>
+#include <gdal.h>
+#include <inttypes.h>
+#include <math.h>
+#include <ogr_api.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FUNCTIONS(F)                                                                                                   \
+    F(CPLSetErrorHandler)                                                                                              \
+    F(CPLQuietErrorHandler)                                                                                            \
+    F(CPLErrorReset)                                                                                                   \
+    F(CPLGetLastErrorType)                                                                                             \
+    F(CPLGetLastErrorMsg)                                                                                              \
+    F(GDALAllRegister)                                                                                                 \
+    F(GDALOpenEx)                                                                                                      \
+    F(GDALClose)                                                                                                       \
+    F(GDALDatasetGetLayerCount)                                                                                        \
+    F(GDALDatasetGetLayer)                                                                                             \
+    F(OGR_L_ResetReading)                                                                                              \
+    F(OGR_L_GetNextFeature)                                                                                            \
+    F(OGR_F_GetGeometryRef)                                                                                            \
+    F(OGR_F_Destroy)                                                                                                   \
+    F(OGR_G_GetLinearGeometry)                                                                                         \
+    F(OGR_G_DestroyGeometry)                                                                                           \
+    F(OGR_G_GetGeometryType)                                                                                           \
+    F(OGR_GT_Flatten)                                                                                                  \
+    F(OGR_G_Is3D)                                                                                                      \
+    F(OGR_G_GetGeometryCount)                                                                                          \
+    F(OGR_G_GetGeometryRef)                                                                                            \
+    F(OGR_G_GetPointCount)                                                                                             \
+    F(OGR_G_GetPoint)
+
+/* The functions of GDAL that the program calls, under their own names. */
+static struct {
+#define MEMBER(name) __typeof__(name) *name;
+    FUNCTIONS(MEMBER)
+#undef MEMBER
+} gdal;
+
+static bool gdal_load(void)
+{
+    void *library = dlopen(MW_GDAL, RTLD_NOW | RTLD_LOCAL);
+    if (!library) return false;
+#define FIND(name)                                                                                                     \
+    *(void **)&gdal.name = dlsym(library, #name);                                                                      \
+    if (!gdal.name) return false;
+    FUNCTIONS(FIND)
+#undef FIND
+    gdal.CPLSetErrorHandler(gdal.CPLQuietErrorHandler);
+    gdal.GDALAllRegister();
+    return true;
+}
+
+/* A constraint file that grows while features are added. */
+typedef struct constraint_collector {
+    mw_constraint_file *file;
+    size_t point_room, segment_room;
+    uint32_t feature;
+} constraint_collector;
+
+/* Make room for one more element after `count`. Returns false if memory runs out. */
+static bool array_make_room(void *array, size_t size, size_t count, size_t *room)
+{
+    if (count < *room) return true;
+    size_t wanted = *room ? 2 * *room : 1024;
+    void *old, *larger = NULL;
+    memcpy(&old, array, sizeof old);
+    if (wanted <= SIZE_MAX / size) larger = realloc(old, wanted * size);
+    if (!larger) return false;
+    memcpy(array, &larger, sizeof larger);
+    *room = wanted;
+    return true;
+}
+
+static bool collector_add_point(constraint_collector *c, OGRGeometryH geometry, int i)
+{
+    mw_constraint_file *file = c->file;
+    double p[3] = {0};
+    if (!array_make_room(&file->points, 3 * sizeof *file->points, file->point_count, &c->point_room)) return false;
+    gdal.OGR_G_GetPoint(geometry, i, &p[0], &p[1], &p[2]);
+    if (gdal.OGR_G_Is3D(geometry))
+        file->has_z = 1;
+    else
+        p[2] = NAN;
+    memcpy(file->points + 3 * file->point_count++, p, sizeof p);
+    return true;
+}
+
+static bool collector_add_segment(constraint_collector *c, size_t a, size_t b, uint32_t polygon)
+{
+    mw_constraint_file *file = c->file;
+    size_t i = file->segment_count, room[2] = {c->segment_room, c->segment_room};
+    if (!array_make_room(&file->segments, 2 * sizeof *file->segments, i, &room[0])) return false;
+    if (!array_make_room(&file->polygon, sizeof *file->polygon, i, &room[1])) return false;
+    if (!array_make_room(&file->record, sizeof *file->record, i, &c->segment_room)) return false;
+    file->segments[2 * i] = (uint32_t)a;
+    file->segments[2 * i + 1] = (uint32_t)b;
+    file->polygon[i] = polygon;
+    file->record[i] = c->feature;
+    file->segment_count++;
+    return true;
+}
+
+/* Add the points of a line, and its segments. If `polygon` is not MW_NONE the line is a ring: the
+ * points that close it are left out. */
+static bool collector_add_chain(constraint_collector *c, OGRGeometryH line, uint32_t polygon)
+{
+    size_t first = c->file->point_count;
+    int count = gdal.OGR_G_GetPointCount(line);
+    for (int i = 0; i < count; i++)
+        if (!collector_add_point(c, line, i)) return false;
+    const double *points = c->file->points;
+    size_t *end = &c->file->point_count;
+    while (polygon != MW_NONE && *end > first + 1 && points[3 * first] == points[3 * *end - 3] &&
+           points[3 * first + 1] == points[3 * *end - 2])
+        --*end;
+    for (size_t i = first + 1; i < *end; i++)
+        if (!collector_add_segment(c, i - 1, i, polygon)) return false;
+    return polygon == MW_NONE || *end < first + 2 || collector_add_segment(c, *end - 1, first, polygon);
+}
+
+static bool collector_add_polygon(constraint_collector *c, OGRGeometryH polygon)
+{
+    uint32_t number = (uint32_t)c->file->polygon_count++;
+    int count = gdal.OGR_G_GetGeometryCount(polygon);
+    for (int i = 0; i < count; i++)
+        if (!collector_add_chain(c, gdal.OGR_G_GetGeometryRef(polygon, i), number)) return false;
+    return true;
+}
+
+static bool collector_add_geometry(constraint_collector *c, OGRGeometryH geometry)
+{
+    switch (gdal.OGR_GT_Flatten(gdal.OGR_G_GetGeometryType(geometry))) {
+    case wkbPoint: return gdal.OGR_G_GetPointCount(geometry) == 0 || collector_add_point(c, geometry, 0);
+    case wkbLineString: return collector_add_chain(c, geometry, MW_NONE);
+    case wkbPolygon:
+    case wkbTriangle: return collector_add_polygon(c, geometry);
+    default: break;
+    }
+    int count = gdal.OGR_G_GetGeometryCount(geometry);
+    for (int i = 0; i < count; i++)
+        if (!collector_add_geometry(c, gdal.OGR_G_GetGeometryRef(geometry, i))) return false;
+    return true;
+}
+
+static int gdal_fail(const char *path)
+{
+    const char *message = gdal.CPLGetLastErrorMsg();
+    complain("%s: GDAL says: %.1000s", path, *message ? message : "this is no vector file");
+    return END_INPUT;
+}
+
+/* A feature without a geometry is skipped; but if GDAL failed to read the geometry, complain. */
+static int gdal_fail_feature(const constraint_collector *c, const char *path)
+{
+    complain("%s: feature %" PRIu32 ": GDAL says: %.1000s", path, c->feature, gdal.CPLGetLastErrorMsg());
+    return END_INPUT;
+}
+
+static int collector_add_feature(constraint_collector *c, OGRFeatureH feature, const char *path)
+{
+    OGRGeometryH geometry = gdal.OGR_F_GetGeometryRef(feature);
+    if (!geometry) return gdal.CPLGetLastErrorType() >= CE_Failure ? gdal_fail_feature(c, path) : 0;
+    OGRGeometryH linear = gdal.OGR_G_GetLinearGeometry(geometry, 0, NULL); /* steps of 4 degrees */
+    if (!linear) return gdal_fail_feature(c, path);
+    bool added = collector_add_geometry(c, linear);
+    gdal.OGR_G_DestroyGeometry(linear);
+    if (!added) return fail_memory();
+    if (c->file->point_count <= MW_MAX_VERTICES && c->file->segment_count < MW_NONE) return 0;
+    complain("%s: more than %" PRIu32 " points, or than %" PRIu32 " segments", path, (uint32_t)MW_MAX_VERTICES,
+             MW_NONE - 1);
+    return END_RESOURCE;
+}
+
+static int collector_read_layer(constraint_collector *c, OGRLayerH layer, const char *path)
+{
+    gdal.OGR_L_ResetReading(layer);
+    for (;; c->feature++) {
+        gdal.CPLErrorReset();
+        OGRFeatureH feature = gdal.OGR_L_GetNextFeature(layer);
+        if (!feature) return gdal.CPLGetLastErrorType() >= CE_Failure ? gdal_fail(path) : 0;
+        int end = collector_add_feature(c, feature, path);
+        gdal.OGR_F_Destroy(feature);
+        if (end) return end;
+    }
+}
+
+bool gdal_constraints_built(void)
+{
+    return true;
+}
+
+int gdal_constraints_read(const char *path, mw_constraint_file *file)
+{
+    constraint_collector c = {.file = file};
+    *file = (mw_constraint_file){.record_name = "feature"};
+    if (!gdal_load()) {
+        complain("%s: is no GeoJSON or .poly, and GDAL, which might read it, cannot be loaded (" MW_GDAL ")", path);
+        return END_INPUT;
+    }
+    GDALDatasetH set =
+        gdal.GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    if (!set) return gdal_fail(path);
+    int end = 0;
+    for (int i = 0; end == 0 && i < gdal.GDALDatasetGetLayerCount(set); i++)
+        end = collector_read_layer(&c, gdal.GDALDatasetGetLayer(set, i), path);
+    gdal.GDALClose(set);
+    if (end == 0 && file->point_count == 0) {
+        complain("%s: GDAL finds no points, lines or polygons in it", path);
+        end = END_INPUT;
+    }
+    if (end) mw_constraint_file_release(file);
+    return end;
+}
+
+#else
+
+bool gdal_constraints_built(void)
+{
+    return false;
+}
+
+int gdal_constraints_read(const char *path, mw_constraint_file *file)
+{
+    *file = (mw_constraint_file){0};
+    complain("%s: the program was built without GDAL", path);
+    return END_INPUT;
+}
+
+#endif

@@ -1,0 +1,52 @@
+#include "cli/output/csv_row.h"
+
+#include <math.h>
+#include <meshwalk/base.h>
+
+void csv_row_numbers(text *out, const double *values, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        if (k > 0) text_bytes(out, ",", 1);
+        text_double(out, values[k]);
+    }
+}
+
+void csv_row_count(text *out, bool filled, uint32_t value)
+{
+    char digits[12];
+    size_t at = sizeof digits;
+    if (filled) {
+        do {
+            digits[--at] = (char)('0' + value % 10);
+            value /= 10;
+        } while (value);
+    }
+    digits[--at] = ',';
+    text_bytes(out, digits + at, sizeof digits - at);
+}
+
+void csv_row_double(text *out, bool filled, double value)
+{
+    text_bytes(out, ",", 1);
+    if (filled) text_double(out, value);
+}
+
+void csv_row_status(text *out, const char *status, uint32_t triangle)
+{
+    text_bytes(out, ",", 1);
+    text_string(out, status);
+    if (triangle != MW_NONE)
+        csv_row_count(out, true, triangle);
+    else
+        text_bytes(out, ",-1", 3);
+}
+
+void csv_row_weights(text *out, uint32_t triangle, const double weight[3])
+{
+    for (int k = 0; k < 3; k++) csv_row_double(out, triangle != MW_NONE && !isnan(weight[k]), weight[k]);
+}
+
+void csv_row_end(text *out)
+{
+    text_bytes(out, "\n", 1);
+}

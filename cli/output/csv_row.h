@@ -1,0 +1,21 @@
+/* csv_row.h - the cells of a row of answers, as CSV. Every cell but the first begins with a
+ * comma. */
+#ifndef MW_CLI_OUTPUT_CSV_ROW_H
+#define MW_CLI_OUTPUT_CSV_ROW_H
+
+#include "cli/frame/text.h"
+
+/* The numbers of the query, which are the first cells of its row. */
+void csv_row_numbers(text *out, const double *values, size_t count);
+/* The status, and the triangle's number: -1 for MW_NONE. */
+void csv_row_status(text *out, const char *status, uint32_t triangle);
+/* A number; an empty cell if not `filled`. */
+void csv_row_count(text *out, bool filled, uint32_t value);
+void csv_row_double(text *out, bool filled, double value);
+/* The weights of the triangle's corners; empty cells for unknown weights (NaN), and if the triangle
+ * is MW_NONE. */
+void csv_row_weights(text *out, uint32_t triangle, const double weight[3]);
+/* The end of the row. */
+void csv_row_end(text *out);
+
+#endif

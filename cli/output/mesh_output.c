@@ -1,0 +1,59 @@
+#include "cli/output/mesh_output.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
+
+#include <string.h>
+#include <strings.h>
+
+enum { FORMAT_BY_ENDING = 0 };
+
+static const char *mesh_format_name(int i)
+{
+    return i == FORMAT_BY_ENDING ? "auto" : mw_mesh_format_name((size_t)i - 1);
+}
+
+const choices mesh_formats = {"format", mesh_format_name, NULL};
+
+/* Is the ending the name of a format, or .ele, which belongs to the format node? */
+static bool ending_is_known(const char *path)
+{
+    const char *ending = strrchr(path, '.');
+    if (!ending) return false;
+    const char *name;
+    for (size_t i = 0; (name = mw_mesh_format_name(i)); i++)
+        if (strcasecmp(ending + 1, name) == 0) return true;
+    return strcasecmp(ending, ".ele") == 0;
+}
+
+int mesh_output_check(const char *command_name, const char *output, int format)
+{
+    if (!output)
+        complain("%s: -o MESH is missing: where should the mesh go?", command_name);
+    else if (files_is_standard(output) && format == FORMAT_BY_ENDING)
+        complain("%s: a mesh on standard output wants --format", command_name);
+    else if (format == FORMAT_BY_ENDING && !ending_is_known(output))
+        complain("%s: the name tells no format for meshes; --format does (off, ply, ...)", output);
+    else
+        return 0;
+    return END_USAGE;
+}
+
+bool mesh_output_is_node(const char *output, int format)
+{
+    if (format != FORMAT_BY_ENDING) return strcmp(mesh_format_name(format), "node") == 0;
+    const char *ending = strrchr(output, '.');
+    return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
+}
+
+int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary)
+{
+    mw_error error;
+    progress_phase("writing", NULL);
+    if (temporary) signals_hold(true);
+    mw_status status =
+        mw_write_mesh(output, file, format == FORMAT_BY_ENDING ? NULL : mesh_format_name(format), &error);
+    if (temporary) signals_hold(false);
+    return status == MW_OK ? 0 : fail_writing(&error);
+}

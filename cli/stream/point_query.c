@@ -1,0 +1,283 @@
+#include "cli/stream/point_query.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/monotonic_clock.h"
+#include "cli/frame/progress.h"
+#include "cli/stream/statistics.h"
+
+static const char *walk_name(int i)
+{
+    return mw_walk_name((mw_walk_kind)i);
+}
+static const char *walk_help(int i)
+{
+    return mw_walk_help((mw_walk_kind)i);
+}
+static const char *start_name(int i)
+{
+    return mw_start_name((mw_start_kind)i);
+}
+static const char *start_help(int i)
+{
+    return mw_start_help((mw_start_kind)i);
+}
+static const char *arithmetic_name(int i)
+{
+    return i == MW_EXACT ? "exact" : i == MW_DOUBLE ? "double" : NULL;
+}
+
+/* The walks that may finish those whose own tests only guide them. */
+static const mw_walk_kind finishes[] = {MW_WALK_AUTO, MW_WALK_REMEMBERING, MW_WALK_STOCHASTIC};
+static const char *finish_name(int i)
+{
+    return i < (int)(sizeof finishes / sizeof *finishes) ? mw_walk_name(finishes[i]) : NULL;
+}
+
+/* Whether pockets and holes are filled: by mw_fill_mode. */
+static const char *fill_name(int i)
+{
+    static const char *const names[] = {[MW_FILL_AUTO] = "auto", [MW_FILL_YES] = "yes", [MW_FILL_NO] = "no", NULL};
+    return names[i];
+}
+
+const choices point_query_walks = {"walk", walk_name, walk_help};
+const choices point_query_starts = {"start", start_name, start_help};
+static const choices arithmetics = {"arithmetic", arithmetic_name, NULL};
+static const choices fill_choices = {"way to fill", fill_name, NULL};
+static const choices finish_choices = {"way to finish", finish_name, NULL};
+
+const option point_query_options[] = {
+    {"walk", 0, OPTION_CHOICE, offsetof(point_query_settings, walk), "NAME",
+     "how to walk to the triangle (default: auto):", &point_query_walks},
+    {"start", 0, OPTION_CHOICE, offsetof(point_query_settings, start), "NAME",
+     "how to choose the first triangle (default: auto):", &point_query_starts},
+    {"arithmetic", 0, OPTION_CHOICE, offsetof(point_query_settings, arithmetic), "NAME",
+     "how walks decide their turns (default: exact); the triangle found is exact in either case:", &arithmetics},
+    {"finish", 0, OPTION_CHOICE, offsetof(point_query_settings, finish), "NAME",
+     "the walk that ends those whose own tests are only a guide (default: auto, by the mesh):", &finish_choices},
+    {"fill", 0, OPTION_CHOICE, offsetof(point_query_settings, fill), "NAME",
+     "fill pockets and holes of the mesh with triangles that count as outside, so that every walk can cross them; "
+     "without "
+     "them only --walk border finds its way (default: auto: no with --walk border, else yes):",
+     &fill_choices},
+    {"steps", 0, OPTION_COUNT, offsetof(point_query_settings, steps), "K",
+     "--walk fast-stochastic: steps with one test (default: 0, estimated)", NULL},
+    {"areas", 0, OPTION_FLAG, offsetof(point_query_settings, areas), NULL,
+     "store the areas of the triangles, which saves tests with --walk direct", NULL},
+    {"sample", 0, OPTION_SAMPLE, offsetof(point_query_settings, sample), "K",
+     "--start sample: look at K random triangles; also cube-root (the default) or fourth-root, of the number of "
+     "triangles",
+     NULL},
+    {"cells", 0, OPTION_COUNT, offsetof(point_query_settings, cells), "N",
+     "--start grid, two-level-grid: about N cells, of the first level; curve: N samples (default: 0, by the size of "
+     "the "
+     "mesh)",
+     NULL},
+    {"layers", 0, OPTION_COUNT, offsetof(point_query_settings, layers), "N",
+     "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
+    {"tolerance", 0, OPTION_LENGTH, offsetof(point_query_settings, tolerance), "D",
+     "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
+    {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.columns), "LIST",
+     "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
+     "calls x and y, lon and lat, ..., else the first two)",
+     NULL},
+    {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
+     "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
+    {0},
+};
+
+static void point_query_warn(const point_query *q, const char *path)
+{
+    const char *promise = mw_locator_void_promise(q->locator);
+    if (promise && !q->settings->stream.common.quiet) complain("%s: warning: %s", path, promise);
+}
+
+/* If some triangle has an area, a mesh is refused only for its defects, and --any accepts it. */
+static int point_query_fail_mesh(const point_query *q, const char *path, bool area, const mw_error *error)
+{
+    int end = fail_mesh(path, error);
+    if (end == END_INPUT && !q->settings->any && area)
+        complain("'meshwalk check %s' lists every defect; --any locates points all the same", path);
+    return end;
+}
+
+static int point_query_make_mesh(point_query *q, const char *path, const mw_mesh_file *file, bool area)
+{
+    mw_error error;
+    mw_arrays arrays = mw_mesh_file_arrays(file);
+    mw_mesh_options options = {.tolerant = q->settings->any, .threads = q->settings->stream.common.threads};
+    progress_phase("preparing", path);
+    return mw_mesh_create(&arrays, &options, &q->mesh, &error) == MW_OK ? 0
+                                                                        : point_query_fail_mesh(q, path, area, &error);
+}
+
+static int point_query_make_locator(point_query *q, const char *path, bool border, bool area)
+{
+    mw_error error;
+    const point_query_settings *settings = q->settings;
+    mw_locator_options options = {.any = settings->any,
+                                  .border = border || settings->tolerance > 0,
+                                  .areas = settings->areas,
+                                  .fill = (mw_fill_mode)settings->fill,
+                                  .threads = settings->stream.common.threads};
+    if (settings->walk == MW_WALK_BORDER && settings->fill == MW_FILL_AUTO) options.fill = MW_FILL_NO;
+    if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK)
+        return point_query_fail_mesh(q, path, area, &error);
+    point_query_warn(q, path);
+    return 0;
+}
+
+int point_query_check_index(uint32_t cells, uint32_t layers)
+{
+    int end = options_limit("cells", cells, UINT32_C(1) << 30, "2^30");
+    return end ? end : options_limit("layers", layers, MW_MAX_LAYERS, NULL);
+}
+
+/* Only the border walk works in a mesh whose pockets and holes are not filled. */
+static int point_query_check_fill(const point_query_settings *settings)
+{
+    if (settings->fill != MW_FILL_NO || settings->walk == MW_WALK_AUTO || settings->walk == MW_WALK_BORDER) return 0;
+    complain("--fill no wants --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
+    return END_USAGE;
+}
+
+/* Build the index that the start needs, if it needs one. */
+static int point_query_make_index(point_query *q)
+{
+    mw_error error;
+    const point_query_settings *settings = q->settings;
+    mw_start_kind start = (mw_start_kind)settings->start;
+    if (!mw_start_has_index(start)) return 0;
+    mw_index_options options = {
+        .cells = settings->cells, .layers = settings->layers, .seed = settings->stream.common.seed};
+    return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
+}
+
+int point_query_open(point_query *q, const point_query_settings *settings, const char *const *operands, bool border,
+                     point_query_load *load, const void *self)
+{
+    const char *path = operands[0];
+    mw_mesh_file file;
+    *q = (point_query){.settings = settings, .begin = monotonic_seconds()};
+    int end = files_check_output(settings->stream.common.output, operands, 2);
+    if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
+    if (end == 0) end = point_query_check_fill(settings);
+    if (end == 0) end = files_read_mesh(path, &file);
+    if (end) return end;
+    bool area = files_has_area(&file);
+    end = point_query_make_mesh(q, path, &file, area);
+    if (end == 0 && load) end = load(q->mesh, path, &file, self);
+    mw_mesh_file_release(&file);
+    if (end == 0) end = point_query_make_locator(q, path, border, area);
+    return end ? end : point_query_make_index(q);
+}
+
+void point_query_release(point_query *q)
+{
+    mw_index_destroy(q->index);
+    mw_locator_destroy(q->locator);
+    mw_mesh_destroy(q->mesh);
+}
+
+/* What the callbacks of the query stream need. */
+typedef struct point_query_context {
+    const point_query *query;
+    point_query_row *row;
+    const void *self;
+    location_statistics statistics;
+} point_query_context;
+
+static int point_query_answer_block(void *self, const query_block *block, void *answers)
+{
+    point_query_context *context = self;
+    const point_query_settings *settings = context->query->settings;
+    mw_error error;
+    mw_counters counters = {0};
+    mw_query_options options = {
+        .walk = (mw_walk_kind)settings->walk,
+        .start = (mw_start_kind)settings->start,
+        .arithmetic = (mw_arithmetic)settings->arithmetic,
+        .finish = finishes[settings->finish],
+        /* Each block has its own random numbers. */
+        .seed = settings->stream.common.seed + block->block,
+        .samples = settings->sample,
+        .steps = settings->steps,
+        .threads = settings->stream.common.threads,
+        .tolerance = settings->tolerance,
+        .counters = settings->stream.stats,
+        .index = context->query->index,
+    };
+    mw_status status = mw_locate_batch(context->query->locator, block->values, block->count, block->stride, &options,
+                                       answers, &counters, &error);
+    if (status != MW_OK) return fail_query(&error);
+    location_statistics_add(&context->statistics, answers, block->count, &counters);
+    return 0;
+}
+
+static bool point_query_write_row(const void *self, const double *point, const void *answer, text *out)
+{
+    const point_query_context *context = self;
+    return context->row(context->query, context->self, point, answer, out);
+}
+
+static void point_query_report_border(report *r, const mw_counters *c)
+{
+    statistics_report_mean(r, "implicit", c->implicit, c->queries);
+    statistics_report_mean(r, "walk_runs", c->walk_runs, c->queries);
+    report_count(r, "triangles_walk_max", c->triangles_walk_max);
+    statistics_report_mean(r, "border_runs", c->border_runs, c->queries);
+    statistics_report_mean(r, "triangles_border", c->triangles_border, c->queries);
+    report_count(r, "triangles_border_max", c->triangles_border_max);
+    statistics_report_mean(r, "orient_border", c->orient_border, c->queries);
+    statistics_report_mean(r, "border_edges", c->border_edges, c->queries);
+    report_count(r, "border_edges_max", c->border_edges_max);
+}
+
+static void point_query_report_memory(report *r, const point_query *q)
+{
+    mw_locator_info locator;
+    mw_index_info index = {0};
+    mw_locator_describe(q->locator, &locator);
+    if (q->index) mw_index_describe(q->index, &index);
+    report_count(r, "mesh_bytes", mw_mesh_bytes(q->mesh));
+    report_count(r, "locator_bytes", locator.bytes);
+    report_count(r, "area_bytes", locator.area_bytes);
+    report_count(r, "start_bytes", index.bytes);
+    report_rounded(r, "start_seconds", index.seconds);
+    report_count(r, "ghost_triangles", locator.ghost_triangles);
+    report_count(r, "fill_bytes", locator.fill_bytes);
+    report_count(r, "pieces", locator.components);
+}
+
+static void point_query_report(const void *self, report *r)
+{
+    const point_query_context *context = self;
+    const point_query_settings *settings = context->query->settings;
+    for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(r, mw_where_name((mw_where)i), context->statistics.where[i]);
+    report_string(r, "walk", walk_name(settings->walk));
+    report_string(r, "start", start_name(settings->start));
+    report_string(r, "arithmetic", arithmetic_name(settings->arithmetic));
+    statistics_report_settings(r, &settings->stream.common);
+    statistics_report_walks(r, &context->statistics.counters);
+    point_query_report_border(r, &context->statistics.counters);
+    point_query_report_memory(r, context->query);
+}
+
+int point_query_run(const point_query *q, const char *points, const char *header, point_query_row *row,
+                    const void *self)
+{
+    point_query_context context = {.query = q, .row = row, .self = self};
+    query_stream s = {
+        .settings = &q->settings->stream,
+        .begin = q->begin,
+        .doing = "locating",
+        .header = header,
+        .columns = {.names = {"x", "y"}, .count = 2, .accept_first = true},
+        .answer_size = sizeof(mw_location),
+        .answer = point_query_answer_block,
+        .row = point_query_write_row,
+        .report = point_query_report,
+        .self = &context,
+    };
+    return query_stream_run(&s, points);
+}

@@ -1,0 +1,57 @@
+/* point_query.h - what `locate` and `sample` share: a mesh in the plane, prepared for queries, and
+ * a stream of points that are located in it. */
+#ifndef MW_CLI_STREAM_POINT_QUERY_H
+#define MW_CLI_STREAM_POINT_QUERY_H
+
+#include "cli/stream/query_stream.h"
+
+#include <meshwalk/meshwalk.h>
+
+typedef struct point_query_settings {
+    query_stream_settings stream;
+    double tolerance;
+    uint32_t sample, steps, cells, layers;
+    int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
+    int finish, fill;            /* numbers of the names of --finish and --fill */
+    bool areas, any;
+} point_query_settings;
+
+extern const option point_query_options[];
+
+/* The names that --walk and --start accept. */
+extern const choices point_query_walks, point_query_starts;
+
+/* Refuse values of --cells and --layers above the limits of the library. Returns 0, or END_USAGE
+ * after a complaint. */
+int point_query_check_index(uint32_t cells, uint32_t layers);
+
+/* A mesh that is ready for queries. */
+typedef struct point_query {
+    const point_query_settings *settings;
+    mw_mesh *mesh;
+    mw_locator *locator;
+    mw_index *index; /* NULL if the start has none */
+    double begin;    /* monotonic_seconds when the command began */
+} point_query;
+
+/* Write the row of one point, with its newline. Returns false if the point has no answer. `self` is
+ * the command's own data. Several threads call this at the same time. */
+typedef bool point_query_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
+                             text *out);
+
+/* Copy from the mesh's file what the rows need: the file is released before the queries begin.
+ * Returns 0, or an exit code after a complaint. */
+typedef int point_query_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self);
+
+/* Read the mesh operands[0] and prepare it for queries. `border` tells that rows use
+ * mw_nearest_border; `load` may be NULL. Returns 0, or an exit code after a complaint. Release it
+ * in both cases. */
+int point_query_open(point_query *q, const point_query_settings *settings, const char *const *operands, bool border,
+                     point_query_load *load, const void *self);
+void point_query_release(point_query *q);
+
+/* Write the header, then the row of every point, in order. Returns the exit code. */
+int point_query_run(const point_query *q, const char *points, const char *header, point_query_row *row,
+                    const void *self);
+
+#endif
