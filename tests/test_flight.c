@@ -1,12 +1,12 @@
-/* test_flight.c - the fast way of plain queries gives the very answers of the walks that count, bit for bit: from every start,
- * in any number of lanes, on any processor, alone and in batches; and leaves to the walks what is not plain. */
+/* test_flight.c - the fast path of queries gives the very answers of the walks that count, bit for bit: from every start,
+ * in any number of lanes, on any processor, alone and in batches; and leaves to the walks what rounding cannot decide. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "locate/flight.h"
+#include "locate/interleaved.h"
 #include "meshes.h"
 #include "starts.h"
 
@@ -32,9 +32,9 @@ static void expect_portable(const mw_locator *locator, const mw_query_options *o
     mw_batch queries = {.points = q, .locations = at, .stride = 2};
     for (int chained = 0; chained < 2; chained++)
         for (uint32_t lanes = 4; lanes <= 64; lanes *= 4) {
-            mw_flight flight = {&queries, locator, &cursor, chained, true};
+            mw_interleaved of = {&queries, locator, &cursor, chained, true};
             memset(at, 0x55, n * sizeof *at);
-            mw__fly(&flight, 0, (uint32_t)n, lanes);
+            mw__locate_interleaved(&of, 0, (uint32_t)n, lanes);
             expect_same(want, at, q, n, "portable");
         }
 }
@@ -60,7 +60,7 @@ static void expect_start(const mw_locator *locator, mw_query_options options, co
     expect_portable(locator, &options, q, n, want, at);
 }
 
-static void expect_flight(const arrays *a, size_t random_queries, uint64_t *random)
+static void expect_fast_path(const arrays *a, size_t random_queries, uint64_t *random)
 {
     size_t n;
     double *q = nasty_queries(a, random_queries, &n, random);
@@ -92,22 +92,22 @@ static void test_meshes(void **state)
         for (int jitter = 0; jitter < 2; jitter++) {
             arrays a = grid_mesh(n, jitter ? 0.4 : 0, &random);
             scramble(&a, 1, &random);
-            expect_flight(&a, 200, &random);
+            expect_fast_path(&a, 200, &random);
             arrays_free(&a);
         }
 }
 
 /* Ghosts in pockets and holes; long ways round the vertex of a fan; a mesh on which the remembering walk goes in circles. */
-static void test_what_is_not_plain(void **state)
+static void test_what_needs_the_walks(void **state)
 {
     (void)state;
     uint64_t random = 21;
     print_message("seed %llu\n", (unsigned long long)random);
     arrays holes = grid_mesh(30, 0.3, &random), fan = fan_mesh(500), trap = trap_mesh();
     punch(&holes, 0.2, &random);
-    expect_flight(&holes, 200, &random);
-    expect_flight(&fan, 200, &random);
-    expect_flight(&trap, 500, &random);
+    expect_fast_path(&holes, 200, &random);
+    expect_fast_path(&fan, 200, &random);
+    expect_fast_path(&trap, 500, &random);
     arrays_free(&holes);
     arrays_free(&fan);
     arrays_free(&trap);
@@ -123,7 +123,7 @@ static void test_scales(void **state)
     for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
         arrays a = grid_mesh(9, 0.4, &random);
         transform(&a, scale[i], 0, 0);
-        expect_flight(&a, 100, &random);
+        expect_fast_path(&a, 100, &random);
         arrays_free(&a);
     }
 }
@@ -132,7 +132,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_meshes),
-        cmocka_unit_test(test_what_is_not_plain),
+        cmocka_unit_test(test_what_needs_the_walks),
         cmocka_unit_test(test_scales),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

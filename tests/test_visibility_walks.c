@@ -6,7 +6,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "locate/locator.h"
+#include "locate/query.h"
 #include "meshes.h"
 #include "oracle.h"
 

@@ -230,7 +230,7 @@ typedef struct mw_cursor {
     uint32_t steps;                                 /* as in the options                           */
     uint32_t fuel;                                  /* steps after which a walk hands over         */
     uint8_t walk, start, finish, arithmetic, count; /* resolved options          */
-    uint8_t plain;                                  /* 1: the fast way is tried first */
+    uint8_t fast;                                   /* 1: the fast path is tried first */
     uint8_t live;                                   /* 1: the mesh is an editor's, and may have changed */
     uint8_t reserved[9];
     uint32_t asked;     /* samples, as in the options                  */
@@ -265,7 +265,7 @@ MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double 
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads
  *   counters  NULL or filled with the sum over the batch (options->counters)
- * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; plain queries that come, on
+ * MW_START_AUTO means the locator's guide: a small grid, whose crowded cells have a sample as of MW_START_CURVE; queries that come, on
  * the average, less than a sixth of an edge apart begin where the one before ended. Where the locator has no guide, as where
  * pockets and holes are open, it means MW_START_SORTED for 64 queries and more, or MW_START_LAST if they come in about as good an
  * order already. MW_START_LAST and _SORTED: each thread takes 16,384 queries at a time, in `lanes` runs; the first query of a run begins

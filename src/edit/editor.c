@@ -1,8 +1,8 @@
 /* editor.c - making an editor, and carrying out edits. */
 #include "edit/editor.h"
 
-#include "edit/fetch.h"
 #include "edit/rim.h"
+#include "walk/fetch.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

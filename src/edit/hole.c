@@ -90,7 +90,7 @@ static MW_INLINE bool goes(const mw_fabric *f, mw_point q, uint32_t from, const 
 {
     if (MW_UNLIKELY(is_closed(f, step, plain))) return false;
     const uint32_t v = apex_beyond(f->tiling->tri, step->beyond);
-    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end], c = mw__sight_of(f, v, q);
+    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end], c = mw__sight_of(f->tiling, v, q);
     double bound, det = mw__sights_rounded(b, a, &c, &bound);
     f->sight[apex] = c;
     if (MW_UNLIKELY(!(fabs(det) > bound))) return in_circle_exact(f, step->end, from, apex, q);
@@ -299,11 +299,11 @@ bool mw__dig_outside(mw_fabric *f, mw_hole *h, uint32_t t)
     for (after = half; sees(f, q, after); after = hull_after(f, after)) {
         /* it stays, but nothing else tells that it had no neighbour there */
         if (!mw__journal(f, mw__link_triangle(after)) || !mw__rim_room(f, room_besides(h, steps + 1))) return false;
-        f->sight[steps] = mw__sight_of(f, mw__corner(f, after), q);
+        f->sight[steps] = mw__sight_of(f->tiling, mw__corner(f, after), q);
         f->ahead[steps] = (mw_step_ahead){.end = steps, .beyond = after, .fixed = mw__is_fixed(f, after)};
         steps++;
     }
-    f->sight[steps] = mw__sight_of(f, mw__corner(f, after), q);
+    f->sight[steps] = mw__sight_of(f->tiling, mw__corner(f, after), q);
     for (uint32_t i = 0; i < steps; i++)
         f->ahead[i].apex = goes(f, q, i + 1, &f->ahead[i], steps + 1 + i, false) ? steps + 1 + i : MW_NONE;
     return dig(f, h, steps, f->ahead[steps - 1], steps - 1, 2 * steps + 1, false);

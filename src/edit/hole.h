@@ -30,7 +30,7 @@ bool mw__dig_outside(mw_fabric *f, mw_hole *h, uint32_t t);
 /* The first three of f->sight, for which there has to be room: the corners of a tile. */
 static MW_INLINE void mw__see_corners(mw_fabric *f, uint32_t t, mw_point q)
 {
-    for (int k = 0; k < 3; k++) f->sight[k] = mw__sight_of(f, f->tiling->tri[t].v[k], q);
+    for (int k = 0; k < 3; k++) f->sight[k] = mw__sight_of(f->tiling, f->tiling->tri[t].v[k], q);
 }
 
 #endif

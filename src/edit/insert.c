@@ -2,77 +2,11 @@
  *
  * The tiles that have to go are dug out (hole.h), and what they leave is filled with a star round the vertex: the tiles that flips one after
  * another would lead to [Lawson 1977], each made once. All of them have the vertex as corner 2. */
-#include "edit/fetch.h"
 #include "edit/hole.h"
 
-#include "walk/walk.h"
+#include "walk/remembering_corners.h"
 
 #include <inttypes.h>
-
-/* --- where ------------------------------------------------------------------------------------------------------------ */
-
-/* Where a point is: in `tile`, whose corners are the first three of f->sight, seen from there; or outside, beyond an edge of that tile. */
-typedef struct place {
-    uint32_t tile, walked;    /* the last one of so many */
-    bool inside, on_boundary; /* the tile's own */
-} place;
-
-/* Where the mesh is not Delaunay the remembering walk may go in a circle: after so many tiles the celestial walk takes over, from there. */
-enum { MANY = 1 << 16 };
-static __attribute__((noinline)) place find_surely(mw_fabric *f, mw_point q, uint32_t t)
-{
-    mw_walk walk = mw__walk_begin(f->tiling, q, t, 0, 0, NULL);
-    bool inside = mw__walk_surely(&walk, false) == MW_FOUND;
-    place at = {.tile = walk.t, .walked = MANY, .inside = inside};
-    mw__see_corners(f, at.tile, q);
-    for (int k = 0; k < 3; k++) {
-        const mw_sight *a = &f->sight[k], *b = &f->sight[mw__next((uint32_t)k)];
-        at.on_boundary |= mw__sights_side(f, a, b, q) == 0;
-    }
-    return at;
-}
-
-/* The remembering walk from tile t on [thesis, App. A, sec. 2], written once more because what it saw of the corners is of use for what
- * follows. There has to be room for sights. What lies beyond is asked of memory together with the corners: the walk goes there, or
- * the hole that is dug. */
-static place find(mw_fabric *f, mw_point q, uint32_t t)
-{
-    const mw_triangle *tri = f->tiling->tri;
-    uint32_t fuel = MANY, e = 0, exit = MW_NONE;
-    mw_sight a = mw__sight_of(f, tri[t].v[0], q), b = mw__sight_of(f, tri[t].v[1], q),
-             c = mw__sight_of(f, tri[t].v[2], q);
-    double ab = mw__sights_side(f, &a, &b, q), bc = mw__sights_side(f, &b, &c, q), ca = mw__sights_side(f, &c, &a, q);
-    if (ab < 0) {
-        exit = 0, c = a, a = b, b = c;
-    } else if (bc < 0) {
-        exit = 1, a = c;
-    } else if (ca < 0) {
-        exit = 2, b = c;
-    }
-    while (exit != MW_NONE) { /* by an edge from b to a, which in the next tile goes from a to b */
-        uint32_t link = tri[t].link[exit];
-        if (link == MW_NONE) return (place){.tile = t, .walked = MANY - fuel};
-        t = mw__link_triangle(link);
-        if (MW_UNLIKELY(fuel-- == 0)) return find_surely(f, q, t);
-        e = mw__link_edge(link);
-        mw__fetch_tile(f->tiling, tri[t].link[mw__next(e)]);
-        mw__fetch_tile(f->tiling, tri[t].link[mw__prev(e)]);
-        c = mw__sight_of(f, tri[t].v[mw__prev(e)], q);
-        exit = MW_NONE;
-        ab = 1; /* it came over this edge */
-        bc = mw__sights_side(f, &b, &c, q);
-        if (bc < 0) {
-            exit = mw__next(e), a = c;
-            continue;
-        }
-        ca = mw__sights_side(f, &c, &a, q);
-        if (ca < 0) exit = mw__prev(e), b = c;
-    }
-    f->sight[e] = a;
-    f->sight[mw__next(e)] = b;
-    f->sight[mw__prev(e)] = c;
-    return (place){.tile = t, .walked = MANY - fuel, .inside = true, .on_boundary = ab == 0 || bc == 0 || ca == 0};
-}
 
 static mw_status refuse_outside(mw_point q, mw_error *error)
 {
@@ -240,7 +174,7 @@ static uint32_t corner_there(const mw_fabric *f)
 static uint32_t edge_there(const mw_fabric *f, uint32_t t, mw_point q)
 {
     uint32_t k = 0;
-    while (k < 2 && mw__sights_side(f, &f->sight[k], &f->sight[k + 1], q) != 0) k++;
+    while (k < 2 && mw__sights_side(f->tiling, &f->sight[k], &f->sight[k + 1], q) != 0) k++;
     return mw__link(t, k);
 }
 
@@ -248,7 +182,8 @@ mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vert
 {
     enum { SIGHTS = 16 };
     if (!mw__rim_room(f, SIGHTS)) return mw__fail_memory(error);
-    place at = find(f, q, t);
+    /* the first three sights become the corners of the tile */
+    const mw_walk_end at = mw__remembering_corners(f->tiling, q, t, f->sight);
     f->last = at.tile;
     f->walked = at.walked;
     if (MW_UNLIKELY(at.on_boundary) && corner_there(f) < 3) {

@@ -1,9 +1,10 @@
 /* insert_points.c - many points at once: one step, whose journal has each tile once, or which needs none. */
 #include "edit/editor.h"
-#include "edit/fetch.h"
 #include "edit/rim.h"
 
 #include "mesh/curve.h"
+#include "walk/fetch.h"
+#include "walk/remembering_fast.h"
 
 #include <stdlib.h>
 
@@ -91,21 +92,14 @@ static MW_INLINE void fetch_corners(const mw_tiling *tiling, const traveller *on
     }
 }
 
-/* Over an edge that q lies beyond, if there is one: looked up, as a jump would be guessed wrong. */
+/* One step of the remembering walk, and what comes next of memory. */
 static MW_INLINE void go_nearer(const mw_tiling *tiling, traveller *one)
 {
-    static const uint8_t edge[8] = {3, 0, 1, 0, 2, 2, 1, 3}; /* by those that q lies beyond */
-    const mw_point q = one->q;
-    const uint32_t t = one->tile;
-    const mw_triangle *tile = &tiling->tri[t];
-    mw_point a = tiling->point[tile->v[0]], b = tiling->point[tile->v[1]], c = tiling->point[tile->v[2]];
-    const uint32_t way[4] = {tile->link[0], tile->link[1], tile->link[2], mw__link(t, 0)};
-    const uint32_t ab = mw__orient2d_double(a, b, q) < 0, bc = mw__orient2d_double(b, c, q) < 0,
-                   ca = mw__orient2d_double(c, a, q) < 0, link = way[edge[ab | bc << 1 | ca << 2]];
+    const uint32_t link = mw__link_nearer(tiling, one->q, one->tile);
     if (MW_UNLIKELY(link == MW_NONE)) return;
     const uint32_t e = mw__link_edge(link);
     one->tile = mw__link_triangle(link);
-    tile = &tiling->tri[mw__link_triangle(link)];
+    const mw_triangle *tile = &tiling->tri[one->tile];
     __builtin_prefetch(&tiling->point[tile->v[mw__prev(e)]]);
     mw__fetch_tile(tiling, tile->link[mw__next(e)]);
     mw__fetch_tile(tiling, tile->link[mw__prev(e)]);

@@ -233,11 +233,11 @@ bool mw__cut_chain(mw_fabric *f, mw_rim_step *step, size_t *n, mw_pool *pool)
 static size_t find_apex(const mw_fabric *f, const mw_rim_step *step, size_t n)
 {
     const mw_point *p = f->tiling->point, from = p[step[n].vertex];
-    mw_sight to = mw__sight_of(f, step[0].vertex, from), apex = to;
+    mw_sight to = mw__sight_of(f->tiling, step[0].vertex, from), apex = to;
     size_t best = 0;
     for (size_t i = 1; i < n; i++) {
-        mw_sight next = mw__sight_of(f, step[i].vertex, from);
-        if (!(mw__sights_side(f, &to, &next, from) > 0)) continue;
+        mw_sight next = mw__sight_of(f->tiling, step[i].vertex, from);
+        if (!(mw__sights_side(f->tiling, &to, &next, from) > 0)) continue;
         if (best > 0) {
             double bound, det = mw__sights_rounded(&to, &apex, &next, &bound); /* < 0: the next is in the circle */
             if (MW_UNLIKELY(!(fabs(det) > bound)))

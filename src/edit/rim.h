@@ -6,6 +6,7 @@
 #define MW_SRC_RIM_H
 
 #include "edit/stitch.h"
+#include "walk/remembering_corners.h"
 
 struct mw_rim_step {
     uint32_t vertex; /* where the step begins; the next one begins where it ends */
@@ -14,27 +15,6 @@ struct mw_rim_step {
     bool fixed;
     bool slit; /* `beyond` is replaced too: the step comes twice, once from each side */
 };
-
-/* A vertex seen from a point: the way there, and its square. */
-struct mw_sight {
-    double x, y, lift;
-    uint32_t vertex;
-};
-
-static MW_INLINE mw_sight mw__sight_of(const mw_fabric *f, uint32_t vertex, mw_point q)
-{
-    double x = f->tiling->point[vertex].x - q.x, y = f->tiling->point[vertex].y - q.y;
-    return (mw_sight){x, y, x * x + y * y, vertex};
-}
-
-/* mw__orient2d of a and b, seen from q, and q. The bound is that of mw__orient2d_bound, (3 u + 16 u^2) times |ax by| + |ay bx|, but by the lifts
- * alone: the sum is at most the product of both lengths, and that half the sum of the lifts, which are off by less than 3 u of themselves. */
-static MW_INLINE double mw__sights_side(const mw_fabric *f, const mw_sight *a, const mw_sight *b, mw_point q)
-{
-    double det = a->x * b->y - a->y * b->x;
-    if (MW_LIKELY(fabs(det) > (a->lift + b->lift) * (2.0 * 0x1p-53) + MW_UNDERFLOW_ERROR)) return det;
-    return mw__orient2d_exact(f->tiling->point[a->vertex], f->tiling->point[b->vertex], q);
-}
 
 /* mw__incircle_rounded of a, b and c, seen from q, and q, with a bound by the lifts alone: triangulate/delaunay_grow.c tells why
  * 11 u (ab + bc + ca) is one, and of three numbers that is at most a third of their sum squared. Where that square does not overflow nothing

@@ -40,7 +40,9 @@ static void begin_anew(mw_upkeep *u, mw_start_kind start)
 static mw_status build(mw_upkeep *u, mw_index *fresh, mw_live_layers *live, const mw_index_options *options,
                        mw_error *error)
 {
-    if (fresh->start != MW_START_LAYERS) return mw__index_build(fresh, u->locator, options, error);
+    const mw_locator *locator = u->locator;
+    if (fresh->start != MW_START_LAYERS)
+        return mw__index_build(fresh, &locator->tiling, locator->low, locator->high, options, error);
     const mw_layers_options own = {
         .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
     return mw__live_layers_create(live, &fresh->layers, u->fabric, &own, error);

@@ -1,11 +1,14 @@
-/* batch.c - many queries: lanes of walks in flight within the chunk of a thread. Plain ones take the fast way (flight.c).
+/* batch.c - many queries: lanes of walks in flight within the chunk of a thread.
+ * Where they may, they take the fast path (interleaved.c).
  *
  * Answers are exact and therefore the same for any threads, lanes and order. The counters too do not depend on the
  * threads: chunks have a fixed size, and the random numbers of a query come from its own number (base/batch.c). */
 #include "base/batch.h"
 #include "base/random.h"
-#include "locate/flight.h"
+#include "locate/fast_path.h"
 #include "locate/index.h"
+#include "locate/interleaved.h"
+#include "locate/query.h"
 #include "locate/spread.h"
 #include "start/start.h"
 
@@ -16,7 +19,7 @@ typedef struct batch {
     uint32_t lanes, asked; /* walks in flight; 0, or as many as the options ask for */
     bool chained;          /* each query begins where the one before it in its lane ended */
     bool guided;           /* the locator's guide was chosen for the start                */
-    bool plain;            /* flight.c answers them                                       */
+    bool fast;             /* interleaved.c answers them                                  */
 } batch;
 
 /* The queries of one chunk, shared out to the lanes: lane i answers from next[i] to before end[i]. */
@@ -76,18 +79,19 @@ static bool deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verd
 /* Does each query of a chunk come so near the one before it that the guide leads no nearer? */
 static bool is_dense(const batch *b, uint32_t first, uint32_t count)
 {
-    enum { FEW = 2 * MW_FLIGHT_WIDTH };
+    enum { FEW = 2 * MW_GROUP_LANES };
     const mw_batch *queries = &b->queries;
     if (!b->guided || count < FEW) return false;
     return mw__come_densely(b->locator,
                             &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
 }
 
-/* By the fast way. Where queries come densely few wait for memory, and fewer lanes have longer stretches. */
-static void fly(const batch *b, uint32_t first, uint32_t count, bool dense)
+/* On the fast path. Where queries come densely few wait for memory, and fewer lanes have longer stretches. */
+static void answer_fast(const batch *b, uint32_t first, uint32_t count, bool dense)
 {
-    uint32_t lanes = dense && !b->asked ? MW_FLIGHT_WIDTH : b->lanes;
-    mw__fly(&(mw_flight){&b->queries, b->locator, &b->cursor, b->chained || dense, false}, first, count, lanes);
+    uint32_t lanes = dense && !b->asked ? MW_GROUP_LANES : b->lanes;
+    mw__locate_interleaved(&(mw_interleaved){&b->queries, b->locator, &b->cursor, b->chained || dense, false}, first,
+                           count, lanes);
 }
 
 /* Share the queries of a chunk out to the lanes, and walk. Where they come densely walks one after the other find all in cache. */
@@ -95,8 +99,8 @@ static mw_counters answer(const mw_batch *queries, uint32_t first, uint32_t coun
 {
     const batch *b = (const batch *)queries; /* its first member */
     bool dense = is_dense(b, first, count);
-    if (b->plain) {
-        fly(b, first, count, dense);
+    if (b->fast) {
+        answer_fast(b, first, count, dense);
         return (mw_counters){0};
     }
     chunk c;
@@ -141,27 +145,27 @@ static bool begins_near(const batch *b)
 static uint32_t choose_lanes(const batch *b, size_t n)
 {
     static const uint8_t lanes[2][3] = {{1, 16, 32}, {8, 16, 32}};
-    if (b->chained) return lanes[b->plain][MW_ROOM_SECOND];
+    if (b->chained) return lanes[b->fast][MW_ROOM_SECOND];
     mw_caches caches = mw__caches();
     mw_queries queries = {b->queries.points, n, b->queries.stride};
     mw_room room =
         begins_near(b) ? mw__room_touched(b->locator, &caches, &queries) : mw__room_of_all(b->locator, &caches);
-    return lanes[b->plain][room];
+    return lanes[b->fast][room];
 }
 
 /* A lane that has but one query to answer ends before the others do. */
 static uint32_t limit_lanes(uint32_t lanes, size_t n)
 {
-    size_t most = (n / 2 + MW_FLIGHT_WIDTH - 1) / MW_FLIGHT_WIDTH * MW_FLIGHT_WIDTH;
-    if (most < MW_FLIGHT_WIDTH) return MW_FLIGHT_WIDTH;
+    size_t most = (n / 2 + MW_GROUP_LANES - 1) / MW_GROUP_LANES * MW_GROUP_LANES;
+    if (most < MW_GROUP_LANES) return MW_GROUP_LANES;
     return lanes < most ? lanes : (uint32_t)most;
 }
 
-/* Does flight.c answer? */
-static bool is_plain(const batch *b, const mw_query_options *options)
+/* Does interleaved.c answer? */
+static bool is_fast(const batch *b, const mw_query_options *options)
 {
-    if (options->lanes && options->lanes < MW_FLIGHT_WIDTH) return false;
-    return mw__flies(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
+    if (options->lanes && options->lanes < MW_GROUP_LANES) return false;
+    return mw__has_fast_path(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
 }
 
 /* How queries begin where nothing is said: by the locator's guide, else sorted, unless they come in order; few, where the one
@@ -184,10 +188,10 @@ static mw_status run(batch *b, size_t n, const mw_query_options *options, mw_cou
 {
     mw_start_kind start = (mw_start_kind)b->cursor.start;
     b->chained = start == MW_START_SORTED || start == MW_START_LAST || start == MW_START_AUTO;
-    b->plain = is_plain(b, options);
+    b->fast = is_fast(b, options);
     b->asked = options->lanes < MW_MAX_LANES ? options->lanes : MW_MAX_LANES;
     b->lanes = b->asked ? b->asked : choose_lanes(b, n);
-    if (b->plain) b->lanes = b->asked ? b->asked - b->asked % MW_FLIGHT_WIDTH : limit_lanes(b->lanes, n);
+    if (b->fast) b->lanes = b->asked ? b->asked - b->asked % MW_GROUP_LANES : limit_lanes(b->lanes, n);
     b->queries.sort = start == MW_START_SORTED ? sort : NULL;
     return mw__batch_run(&b->queries, n, options->threads, counters, error);
 }

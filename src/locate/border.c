@@ -5,7 +5,6 @@
 #include "locate/border.h"
 
 #include "base/hilbert.h"
-#include "locate/locator.h"
 #include "mesh/order.h"
 
 #include <stdlib.h>
@@ -306,19 +305,14 @@ static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point 
     weight[mw__prev(e->edge)] = 0;
 }
 
-mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_nearest_border_point *hit,
-                            mw_error *error)
+bool mw__border_nearest(const mw_border *border, const mw_mesh *mesh, mw_point q, mw_nearest_border_point *hit)
 {
-    if (!locator || !hit || !isfinite(x) || !isfinite(y))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest border needs a locator and a finite point");
-    if (!locator->has_border) return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
-    mw_point q = {x, y};
-    const mw_border_edge *e = nearest(&locator->border, q);
-    if (!e) return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border"); /* only a mesh that is no embedding */
+    const mw_border_edge *e = nearest(border, q);
+    if (!e) return false;
     mw_point at = foot(e, q);
     *hit = (mw_nearest_border_point){e->triangle, e->edge, distance(e, q), {at.x, at.y}, {0}};
-    edge_weights(locator->mesh, e, q, hit->weight);
-    return MW_OK;
+    edge_weights(mesh, e, q, hit->weight);
+    return true;
 }
 
 void mw__border_near(const mw_border *border, const mw_mesh *mesh, mw_point q, double tolerance, mw_location *location)

@@ -26,6 +26,9 @@ bool mw__border_create(mw_border *border, const mw_mesh *mesh, const mw_tiling *
 void mw__border_release(mw_border *border);
 size_t mw__border_bytes(const mw_border *border);
 
+/* The edge nearest to q, and the point of it nearest to q. False if there is no edge. */
+bool mw__border_nearest(const mw_border *border, const mw_mesh *mesh, mw_point q, mw_nearest_border_point *hit);
+
 /* Turn a location outside into MW_NEAR if the border is within the tolerance of q. */
 void mw__border_near(const mw_border *border, const mw_mesh *mesh, mw_point q, double tolerance, mw_location *location);
 

@@ -1,9 +1,6 @@
 /* index.c - building, describing and asking the index of a start. */
 #include "locate/index.h"
 
-#include "base/clock.h"
-#include "locate/locator.h"
-
 #include <stdlib.h>
 
 static mw_status build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
@@ -14,10 +11,9 @@ static mw_status build_layers(mw_layers *layers, const mw_tiling *tiling, const 
     return mw__layers_create(tiling, &own, layers, error);
 }
 
-mw_status mw__index_build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error)
+mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
+                          const mw_index_options *options, mw_error *error)
 {
-    const mw_tiling *tiling = &locator->tiling;
-    const double *low = locator->low, *high = locator->high;
     if (options->cells > MW_MAX_CELLS) return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
     bool done = false;
     switch (index->start) {
@@ -30,27 +26,6 @@ mw_status mw__index_build(mw_index *index, const mw_locator *locator, const mw_i
     default: break;
     }
     return done ? MW_OK : mw__fail_memory(error);
-}
-
-mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const mw_index_options *options,
-                          mw_index **out, mw_error *error)
-{
-    static const mw_index_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the index");
-    *out = NULL;
-    if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a locator");
-    if (!mw_start_has_index(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
-    mw_index *index = mw__calloc(1, sizeof *index);
-    if (!index) return mw__fail_memory(error);
-    index->start = start;
-    double begin = mw__seconds();
-    mw_status status = mw__index_build(index, locator, options ? options : &defaults, error);
-    index->seconds = mw__seconds() - begin;
-    if (status)
-        mw_index_destroy(index);
-    else
-        *out = index;
-    return status;
 }
 
 void mw__index_release(mw_index *index)

@@ -21,8 +21,9 @@ struct mw_index {
     };
 };
 
-/* Build what the start of an index, which is set, is made of; on failure it may be released. */
-mw_status mw__index_build(mw_index *index, const mw_locator *locator, const mw_index_options *options, mw_error *error);
+/* Build what the start of an index, which is set, is made of, for a tiling of this extent; on failure it may be released. */
+mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
+                          const mw_index_options *options, mw_error *error);
 
 /* Release what an index holds; how much that is. */
 void mw__index_release(mw_index *index);

@@ -1,6 +1,7 @@
 /* locator.c - preparing a mesh for queries. */
 #include "locate/locator.h"
 
+#include "base/clock.h"
 #include "mesh/order.h"
 #include "start/start.h"
 
@@ -182,6 +183,28 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
         mw_locator_destroy(locator);
     else
         *out = locator;
+    return status;
+}
+
+mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const mw_index_options *options,
+                          mw_index **out, mw_error *error)
+{
+    static const mw_index_options defaults;
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the index");
+    *out = NULL;
+    if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a locator");
+    if (!mw_start_has_index(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
+    mw_index *index = mw__calloc(1, sizeof *index);
+    if (!index) return mw__fail_memory(error);
+    index->start = start;
+    double begin = mw__seconds();
+    mw_status status =
+        mw__index_build(index, &locator->tiling, locator->low, locator->high, options ? options : &defaults, error);
+    index->seconds = mw__seconds() - begin;
+    if (status)
+        mw_index_destroy(index);
+    else
+        *out = index;
     return status;
 }
 

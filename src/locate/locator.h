@@ -1,4 +1,4 @@
-/* locator.h - what a locator holds, and the steps of a query that the single and the batch query share. Private. */
+/* locator.h - what a locator holds, and which of its tiles are near a query. Private. */
 #ifndef MW_SRC_LOCATOR_H
 #define MW_SRC_LOCATOR_H
 
@@ -9,7 +9,6 @@
 #include "walk/walk.h"
 
 #include <meshwalk/locate.h>
-#include <string.h>
 
 struct mw_locator {
     const mw_mesh *mesh;
@@ -34,30 +33,6 @@ void mw__locator_survey(mw_locator *locator);
 /* The guide of a locator that has been surveyed. False when out of memory; it may be released in either case. */
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide);
 
-/* Where the finished walk found its point: ends it exactly if it was not, and applies the rule of ties. Leaves in walk->t
- * the tile where the point is (or the last one before the hull), and counts. */
-mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
-                         mw_counters *counters);
-
-/* The walk of one query: first tile by the cursor's start; `last` is where the query before it ended, MW_NONE if there is
- * none: then the start is MW_START_SAMPLE. If the cursor counts, *work is where; it must last as long as the walk. */
-mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
-                   mw_work *work);
-
-uint32_t mw__first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
-                        mw_work *work);
-
-/* The mesh has changed since the query before: begin at the tile that is now where that ended, or near it. */
-void mw__catch_up(const mw_locator *locator, mw_cursor *cursor);
-
-/* Have the cursor of a mesh that changes know by its name the tile where the query ended. */
-static MW_INLINE void mw__note_last(const mw_locator *locator, mw_cursor *cursor)
-{
-    cursor->last_name = mw__tile_name(&locator->tiling, cursor->last);
-}
-
-typedef uint64_t mw_words __attribute__((vector_size(16)));
-
 /* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads nearer. A long edge would not
  * tell, as many small tiles may lie beside it; nor does a tile as large as a cell, such as there are along the hull. */
 static MW_INLINE bool mw__is_close(const mw_locator *locator, uint32_t t, mw_point q)
@@ -76,53 +51,5 @@ static MW_INLINE uint32_t mw__guided(const mw_locator *locator, uint32_t last, m
 {
     return mw__is_close(locator, last, q) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
 }
-
-/* A location, written as it is commonly copied, by 16 bytes: who reads more bytes at a time than were written has to wait
- * until they have left for the cache. */
-static MW_INLINE void mw__put_location(mw_location *location, double a, double b, double c, uint32_t triangle,
-                                       uint32_t hole, mw_where where)
-{
-    const double weight[3] = {a, b, c};
-    const uint32_t numbers[2] = {triangle, hole};
-    const mw_location rest = {.where = (uint8_t)where, .local = 255};
-    uint64_t word[4];
-    memcpy(word, weight, sizeof weight);
-    memcpy(&word[3], numbers, sizeof numbers);
-    const mw_words first = {word[0], word[1]}, second = {word[2], word[3]};
-    memcpy(location, &first, sizeof first);
-    memcpy((char *)location + sizeof first, &second, sizeof second);
-    memcpy(&location->where, &rest.where, sizeof rest - offsetof(mw_location, where));
-}
-
-/* A location that names no triangle. */
-static MW_INLINE void mw__put_nowhere(mw_location *location, mw_where where, uint32_t hole)
-{
-    mw__put_location(location, NAN, NAN, NAN, MW_NONE, hole, where);
-}
-
-static MW_INLINE mw_location mw__nowhere(mw_where where)
-{
-    mw_location location;
-    mw__put_nowhere(&location, where, MW_NONE);
-    return location;
-}
-
-/* A location in no triangle: in a hole, if the mark of its tile says so, or outside. */
-static MW_INLINE void mw__put_in_none(mw_location *location, uint32_t mark)
-{
-    bool hole = (mark & MW_GHOST) && (mark & MW_USER_MASK) != MW_POCKET;
-    mw__put_nowhere(location, hole ? MW_IN_HOLE : MW_OUTSIDE, hole ? mark & MW_USER_MASK : MW_NONE);
-}
-
-/* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to corner k: exact in sign,
- * and off by less than 2^-42 of their sum. */
-void mw__areas(const mw_point corner[3], mw_point q, double area[3]);
-
-/* The location of q in a triangle that contains it: corners as stored, `user` its number and mark, area from mw__areas
- * (overwritten). */
-mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, double area[3]);
-
-/* The same for a triangle of the user's mesh by its number. */
-mw_location mw__place_in(const mw_mesh *mesh, uint32_t triangle, mw_point q);
 
 #endif

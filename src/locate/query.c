@@ -1,10 +1,11 @@
 /* query.c - one query: first tile, walk, exact conclusion. */
+#include "locate/query.h"
+
 #include "base/random.h"
-#include "locate/flight.h"
+#include "locate/fast_path.h"
 #include "locate/index.h"
-#include "locate/locator.h"
+#include "locate/location.h"
 #include "locate/pieces.h"
-#include "locate/plain.h"
 #include "start/start.h"
 
 /* --- the conclusion ---------------------------------------------------------------------------------------------- */
@@ -276,7 +277,7 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
         .finish = (uint8_t)(options->finish ? options->finish : locator->finish),
         .arithmetic = (uint8_t)options->arithmetic,
         .count = options->counters != 0,
-        .plain = is_near(start) && mw__flies(&locator->tiling, options),
+        .fast = is_near(start) && mw__has_fast_path(&locator->tiling, options),
         .live = locator->tiling.tile_of != NULL,
         .asked = options->samples,
         .last_name = locator->centre,
@@ -296,13 +297,13 @@ void mw__catch_up(const mw_locator *locator, mw_cursor *cursor)
     cursor->epoch = locator->epoch;
 }
 
-/* By the walk of the cursor: from tile cursor->last, if the query seemed plain, else from where the start says. */
+/* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where the start says. */
 static __attribute__((noinline)) mw_location walk_to(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     mw_work work;
-    mw_walk walk = cursor->plain ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
-                                                  mw__random(&cursor->random), NULL)
-                                 : mw__depart(locator, cursor, cursor->last, q, &cursor->random, &work);
+    mw_walk walk = cursor->fast ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
+                                                 mw__random(&cursor->random), NULL)
+                                : mw__depart(locator, cursor, cursor->last, q, &cursor->random, &work);
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
     mw_location location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
@@ -311,7 +312,7 @@ static __attribute__((noinline)) mw_location walk_to(const mw_locator *locator, 
 }
 
 /* As mw__first_tile. A stream of queries is near where it was: no call for that. */
-static MW_INLINE uint32_t begin_plain(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+static MW_INLINE uint32_t fast_tile(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     uint32_t last = cursor->last;
     if (!cursor->index && cursor->start == MW_START_LAST) return last;
@@ -320,19 +321,28 @@ static MW_INLINE uint32_t begin_plain(const mw_locator *locator, mw_cursor *curs
     return mw__first_tile(locator, cursor, last, q, &cursor->random, NULL);
 }
 
-/* By the fast way; false: it is not plain. */
-static MW_INLINE bool locate_plain(const mw_locator *locator, mw_cursor *cursor, mw_point q, mw_location *location)
+/* By the fast path; false: it leads to tile cursor->last, but to no answer. */
+static MW_INLINE bool locate_fast(const mw_locator *locator, mw_cursor *cursor, mw_point q, mw_location *location)
 {
-    if (MW_UNLIKELY(!cursor->plain)) return false;
-    cursor->last = begin_plain(locator, cursor, q);
-    return mw__fly_alone(&locator->tiling, q, cursor->tolerance > 0, &cursor->last, location);
+    if (MW_UNLIKELY(!cursor->fast)) return false;
+    const mw_tiling *tiling = &locator->tiling;
+    uint32_t t = fast_tile(locator, cursor, q);
+    double weight[3];
+    const mw_verdict verdict = mw__remembering_fast(tiling, q, &t, weight);
+    cursor->last = t;
+    const mw_triangle *tile = &tiling->tri[t];
+    if (MW_LIKELY(verdict == MW_FOUND && !(tile->user & MW_GHOST))) {
+        mw__put_inside(location, tile->user, weight[0], weight[1], weight[2]);
+        return true;
+    }
+    return mw__fast_outside(tiling, cursor, tile, verdict == MW_FOUND, verdict == MW_LEFT, location);
 }
 
 static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     mw_location location;
     mw__catch_up(locator, cursor);
-    if (!locate_plain(locator, cursor, q, &location)) location = walk_to(locator, cursor, q);
+    if (!locate_fast(locator, cursor, q, &location)) location = walk_to(locator, cursor, q);
     mw__note_last(locator, cursor);
     return location;
 }
@@ -345,7 +355,17 @@ mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, do
         mw__put_nowhere(&location, MW_BAD, MW_NONE);
     else if (MW_UNLIKELY(cursor->live))
         location = locate_live(locator, cursor, q);
-    else if (MW_UNLIKELY(!locate_plain(locator, cursor, q, &location)))
+    else if (MW_UNLIKELY(!locate_fast(locator, cursor, q, &location)))
         location = walk_to(locator, cursor, q);
     return location;
+}
+
+mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_nearest_border_point *hit,
+                            mw_error *error)
+{
+    if (!locator || !hit || !isfinite(x) || !isfinite(y))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest border needs a locator and a finite point");
+    if (!locator->has_border) return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
+    if (mw__border_nearest(&locator->border, locator->mesh, (mw_point){x, y}, hit)) return MW_OK;
+    return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border"); /* only a mesh that is no embedding */
 }

@@ -1,5 +1,5 @@
-/* place.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
-#include "locate/locator.h"
+/* location.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
+#include "locate/location.h"
 
 #include <float.h>
 #include <limits.h>

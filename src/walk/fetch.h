@@ -10,6 +10,13 @@ static MW_INLINE void mw__fetch_tile(const mw_tiling *tiling, uint32_t link)
     if (MW_LIKELY(link != MW_NONE)) __builtin_prefetch(&tiling->tri[mw__link_triangle(link)]);
 }
 
+/* The tiles across all edges: a walk enters one of them next, and while it waits for the corners of
+ * this one they all come. */
+static MW_INLINE void mw__fetch_across(const mw_triangle *tri, const mw_triangle *tile)
+{
+    for (uint32_t k = 0; k < 3; k++) __builtin_prefetch(&tri[mw__link_triangle(tile->link[k])]);
+}
+
 /* Tiles lie along a curve as a rule, numbered by their lowest vertices, so that most of what lies round about a tile, or comes next along the curve, lies
  * near it in memory, rather behind it than before. To ask for all of that at once beats waiting for one after the other, in a mesh that caches do not
  * hold. */

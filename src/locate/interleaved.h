@@ -1,0 +1,25 @@
+/* interleaved.h - a batch on the fast path: many walks, four to a vector, in turn. Private. */
+#ifndef MW_SRC_INTERLEAVED_H
+#define MW_SRC_INTERLEAVED_H
+
+#include "base/batch.h"
+#include "locate/locator.h"
+
+/* The queries of a batch that may take the fast path (mw__has_fast_path). */
+typedef struct mw_interleaved {
+    const mw_batch *queries;
+    const mw_locator *locator;
+    const mw_cursor *cursor;
+    bool chained;  /* each query begins where the one before it in its lane ended, whatever the cursor's start */
+    bool portable; /* only with instructions that every processor of the kind has */
+} mw_interleaved;
+
+/* Lanes of a group, which step together. Fewer do not pay. */
+#define MW_GROUP_LANES 4
+
+/* Answers the queries first .. first + count - 1 of the order in so many lanes (a multiple of
+ * MW_GROUP_LANES, at most MW_MAX_LANES). Chained lanes answer stretches of the order, other ones take
+ * what comes next. */
+void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t count, uint32_t lanes);
+
+#endif
