@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *query_columns_list(const query_columns *wanted, char list[64])
+/* The names as in a header: "x,y,z". Returns `list`. */
+static const char *columns_list_names(const query_columns *wanted, char list[64])
 {
     size_t size = 0;
     for (size_t k = 0; k < wanted->count; k++)
@@ -48,7 +49,7 @@ static bool columns_have_header(const query_columns *wanted, const mw_point_read
 static int columns_fail_count(const query_columns *wanted, size_t width)
 {
     char list[64];
-    complain("option '--columns' wants %zu columns, %s, not %zu", wanted->count, query_columns_list(wanted, list),
+    complain("option '--columns' wants %zu columns, %s, not %zu", wanted->count, columns_list_names(wanted, list),
              width);
     return END_USAGE;
 }
@@ -57,7 +58,7 @@ static int columns_fail_missing(const query_columns *wanted, const char *path, s
 {
     char list[64];
     const char *file = strcmp(path, "-") == 0 ? "standard input" : path, *hint = wanted->hint ? wanted->hint : "";
-    query_columns_list(wanted, list);
+    columns_list_names(wanted, list);
     if (width < wanted->count) {
         complain("%s: has %zu columns of numbers, but a row is %s%s", file, width, list, hint);
         return END_INPUT;

@@ -24,7 +24,4 @@ typedef struct query_columns {
 int query_columns_find(const query_columns *wanted, const char *path, const mw_point_reader *reader, bool chosen,
                        size_t index[MAX_QUERY_COLUMNS]);
 
-/* The names as in a header: "x,y,z". Returns `list`. */
-const char *query_columns_list(const query_columns *wanted, char list[64]);
-
 #endif
