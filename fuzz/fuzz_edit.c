@@ -1,7 +1,12 @@
-/* fuzz_edit.c - a small mesh and a stream of edits, undos and queries from the input. What each edit has to do is foretold by brute
+/* fuzz_edit.c - a small mesh and a stream of edits, undos and queries from the input. What each edit has to do is predicted by brute
  * force, its report is taken over into a twin, and the editor has to agree with that after each step. Places are on a small lattice, so
  * that they meet edges, vertices, lines and circles often. */
-#include "../tests/edit_twin.h"
+#include "oracle/edit_apply.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { MOST = 14, STEPS = 40, KEPT = 8 };
 
@@ -60,29 +65,29 @@ static void edit_from(input *in, uint32_t what, twin *t)
     e.y = coordinate(place >> 4);
     e.vertex = one % (t->vertex_range + 1);
     if (e.kind >= MW_EDIT_FLIP) e.other = place % (t->vertex_range + 1);
-    if (e.kind == MW_EDIT_VALUE && bare) e.kind = MW_EDIT_RELEASE;
+    if (e.kind == MW_EDIT_VALUE && twin_bare) e.kind = MW_EDIT_RELEASE;
     if (e.kind == MW_EDIT_VALUE) e.value = one;
     twin_apply(t, &e, what >> 7);
 }
 
-static void look(twin *t, readers *r)
+static void look(twin *t, twin_cursors *r)
 {
-    check_all(t);
-    check_places(t, r);
+    twin_check_all(t);
+    twin_check_queries(t, r);
 }
 
 static void run(input *in, twin *t, const mw_editor_options *options)
 {
     twin then[KEPT];
-    readers r;
+    twin_cursors r;
     uint32_t kept = 0, steps = 0;
     bool compacted = false;
-    readers_open(&r, t, options->delaunay != MW_DELAUNAY_MAKE, 1);
+    twin_cursors_open(&r, t, options->delaunay != MW_DELAUNAY_MAKE, 1);
     while (in->left > 0 && steps++ < STEPS) {
         uint32_t what = next(in);
         mw_editor_info was, is;
         mw_editor_describe(t->editor, &was);
-        case_step = steps;
+        edit_case.step = steps;
         if (what % 16 == 15 && kept > 0) {
             twin_undo(t, &then[--kept]);
             twin_close(&then[kept]);
@@ -103,11 +108,11 @@ static void run(input *in, twin *t, const mw_editor_options *options)
             else
                 twin_close(&then[kept]);
         }
-        check_same(t);
+        twin_check_same(t);
         if (what % 8 == 5) look(t, &r);
     }
     look(t, &r);
-    if (!compacted) check_replay(t, options);
+    if (!compacted) twin_check_replay(t, options);
     while (kept > 0) twin_close(&then[--kept]);
 }
 
@@ -121,7 +126,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_mesh *mesh = mesh_from(&in);
     if (!mesh) return 0;
     uint32_t constraint[2], v[3], more = next(&in);
-    bare = more >> 1 & 1;
+    twin_bare = more >> 1 & 1;
     if (more & 1) {
         mw_mesh_triangle(mesh, 0, v);
         constraint[0] = v[0];
@@ -129,7 +134,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         options.constrained_edges = constraint;
         options.constrained_edge_count = 1;
     }
-    case_name = "input";
+    edit_case.name = "input";
     twin_open(&t, mesh, &options);
     run(&in, &t, &options);
     twin_close(&t);

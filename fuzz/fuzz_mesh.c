@@ -2,9 +2,12 @@
  *
  * Byte 0: kind of index, stride, whether some coordinates are not finite; byte 1: exponent of all coordinates; byte 2:
  * number of points. Then two bytes a point, three a triangle: numbers of vertices, one or two of them out of range. */
-#include "../tests/domain_oracle.h"
+#include "oracle/domain_oracle.h"
+#include "support/meshes.h"
 
-#include <string.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -28,7 +31,7 @@ static double coordinate(uint8_t byte, bool special)
 {
     if (special && byte == 127) return NAN;
     if (special && byte == 128) return INFINITY;
-    return ldexp((int8_t)byte, tiling_exponent);
+    return ldexp((int8_t)byte, domain_oracle_exponent);
 }
 
 static void read_points(input *in, const uint8_t *data, size_t count, size_t stride, bool special)
@@ -65,7 +68,7 @@ static bool read_input(input *in, const uint8_t *data, size_t size)
     if (size < 3) return false;
     size_t count = data[2] % (MAX_POINTS + 1), stride = 2 + (data[0] >> 2) % 3;
     if (size < 3 + 2 * count) return false;
-    tiling_exponent = exponents[data[1] % 8];
+    domain_oracle_exponent = exponents[data[1] % 8];
     in->a = arrays_make(MAX_POINTS, MAX_TRIANGLES);
     read_points(in, data + 3, count, stride, data[0] >> 5 & 1);
     size_t triangles = (size - 3 - 2 * count) / 3;
@@ -94,8 +97,8 @@ static bool try_check(const input *in, bool *usable)
     }
     mw_check_release(&check);
     require(embedding == sound);
-    require(*usable == (in->in_range && in->finite && is_usable(&in->a)));
-    if (*usable) require(embedding == oracle_embedding(&in->a));
+    require(*usable == (in->in_range && in->finite && domain_oracle_is_usable(&in->a)));
+    if (*usable) require(embedding == domain_oracle_is_embedding(&in->a));
     return embedding;
 }
 
@@ -107,7 +110,7 @@ static void try_tiling(const input *in, const mw_mesh *mesh, bool embedding)
     require(embedding ? status == MW_OK : status == MW_ERROR_INPUT && error.message[0] != 0);
     if (status == MW_OK) mw__tiling_release(&tiling);
     require(mw__tiling_create(mesh, true, &tiling, &error) == MW_OK && tiling.embedding == embedding);
-    require(!embedding || fault_of_tiling(&in->a, &tiling) == NULL);
+    require(!embedding || domain_oracle_fault(&in->a, &tiling) == NULL);
     mw__tiling_release(&tiling);
 }
 

@@ -1,13 +1,15 @@
 /* The predicates against GMP on any bytes. The first byte says how to read the rest: as doubles, or as small integers
  * times a power of two, each moved by some units in the last place, which are often degenerate. */
+#include "oracle/line_oracle.h"
 #include "predicates/line.h"
 
-#include "../tests/line_oracle.h"
-
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define COORDINATES LINE_COORDINATES
+#define COORDINATES LINE_ORACLE_COORDINATES
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -40,10 +42,10 @@ static mw_point at(const double *p, int i)
 }
 
 /* The value as users get it has the sign of the truth, the exact stage its value as well. */
-static void compare(oracle *truth, long exponent, double filtered, double exact)
+static void compare(predicate_oracle *truth, long exponent, double filtered, double exact)
 {
     require((filtered > 0) - (filtered < 0) == mpz_sgn(truth->result));
-    require(oracle_agrees(truth, exponent, exact));
+    require(predicate_oracle_agrees(truth, exponent, exact));
 }
 
 static mw_line line_at(const double *p)
@@ -63,18 +65,18 @@ static void check_hits(line_oracle *truth, const double p[COORDINATES])
     require((distance > 0) - (distance < 0) == mpz_sgn(truth->n[0]) * mpz_sgn(truth->m[0]));
 }
 
-static void check(oracle *truth, const double p[COORDINATES])
+static void check(predicate_oracle *truth, const double p[COORDINATES])
 {
     mw_point a = at(p, 0), b = at(p, 1), c = at(p, 2), d = at(p, 3), e = at(p, 4);
-    compare(truth, oracle_orient2d(truth, p), mw__orient2d(a, b, c), mw__orient2d_exact(a, b, c));
-    compare(truth, oracle_dot2d(truth, p), mw__dot2d(a, b, c), mw__dot2d_exact(a, b, c));
-    compare(truth, oracle_incircle(truth, p), mw__incircle(a, b, c, d), mw__incircle_exact(a, b, c, d));
-    compare(truth, oracle_orient3d(truth, p), mw__orient3d(p, p + 3, p + 6, p + 9),
+    compare(truth, predicate_oracle_orient2d(truth, p), mw__orient2d(a, b, c), mw__orient2d_exact(a, b, c));
+    compare(truth, predicate_oracle_dot2d(truth, p), mw__dot2d(a, b, c), mw__dot2d_exact(a, b, c));
+    compare(truth, predicate_oracle_incircle(truth, p), mw__incircle(a, b, c, d), mw__incircle_exact(a, b, c, d));
+    compare(truth, predicate_oracle_orient3d(truth, p), mw__orient3d(p, p + 3, p + 6, p + 9),
             mw__orient3d_exact(p, p + 3, p + 6, p + 9));
     mw_line line = line_at(p);
-    compare(truth, oracle_side(truth, p), mw__side(&line, p + 6, p + 9), mw__side_exact(&line, p + 6, p + 9));
-    require(mw__compare_distance(a, b, c, d, e) == oracle_compare_distance(truth, p));
-    require(mw__compare_distance_to(a, b, c, p[6]) == oracle_compare_distance_to(truth, p));
+    compare(truth, line_oracle_side(truth, p), mw__side(&line, p + 6, p + 9), mw__side_exact(&line, p + 6, p + 9));
+    require(mw__compare_distance(a, b, c, d, e) == predicate_oracle_compare_distance(truth, p));
+    require(mw__compare_distance_to(a, b, c, p[6]) == predicate_oracle_compare_distance_to(truth, p));
 }
 
 /* With a coordinate that is not finite: 0 from what uses it, and an end in any case. */
@@ -95,12 +97,12 @@ static void check_not_finite(const double p[COORDINATES])
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static oracle truth;
+    static predicate_oracle truth;
     static line_oracle line_truth;
     static bool ready;
     double p[COORDINATES] = {0};
     if (!ready) {
-        oracle_init(&truth);
+        predicate_oracle_init(&truth);
         line_oracle_init(&line_truth);
     }
     ready = true;

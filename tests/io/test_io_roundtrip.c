@@ -1,0 +1,332 @@
+/* test_io_roundtrip.c - what the writers write comes back, bit for bit. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "base/random.h"
+#include "support/mesh_files.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { POINTS = 500, TRIANGLES = 900, FIELDS = 3 };
+
+/* A mesh with doubles of every kind; not a mesh that makes sense. The points differ, as STL needs it. */
+typedef struct sample {
+    double points[3 * POINTS], fields[FIELDS][POINTS], *field_list[FIELDS];
+    uint32_t triangles[3 * TRIANGLES];
+    char *names[FIELDS];
+    mw_mesh_file file;
+} sample;
+
+static double any_double(uint64_t *random, int kind)
+{
+    uint64_t b = mw__random(random);
+    double v;
+    switch (kind % 4) {
+    case 0: memcpy(&v, &b, sizeof v); break;
+    case 1: v = (double)(b >> 11) * 0x1p-53; break;
+    case 2: v = (double)(int64_t)(b % 100000000) / 1000; break;
+    default: v = (double)(int64_t)(b % 2001) - 1000; break;
+    }
+    return isfinite(v) ? v : 1e300;
+}
+
+static void fill(sample *s, uint64_t seed, int has_z)
+{
+    static char names[FIELDS][32] = {"depth", "velocity u", "x"};
+    uint64_t random = seed;
+    for (size_t i = 0; i < 3 * POINTS; i++) s->points[i] = any_double(&random, (int)(i / 3));
+    for (size_t v = 0; v < POINTS; v++) s->points[3 * v] = (double)v + (double)(mw__random(&random) >> 12) * 0x1p-52;
+    for (size_t v = 0; v < POINTS; v += 7) s->points[3 * v + 1] = -0.0;
+    for (size_t v = 0; v < POINTS && !has_z; v++) s->points[3 * v + 2] = 0;
+    for (size_t f = 0; f < FIELDS; f++) {
+        for (size_t v = 0; v < POINTS; v++) s->fields[f][v] = any_double(&random, (int)v);
+        s->fields[f][3] = NAN;
+        s->fields[f][4] = -INFINITY;
+        s->field_list[f] = s->fields[f];
+        s->names[f] = names[f];
+    }
+    for (size_t t = 0; t < TRIANGLES; t++) /* every vertex is used, and comes first in a triangle of its number */
+        for (size_t k = 0; k < 3; k++)
+            s->triangles[3 * t + k] = k == 0 ? (uint32_t)(t % POINTS) : mw__random_below(&random, POINTS);
+    s->file = (mw_mesh_file){.points = s->points,
+                             .triangles = s->triangles,
+                             .point_count = POINTS,
+                             .triangle_count = TRIANGLES,
+                             .has_z = has_z,
+                             .field_names = s->names,
+                             .fields = s->field_list,
+                             .field_count = FIELDS};
+}
+
+static bool same(double a, double b)
+{
+    return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
+}
+
+static void expect_same_mesh(const mw_mesh_file *a, const mw_mesh_file *b)
+{
+    assert_int_equal(a->point_count, b->point_count);
+    assert_int_equal(a->triangle_count, b->triangle_count);
+    for (size_t i = 0; i < 3 * a->point_count; i++)
+        if (!same(a->points[i], b->points[i])) fail_msg("coordinate %zu: %a, %a", i, a->points[i], b->points[i]);
+    assert_memory_equal(a->triangles, b->triangles, 3 * a->triangle_count * sizeof *a->triangles);
+}
+
+static void expect_same_fields(const mw_mesh_file *a, const mw_mesh_file *b, const char *const *names)
+{
+    assert_int_equal(b->field_count, FIELDS);
+    for (size_t f = 0; f < FIELDS; f++) {
+        assert_string_equal(b->field_names[f], names[f]);
+        for (size_t v = 0; v < POINTS; v++)
+            if (!same(a->fields[f][v], b->fields[f][v])) fail_msg("field %zu of %zu", f, v);
+    }
+}
+
+static const char *const words[FIELDS] = {"depth", "velocity_u", "x_3"};
+
+static mw_mesh_file write_and_read(const char *path, const char *format, const mw_mesh_file *file)
+{
+    mw_error error;
+    if (mw_write_mesh(path, file, format, &error) != MW_OK) fail_msg("%s", error.message);
+    return mesh_file_read(path);
+}
+
+static void test_every_format(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path, *format;
+        bool fields, planar;
+    } cases[] = {{"a.off", NULL, false, false},       {"a.obj", NULL, false, false},  {"a.ply", NULL, true, false},
+                 {"b.ply", "ply-ascii", true, false}, {"a.dat", "off", false, false}, {"a.node", NULL, true, true},
+                 {"b.ele", NULL, true, true}};
+    uint64_t seed = (uint64_t)time(NULL);
+    print_message("seed %llu\n", (unsigned long long)seed);
+    sample *s = malloc(sizeof *s);
+    assert_non_null(s);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int has_z = 0; has_z < 2; has_z++) {
+            fill(s, seed + i, has_z);
+            mw_mesh_file back = write_and_read(cases[i].path, cases[i].format, &s->file);
+            expect_same_mesh(&s->file, &back);
+            if (cases[i].fields)
+                expect_same_fields(&s->file, &back, words);
+            else
+                assert_int_equal(back.field_count, 0);
+            /* .node knows meshes without heights, the others have z always */
+            assert_int_equal(back.has_z, cases[i].planar ? has_z : 1);
+            mw_mesh_file_release(&back);
+            files_clear();
+        }
+    free(s);
+}
+
+/* STL has no vertices: they come back in the order of the corners, merged where they are equal. */
+static void test_stl(void **state)
+{
+    (void)state;
+    sample *s = malloc(sizeof *s);
+    assert_non_null(s);
+    fill(s, 5, 1);
+    mw_mesh_file back = write_and_read("a.stl", NULL, &s->file);
+    assert_int_equal(back.point_count, POINTS);
+    assert_int_equal(back.triangle_count, TRIANGLES);
+    assert_int_equal(back.welded, 3 * TRIANGLES - POINTS);
+    for (size_t i = 0; i < 3 * TRIANGLES; i++)
+        for (size_t k = 0; k < 3; k++)
+            if (!same(back.points[3 * back.triangles[i] + k], s->points[3 * s->triangles[i] + k]))
+                fail_msg("corner %zu", i);
+    mw_mesh_file_release(&back);
+    free(s);
+    files_clear();
+}
+
+/* A normal is the outer one of a counter-clockwise triangle, of length 1; none of a flat one. */
+static void test_stl_normals(void **state)
+{
+    (void)state;
+    double points[] = {0, 0, 0, 2, 0, 0, 0, 3, 0};
+    uint32_t triangles[] = {0, 1, 2, 0, 0, 1};
+    mw_mesh_file file = {.points = points, .triangles = triangles, .point_count = 3, .triangle_count = 2};
+    assert_int_equal(mw_write_mesh("n.stl", &file, NULL, NULL), MW_OK);
+    char *text = files_read("n.stl", NULL);
+    assert_non_null(text);
+    assert_non_null(strstr(text, "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"));
+    assert_non_null(strstr(text, "facet normal 0 0 0\n"));
+    free(text);
+    files_clear();
+}
+
+/* CSV is read back as points: a row for each corner. */
+static void test_csv(void **state)
+{
+    (void)state;
+    sample *s = malloc(sizeof *s);
+    assert_non_null(s);
+    fill(s, 6, 1);
+    assert_int_equal(mw_write_mesh("a.csv", &s->file, NULL, NULL), MW_OK);
+    mw_point_reader_options options = {.columns = "triangle,corner,vertex,x,y,z,depth,velocity_u,x_3"};
+    mw_point_reader *reader;
+    assert_int_equal(mw_point_reader_open("a.csv", &options, &reader, NULL), MW_OK);
+    assert_int_equal(mw_point_reader_width(reader), 9);
+    for (size_t i = 0; i <= 3 * TRIANGLES; i++) {
+        double row[9];
+        size_t count;
+        assert_int_equal(mw_point_reader_read(reader, row, 1, &count, NULL), MW_OK);
+        assert_int_equal(count, i < 3 * TRIANGLES);
+        if (count == 0) break;
+        size_t v = s->triangles[i];
+        assert_true(row[0] == (double)(i / 3) && row[1] == (double)(i % 3) && row[2] == (double)v);
+        for (size_t k = 0; k < 3; k++) assert_true(same(row[3 + k], s->points[3 * v + k]));
+        for (size_t f = 0; f < FIELDS; f++) assert_true(same(row[6 + f], s->fields[f][v]));
+    }
+    mw_point_reader_close(reader);
+    free(s);
+    files_clear();
+}
+
+/* There is no reader for VTK here: the text is fixed. */
+static void test_vtk(void **state)
+{
+    (void)state;
+    double points[] = {0, 0, 0.1, 1, 0, -0.0, 1, 1, 1e-300, 0, 1, 4}, depth[] = {1, 2.5, NAN, -1e22};
+    uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
+    char name[] = "water depth";
+    char *names[] = {name};
+    double *fields[] = {depth};
+    mw_mesh_file file = {.points = points,
+                         .triangles = triangles,
+                         .point_count = 4,
+                         .triangle_count = 2,
+                         .has_z = 1,
+                         .field_names = names,
+                         .fields = fields,
+                         .field_count = 1};
+    assert_int_equal(mw_write_mesh("a.vtk", &file, NULL, NULL), MW_OK);
+    char *text = files_read("a.vtk", NULL);
+    assert_non_null(text);
+    assert_string_equal(text,
+                        "# vtk DataFile Version 3.0\nmeshwalk\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                        "POINTS 4 double\n0 0 0.1\n1 0 -0\n1 1 1e-300\n0 1 4\n"
+                        "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\n"
+                        "POINT_DATA 4\nSCALARS water_depth double 1\nLOOKUP_TABLE default\n1\n2.5\nnan\n-1e+22\n");
+    free(text);
+    files_clear();
+}
+
+/* No triangles, and nothing at all. */
+static void test_empty(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"a.off", "a.ply", "a.node", "a.obj"};
+    double points[] = {0, 0, 0, 1, 2, 3};
+    mw_mesh_file file = {.points = points, .point_count = 2, .has_z = 1};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        mw_mesh_file back = write_and_read(paths[i], NULL, &file);
+        assert_int_equal(back.triangle_count, 0);
+        assert_int_equal(back.point_count, 2);
+        assert_true(back.points[4] == 2 && back.points[5] == 3);
+        mw_mesh_file_release(&back);
+    }
+    static const char *const formats[] = {"off", "ply", "ply-ascii", "node", "stl", "csv", "vtk", "obj"};
+    mw_mesh_file nothing = {0};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        assert_int_equal(mw_write_mesh("nothing.node", &nothing, formats[i], NULL), MW_OK);
+    files_clear();
+}
+
+/* Names that give the same word get numbers, and a name in UTF-8 stays. */
+static void test_field_names(void **state)
+{
+    (void)state;
+    double points[] = {1, 2, 3}, values[] = {7};
+    char names[][16] = {"a b", "a-b", "z", "", "h\xc3\xb6he", "a,b"};
+    static const char *const wanted[] = {"a_b", "a_b_2", "z_3", "_4", "h\xc3\xb6he", "a_b_6"};
+    char *name_list[6];
+    double *fields[6];
+    for (int i = 0; i < 6; i++) {
+        name_list[i] = names[i];
+        fields[i] = values;
+    }
+    mw_mesh_file file = {
+        .points = points, .point_count = 1, .has_z = 1, .field_names = name_list, .fields = fields, .field_count = 6};
+    static const char *const paths[] = {"a.ply", "a.node"};
+    for (int p = 0; p < 2; p++) {
+        mw_mesh_file back = write_and_read(paths[p], NULL, &file);
+        assert_int_equal(back.field_count, 6);
+        for (int i = 0; i < 6; i++) assert_string_equal(back.field_names[i], wanted[i]);
+        assert_true(back.points[2] == 3 && back.fields[5][0] == 7);
+        mw_mesh_file_release(&back);
+    }
+    files_clear();
+}
+
+static void expect_refused(const char *path, const char *format, const mw_mesh_file *file, mw_status status,
+                           const char *says)
+{
+    mw_error error;
+    assert_int_equal(mw_write_mesh(path, file, format, &error), status);
+    files_expect_error(&error, status, -1, says);
+    assert_int_equal(files_count(), 0);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    double points[] = {0, 0, 0};
+    uint32_t triangles[] = {0, 0, 1};
+    mw_mesh_file file = {.points = points, .point_count = 1};
+    expect_refused("a.xyz", NULL, &file, MW_ERROR_ARGUMENT, "a.xyz: the name tells no format");
+    expect_refused("-", NULL, &file, MW_ERROR_ARGUMENT, "tells no format");
+    expect_refused("a.off", "dxf", &file, MW_ERROR_ARGUMENT, "no format 'dxf'");
+    expect_refused("a.off.gz", NULL, &file, MW_ERROR_ARGUMENT, "gzip is read, but not written");
+    expect_refused("-", "node", &file, MW_ERROR_ARGUMENT, "two files");
+    expect_refused("nowhere/a.node", NULL, &file, MW_ERROR_SYSTEM, "nowhere/a.node: No such file");
+    expect_refused("nowhere/a.off", NULL, &file, MW_ERROR_SYSTEM, "nowhere/a.off: No such file");
+    if (access("/dev/full", W_OK) == 0)
+        expect_refused("/dev/full", "ply", &file, MW_ERROR_SYSTEM, "/dev/full: No space left on device");
+    expect_refused(NULL, "off", &file, MW_ERROR_ARGUMENT, "NULL");
+    file.triangles = triangles;
+    file.triangle_count = 1;
+    expect_refused("a.off", NULL, &file, MW_ERROR_INPUT, "triangle 0 names vertex 1");
+}
+
+/* Of a pair whose second file cannot be written, neither appears. */
+static void test_pair_or_nothing(void **state)
+{
+    (void)state;
+    double points[] = {0, 0, 0};
+    mw_mesh_file file = {.points = points, .point_count = 1};
+    assert_int_equal(mkdir("a.ele", 0700), 0);
+    mw_error error;
+    assert_int_equal(mw_write_mesh("a.node", &file, NULL, &error), MW_ERROR_SYSTEM);
+    files_expect_error(&error, MW_ERROR_SYSTEM, -1, "a.ele: Is a directory");
+    assert_false(files_exists("a.node"));
+    assert_int_equal(rmdir("a.ele"), 0);
+    if (access("/dev/full", W_OK) == 0) {
+        assert_int_equal(symlink("/dev/full", "a.ele"), 0);
+        assert_int_equal(mw_write_mesh("a.node", &file, NULL, &error), MW_ERROR_SYSTEM);
+        files_expect_error(&error, MW_ERROR_SYSTEM, -1, "a.ele: No space left on device");
+        assert_false(files_exists("a.node"));
+    }
+    files_clear();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_format), cmocka_unit_test(test_stl),         cmocka_unit_test(test_stl_normals),
+        cmocka_unit_test(test_csv),          cmocka_unit_test(test_vtk),         cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_refused),      cmocka_unit_test(test_field_names), cmocka_unit_test(test_pair_or_nothing),
+    };
+    return cmocka_run_group_tests(tests, files_enter, files_leave);
+}

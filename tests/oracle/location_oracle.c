@@ -1,0 +1,59 @@
+/* location_oracle.c - brute force over all triangles in exact rationals. */
+#include "oracle/location_oracle.h"
+
+#include <gmp.h>
+#include <math.h>
+#include <meshwalk/meshwalk.h>
+
+int location_oracle_orient(const double a[2], const double b[2], const double c[2])
+{
+    mpq_t v[6], left, right;
+    const double *from[6] = {&a[0], &a[1], &b[0], &b[1], &c[0], &c[1]};
+    for (int i = 0; i < 6; i++) {
+        mpq_init(v[i]);
+        mpq_set_d(v[i], *from[i]);
+    }
+    mpq_init(left);
+    mpq_init(right);
+    for (int i = 0; i < 4; i++) mpq_sub(v[i], v[i], v[4 + i % 2]);
+    mpq_mul(left, v[0], v[3]);
+    mpq_mul(right, v[1], v[2]);
+    int sign = mpq_cmp(left, right);
+    for (int i = 0; i < 6; i++) mpq_clear(v[i]);
+    mpq_clear(left);
+    mpq_clear(right);
+    return (sign > 0) - (sign < 0);
+}
+
+bool location_oracle_contains(const double *points, const uint32_t *t, const double q[2], location_answer *answer)
+{
+    const double *p[3] = {points + 2 * (size_t)t[0], points + 2 * (size_t)t[1], points + 2 * (size_t)t[2]};
+    int turn = location_oracle_orient(p[0], p[1], p[2]), zeros = 0, edge = 0, off = 0;
+    if (turn == 0) return false;
+    for (int k = 0; k < 3; k++) {
+        int side = location_oracle_orient(p[k], p[(k + 1) % 3], q) * turn;
+        if (side < 0) return false;
+        if (side == 0) {
+            zeros++;
+            edge = k;
+        } else {
+            off = k;
+        }
+    }
+    answer->where = zeros == 0 ? MW_INSIDE : zeros == 1 ? MW_ON_EDGE : MW_ON_VERTEX;
+    answer->local = (uint8_t)(zeros == 0 ? 255 : zeros == 1 ? edge : (off + 2) % 3);
+    return true;
+}
+
+location_answer location_oracle_locate(const double *points, const uint32_t *triangles, uint32_t count,
+                                       const double q[2])
+{
+    location_answer answer = {MW_NONE, MW_OUTSIDE, 255};
+    if (!isfinite(q[0]) || !isfinite(q[1])) return (location_answer){MW_NONE, MW_BAD, 255};
+    for (uint32_t t = 0; t < count; t++)
+        if (location_oracle_contains(points, triangles + 3 * (size_t)t, q, &answer)) {
+            answer.triangle = t;
+            break;
+        }
+    return answer;
+}

@@ -1,0 +1,11 @@
+/* probers.h - a prober for tests of what the boxes of a surface find. */
+#ifndef MW_TEST_PROBERS_H
+#define MW_TEST_PROBERS_H
+
+#include <meshwalk/meshwalk.h>
+
+/* A prober of the surface that keeps boxes; ends the program where that fails. The caller
+ * destroys it. */
+mw_prober *prober_with_boxes(const mw_surface *surface);
+
+#endif
