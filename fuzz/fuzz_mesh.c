@@ -8,6 +8,9 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include "domain/tiling_create.h"
+
+#include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

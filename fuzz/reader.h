@@ -4,9 +4,10 @@
 #define MW_FUZZ_READER_H
 
 #include "io/builder.h"
-#include "io/constraints.h"
-#include "io/formats.h"
+#include "io/geojson.h"
+#include "io/mesh_readers.h"
 #include "io/points.h"
+#include "io/poly.h"
 #include "io/source.h"
 
 #include <stdlib.h>

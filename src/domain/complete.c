@@ -5,6 +5,8 @@
  *        / | \         No tile is flat: the vertices inside an edge lie on it exactly, the tip of each fan does not. */
 #include "domain/complete.h"
 
+#include "mesh/connect.h"
+
 #include <inttypes.h>
 #include <string.h>
 

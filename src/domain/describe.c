@@ -1,5 +1,5 @@
 /* describe.c - what kind of mesh it is. */
-#include "domain/tiling.h"
+#include "domain/tiling_create.h"
 #include "mesh/count.h"
 
 /* --- counts --- */

@@ -9,9 +9,6 @@
 
 #include "domain/boxes.h"
 
-struct mw_survey;
-struct mw_tiling;
-
 /* An edge of the border, 4 * tile + edge. */
 typedef struct mw_rim_edge {
     uint32_t half;
@@ -43,15 +40,8 @@ typedef struct mw_open {
     uint32_t edge_count, turn_count, loop_count, piece_count; /* edge_count: of the border */
 } mw_open;
 
-/* The edges of the border of the tiles that a survey's mesh has without ghosts. *count of them, released
- * with free(); NULL when out of memory. */
-mw_rim_edge *mw__rim_create(const struct mw_survey *survey, const struct mw_tiling *tiling, uint32_t *count);
-
-/* Everything from the border (count > 0; sorted on the way), when the tiles have their final order. Returns false when out of memory; release
- * in either case. */
-bool mw__open_create(mw_open *open, const struct mw_tiling *tiling, mw_rim_edge *rim, uint32_t count);
 void mw__open_release(mw_open *open);
-size_t mw__open_bytes(const mw_open *open, const struct mw_tiling *tiling);
+size_t mw__open_bytes(const mw_open *open, uint32_t vertex_count); /* of its tiling */
 
 /* The hole along the loop whose lowest edge this is; MW_NONE if the loop bounds nothing. */
 uint32_t mw__open_hole(const mw_open *open, uint32_t lowest);

@@ -5,9 +5,7 @@
  *    u  `. |        the turn passes the outside, from one hull edge at v to the other.
  * The cells are those of the survey's cover; their edges along the outline are parts of the tiles' edges, from place to
  * place. O(b log b) for b border edges, if places do not have many cells at once. */
-#include "domain/open.h"
-#include "domain/survey.h"
-#include "domain/tiling.h"
+#include "domain/rim.h"
 
 #include <stdlib.h>
 

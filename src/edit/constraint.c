@@ -3,22 +3,13 @@
  * The segment is followed from its first vertex. Where an edge lies on it, that is a piece. Else it enters a tile and crosses edges up to the
  * next vertex on it: the tiles crossed are a channel, each vertex of which is joined to the segment by an edge that crosses it; so either
  * side of the channel is filled by cutting off corners (rim.h), and the piece is the edge between the two sides. */
+#include "edit/flip.h"
+#include "edit/operations.h"
 #include "edit/rim.h"
+#include "edit/stitch.h"
+#include "edit/vertex_star.h"
 
 #include <inttypes.h>
-
-uint32_t mw__fabric_edge(const mw_fabric *f, uint32_t from, uint32_t to)
-{
-    bool open;
-    uint32_t first = mw__star_first(f, from, &open), at = first;
-    do {
-        if (mw__corner(f, mw__half_next(at)) == to) return at;
-        uint32_t last = mw__half_prev(at);
-        at = mw__beyond(f, last);
-        if (at == MW_NONE) return mw__corner(f, last) == to ? last : MW_NONE;
-    } while (at != first);
-    return MW_NONE;
-}
 
 static bool is_border(const mw_fabric *f, uint32_t half)
 {

@@ -1,8 +1,13 @@
 /* editor.c - making an editor, and carrying out edits. */
 #include "edit/editor.h"
 
-#include "edit/rim.h"
+#include "domain/tiling_create.h"
+#include "edit/fabric_memory.h"
 #include "walk/fetch.h"
+#include "edit/flip.h"
+#include "edit/journal.h"
+#include "edit/operations.h"
+#include "edit/vertex_star.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -1,6 +1,9 @@
 /* editor_mesh.c - what is there now as a mesh of its own, and beginning anew from that. */
 #include "edit/editor.h"
 
+#include "domain/tiling_create.h"
+#include "edit/fabric_memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,9 @@
 /* editor_state.c - what is there now: looking things up by number. */
 #include "edit/editor.h"
 
-#include "edit/rim.h"
+#include "edit/fabric_memory.h"
+#include "edit/journal.h"
+#include "edit/vertex_star.h"
 
 static size_t log_bytes(const mw_editor *editor)
 {

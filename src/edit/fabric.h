@@ -1,10 +1,10 @@
-/* fabric.h - a tiling that changes: local operations on its tiles, and what takes them back. Private.
+/* fabric.h - a tiling that changes, and the journal of its changes: the records. Private.
  *
  * The tiles lie densely in their array: where one goes, the last one takes its place. So places change, and numbers are what stays: each
  * tile of the user's has a number (tri[t].user), and tiling->tile_of finds the tile of a number. Ghosts have none. Vertices have a number
  * and a place too; a place that is free is taken again by the next vertex, its number is not.
  *
- * An edit is bracketed: mw__fabric_begin, operations, mw__fabric_commit or mw__fabric_rollback. Before a tile that was there gets other corners,
+ * An edit is bracketed (journal.h): mw__fabric_begin, operations, mw__fabric_commit or mw__fabric_rollback. Before a tile that was there gets other corners,
  * or goes, its record is put into the journal, once an edit. Links of tiles round about are not: they follow from those of the tiles put back.
  * The journal of an edit, with the places at the end of the array that it has taken, tells what it changed; exchanged with the tiles as they
  * are, it takes it back. An insertion about which nobody will ask, and which cannot fail once it has begun to change tiles, needs no bracket. */
@@ -12,6 +12,7 @@
 #define MW_SRC_FABRIC_H
 
 #include "domain/tiling.h"
+#include "walk/lifted.h"
 
 #include <meshwalk/edit.h>
 
@@ -40,10 +41,25 @@ typedef struct mw_step {
     bool delaunay;
 } mw_step;
 
-/* A step of the boundary of tiles that are to be replaced, which lie to its left: see rim.h. */
-typedef struct mw_rim_step mw_rim_step;
-typedef struct mw_step_ahead mw_step_ahead;
-typedef struct mw_sight mw_sight;
+/* --- lists that an edit works in, kept so that it seldom has to ask for memory ------------------------------------- */
+
+/* A step of the boundary of tiles that are to be replaced, which lie to its left. */
+typedef struct mw_rim_step {
+    uint32_t vertex; /* where the step begins; the next one begins where it ends */
+    uint32_t beyond; /* half-edge on its right side; MW_NONE on the hull         */
+    uint32_t half;   /* half-edge on its left side, of a tile that is replaced   */
+    bool fixed;
+    bool slit; /* `beyond` is replaced too: the step comes twice, once from each side */
+} mw_rim_step;
+
+/* A step of the boundary of a hole that is dug (hole.h), not yet come to: the sight where it ends and, where the tile beyond goes,
+ * the sight of the vertex of that across from the step; else MW_NONE. */
+typedef struct mw_step_ahead {
+    uint32_t end, beyond, apex;
+    bool fixed;
+} mw_step_ahead;
+
+/* --- the fabric ----------------------------------------------------------------------------------------------------- */
 
 typedef struct mw_fabric {
     mw_tiling *tiling;       /* its arrays belong to the fabric as long as it lives; with tile_of */
@@ -63,14 +79,14 @@ typedef struct mw_fabric {
     bool under_way;  /* is one? */
     uint32_t *stack; /* half-edges that may have to be flipped, and other scratch        */
     size_t stack_count, stack_room;
-    mw_rim_step *rim;     /* scratch */
-    uint32_t *pool;       /* scratch: tiles that are to be replaced */
-    mw_step_ahead *ahead; /* scratch: steps that are yet to be looked at */
-    mw_sight *sight;      /* scratch: vertices that were looked at */
-    size_t rim_room;      /* of the four, see mw__rim_room */
-    uint32_t last;        /* a tile where the last edit was */
-    uint32_t walked;      /* how many tiles lay on the way, when a place to insert at was looked for last */
-    uint32_t flips;       /* of this edit                   */
+    mw_rim_step *rim;        /* scratch */
+    uint32_t *pool;          /* scratch: tiles that are to be replaced */
+    mw_step_ahead *ahead;    /* scratch: steps that are yet to be looked at */
+    mw_lifted_vertex *sight; /* scratch: vertices that were looked at */
+    size_t rim_room;         /* of the four, see mw__rim_room */
+    uint32_t last;           /* a tile where the last edit was */
+    uint32_t walked;         /* how many tiles lay on the way, when a place to insert at was looked for last */
+    uint32_t flips;          /* of this edit                   */
 } mw_fabric;
 
 static MW_INLINE uint32_t mw__corner(const mw_fabric *f, uint32_t half)
@@ -104,80 +120,10 @@ static MW_INLINE bool mw__is_users(const mw_fabric *f, uint32_t tile)
     return !(f->tiling->tri[tile].user & MW_GHOST);
 }
 
-/* Take the arrays of a tiling, borrowed from `mesh` or its own (borrowed ones are copied); `mesh` gives the numbers of vertices. Border
- * between tiles and ghosts is fixed. MW_ERROR_INPUT: vertices at one place, or triangles cut; MW_ERROR_MEMORY. Release in either case,
- * before the tiling is. */
-mw_status mw__fabric_create(mw_fabric *f, mw_tiling *tiling, const mw_mesh *mesh, mw_error *error);
-void mw__fabric_release(mw_fabric *f);
-size_t mw__fabric_bytes(const mw_fabric *f); /* but for the tiling's own (mw__tiling_bytes)   */
-
-/* --- an edit as a whole (journal.c) ----------------------------------------------------------------------------------- */
-
-/* False when out of memory. `recorded`: in the journal, unless nobody will ask and nothing can fail (mw__fabric_reserve). */
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded);
-
-/* Room for so many insertions, wherever they are and whatever they meet. False where there is not as much memory, or as many numbers, or where they
- * may be refused for another reason: in a mesh that does not fill its hull. */
-bool mw__fabric_reserve(mw_fabric *f, size_t insertions);
-
-/* After the operations. Between this and mw__fabric_forget the journal of the last step can be read. */
-void mw__fabric_commit(mw_fabric *f);
-void mw__fabric_rollback(mw_fabric *f);
-/* Take back the last step, which was recorded. Its journal then holds the tiles as they were after the edit, and is the last thing in the
- * journal until the step is dropped (mw__fabric_drop). False when out of memory; then nothing has changed. */
-bool mw__fabric_revert(mw_fabric *f);
-void mw__fabric_drop(mw_fabric *f);
-/* Keep the journal of the last `steps` edits only. */
-void mw__fabric_forget(mw_fabric *f, size_t steps);
-/* Release an empty journal, and scratch. */
-void mw__fabric_trim(mw_fabric *f);
-
-/* The part of the journal that belongs to the last step. */
-static MW_INLINE size_t mw__fabric_journal(const mw_fabric *f, const mw_before **first)
-{
-    size_t begin = f->step[f->step_count - 1].journal;
-    *first = f->before + begin;
-    return f->before_count - begin;
-}
-
-/* How many places the last step changed at most. */
-static MW_INLINE size_t mw__fabric_extent(const mw_fabric *f)
-{
-    const mw_step *step = &f->step[f->step_count - 1];
-    uint32_t tiles = f->tiling->tri_count;
-    return f->before_count - step->journal + (tiles > step->tiles ? tiles - step->tiles : 0);
-}
-
-/* The triangles that the last step, which was recorded, changed: `list` has room for three times its extent. */
-void mw__fabric_report(const mw_fabric *f, mw_changed_triangle *list, mw_change *change);
-
 /* The numbers of a tile's vertices, in the user's order. */
-void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3]);
-
-/* --- operations: MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY, then roll back ------------------------------------ */
-
-/* Vertices are places; *vertex MW_NONE: a new one, else one that is in no tile. *vertex is set to the vertex at q, which may be another
- * one. `t`: where to begin to look for q (insert.c). There may be no edit under way, if nobody will ask: one begins where this may fail after
- * it has changed something. */
-mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
-mw_status mw__fabric_remove(mw_fabric *f, uint32_t vertex, mw_error *error);
-/* `t`: where to begin to look for q if the vertex cannot stay in its star; MW_NONE: there. */
-mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error);
-mw_status mw__fabric_flip(mw_fabric *f, uint32_t from, uint32_t to, mw_error *error);
-mw_status mw__fabric_constrain(mw_fabric *f, uint32_t from, uint32_t to, bool release, uint32_t *pieces,
-                               mw_error *error);
-/* Make all that is not fixed Delaunay. */
-mw_status mw__fabric_mend(mw_fabric *f, mw_error *error);
-
-/* The half-edge from one vertex to another, inside or on the border; MW_NONE if there is none. Where only the other
- * direction has a tile, that. */
-uint32_t mw__fabric_edge(const mw_fabric *f, uint32_t from, uint32_t to);
-
-/* A tile of a vertex that is in some: the user's of the lowest number. mw_tiling.tile_at has one that is quicker to find, but which depends on
- * what happened before: edits have to come out the same when they are replayed. */
-static MW_INLINE uint32_t mw__fabric_tile(const mw_fabric *f, uint32_t vertex)
+static MW_INLINE void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3])
 {
-    return f->tiling->tile_of[mw__lowest_round(f->tiling, f->tiling->tile_at[vertex], vertex)];
+    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(tile->user, k)] = f->vertex_number[tile->v[k]];
 }
 
 #endif

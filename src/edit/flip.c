@@ -7,7 +7,11 @@
  *          \ | /    ab drawn            \ | /         triangulation, since each makes the surface lifted to the paraboloid
  *           \|/                          \|/          lower; in plane parts that are hidden from each other by fixed edges
  *            d                            d           each for itself. */
+#include "edit/flip.h"
+
+#include "edit/operations.h"
 #include "edit/stitch.h"
+#include "edit/vertex_star.h"
 
 #include <inttypes.h>
 

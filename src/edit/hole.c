@@ -6,13 +6,16 @@
  * anything follows. */
 #include "edit/hole.h"
 
+#include "edit/fabric_memory.h"
+#include "edit/stitch.h"
+
 /* --- room -------------------------------------------------------------------------------------------------------------- */
 
 /* Where the lists end. */
 typedef struct ends {
     mw_rim_step *rim;
     mw_step_ahead *ahead;
-    mw_sight *sight; /* the first of f->sight */
+    mw_lifted_vertex *sight; /* the first of f->sight */
     uint32_t sights;
     uint32_t *pool, *full; /* no more tiles than up to there, as each brings a step, a step ahead and two sights */
 } ends;
@@ -74,7 +77,7 @@ static __attribute__((noinline)) bool in_circle_exact(const mw_fabric *f, uint32
                                                       mw_point q)
 {
     const mw_point *p = f->tiling->point;
-    const mw_sight *sight = f->sight;
+    const mw_lifted_vertex *sight = f->sight;
     return mw__incircle_exact(p[sight[a].vertex], p[sight[b].vertex], p[sight[c].vertex], q) > 0;
 }
 
@@ -90,8 +93,8 @@ static MW_INLINE bool goes(const mw_fabric *f, mw_point q, uint32_t from, const 
 {
     if (MW_UNLIKELY(is_closed(f, step, plain))) return false;
     const uint32_t v = apex_beyond(f->tiling->tri, step->beyond);
-    const mw_sight *a = &f->sight[from], *b = &f->sight[step->end], c = mw__sight_of(f->tiling, v, q);
-    double bound, det = mw__sights_rounded(b, a, &c, &bound);
+    const mw_lifted_vertex *a = &f->sight[from], *b = &f->sight[step->end], c = mw__lift_vertex(f->tiling, v, q);
+    double bound, det = mw__lifted_incircle(b, a, &c, &bound);
     f->sight[apex] = c;
     if (MW_UNLIKELY(!(fabs(det) > bound))) return in_circle_exact(f, step->end, from, apex, q);
     return det > 0;
@@ -117,10 +120,10 @@ static MW_INLINE two_go both_go(const mw_fabric *f, mw_point q, uint32_t from, c
     if (MW_UNLIKELY(is_closed(f, one, plain) || is_closed(f, two, plain)))
         return wanted ? each_goes(f, q, from, *one, *two, apex, plain) : neither;
     const mw_triangle *tri = f->tiling->tri;
-    mw_sight *sight = f->sight;
+    mw_lifted_vertex *sight = f->sight;
     const uint32_t v1 = apex_beyond(tri, one->beyond), v2 = apex_beyond(tri, two->beyond);
     const mw_point *p1 = &f->tiling->point[v1], *p2 = &f->tiling->point[v2];
-    const mw_sight *a = &sight[from], *b = &sight[one->end], *c = &sight[two->end];
+    const mw_lifted_vertex *a = &sight[from], *b = &sight[one->end], *c = &sight[two->end];
     const pair here = {q.x, q.y}, to1 = (pair){p1->x, p1->y} - here, to2 = (pair){p2->x, p2->y} - here;
     const pair x = {to1[0], to2[0]}, y = {to1[1], to2[1]}, lift = x * x + y * y;
     const pair from_x = {a->x, b->x}, from_y = {a->y, b->y}, from_lift = {a->lift, b->lift};
@@ -128,9 +131,9 @@ static MW_INLINE two_go both_go(const mw_fabric *f, mw_point q, uint32_t from, c
     const pair lifts = from_lift + end_lift + lift;
     const pair det = end_lift * (from_x * y - from_y * x) + from_lift * (x * end_y - y * end_x) +
                      lift * (end_x * from_y - end_y * from_x);
-    sight[apex] = (mw_sight){to1[0], to1[1], lift[0], v1};
-    sight[apex + 1] = (mw_sight){to2[0], to2[1], lift[1], v2};
-    const double both = lifts[0] + lifts[1], bound = both * both * MW_SIGHTS_ERROR + MW_UNDERFLOW_ERROR;
+    sight[apex] = (mw_lifted_vertex){to1[0], to1[1], lift[0], v1};
+    sight[apex + 1] = (mw_lifted_vertex){to2[0], to2[1], lift[1], v2};
+    const double both = lifts[0] + lifts[1], bound = both * both * MW_LIFTED_ERROR + MW_UNDERFLOW_ERROR;
     const double first = fabs(det[0]), second = fabs(det[1]);
     if (MW_UNLIKELY(!((first < second ? first : second) > bound)))
         return wanted ? each_goes(f, q, from, *one, *two, apex, plain) : neither;
@@ -261,7 +264,7 @@ bool mw__dig_side(mw_fabric *f, mw_hole *h, uint32_t half)
     const uint32_t prev = mw__prev(k);
     mw_step_ahead one = edge_of(f, t, next, prev, false), two = edge_of(f, t, prev, k, false);
     if (!begin_with(f, h, t)) return false;
-    mw__see_corners(f, t, h->q);
+    mw__lift_corners(f, t, h->q);
     const two_go go = both_go(f, h->q, next, &one, &two, 3, true, false);
     one.apex = go.one ? 3 : MW_NONE;
     two.apex = go.two ? 4 : MW_NONE;
@@ -299,11 +302,11 @@ bool mw__dig_outside(mw_fabric *f, mw_hole *h, uint32_t t)
     for (after = half; sees(f, q, after); after = hull_after(f, after)) {
         /* it stays, but nothing else tells that it had no neighbour there */
         if (!mw__journal(f, mw__link_triangle(after)) || !mw__rim_room(f, room_besides(h, steps + 1))) return false;
-        f->sight[steps] = mw__sight_of(f->tiling, mw__corner(f, after), q);
+        f->sight[steps] = mw__lift_vertex(f->tiling, mw__corner(f, after), q);
         f->ahead[steps] = (mw_step_ahead){.end = steps, .beyond = after, .fixed = mw__is_fixed(f, after)};
         steps++;
     }
-    f->sight[steps] = mw__sight_of(f->tiling, mw__corner(f, after), q);
+    f->sight[steps] = mw__lift_vertex(f->tiling, mw__corner(f, after), q);
     for (uint32_t i = 0; i < steps; i++)
         f->ahead[i].apex = goes(f, q, i + 1, &f->ahead[i], steps + 1 + i, false) ? steps + 1 + i : MW_NONE;
     return dig(f, h, steps, f->ahead[steps - 1], steps - 1, 2 * steps + 1, false);

@@ -5,7 +5,7 @@
 #ifndef MW_SRC_HOLE_H
 #define MW_SRC_HOLE_H
 
-#include "edit/rim.h"
+#include "edit/fabric.h"
 
 /* Round q: steps, counter-clockwise, in f->rim from `first` on (the one after the last tells where it ends), and the tiles that go in f->pool
  * from `pool` on, in the order in which they are met, from the first tile's neighbours on; which number goes where follows from that. */
@@ -28,9 +28,9 @@ bool mw__dig_side(mw_fabric *f, mw_hole *h, uint32_t half);
 bool mw__dig_outside(mw_fabric *f, mw_hole *h, uint32_t t);
 
 /* The first three of f->sight, for which there has to be room: the corners of a tile. */
-static MW_INLINE void mw__see_corners(mw_fabric *f, uint32_t t, mw_point q)
+static MW_INLINE void mw__lift_corners(mw_fabric *f, uint32_t t, mw_point q)
 {
-    for (int k = 0; k < 3; k++) f->sight[k] = mw__sight_of(f->tiling, f->tiling->tri[t].v[k], q);
+    for (int k = 0; k < 3; k++) f->sight[k] = mw__lift_vertex(f->tiling, f->tiling->tri[t].v[k], q);
 }
 
 #endif

@@ -3,6 +3,9 @@
  * The tiles that have to go are dug out (hole.h), and what they leave is filled with a star round the vertex: the tiles that flips one after
  * another would lead to [Lawson 1977], each made once. All of them have the vertex as corner 2. */
 #include "edit/hole.h"
+#include "edit/journal.h"
+#include "edit/operations.h"
+#include "edit/stitch.h"
 
 #include "walk/remembering_corners.h"
 
@@ -174,7 +177,7 @@ static uint32_t corner_there(const mw_fabric *f)
 static uint32_t edge_there(const mw_fabric *f, uint32_t t, mw_point q)
 {
     uint32_t k = 0;
-    while (k < 2 && mw__sights_side(f->tiling, &f->sight[k], &f->sight[k + 1], q) != 0) k++;
+    while (k < 2 && mw__lifted_side(f->tiling, &f->sight[k], &f->sight[k + 1], q) != 0) k++;
     return mw__link(t, k);
 }
 

@@ -1,6 +1,9 @@
 /* insert_points.c - many points at once: one step, whose journal has each tile once, or which needs none. */
 #include "edit/editor.h"
-#include "edit/rim.h"
+#include "edit/fabric_memory.h"
+#include "walk/fetch.h"
+#include "edit/hole.h"
+#include "edit/journal.h"
 
 #include "mesh/curve.h"
 #include "walk/fetch.h"
@@ -187,6 +190,16 @@ static bool are_finite(const batch *b)
     return true;
 }
 
+/* Room for so many insertions, wherever they are and whatever they meet. False where there is not as much memory, or as many numbers, or where they
+ * may be refused for another reason: in a mesh that does not fill its hull. */
+static bool reserve_insertions(mw_fabric *f, size_t n)
+{
+    mw_tiling *tiling = f->tiling;
+    const size_t tiles = 2 * (tiling->point_count + n); /* there are fewer in any triangulation of so many points */
+    if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
+    return mw__more_tiles(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__hole_room(f, tiles);
+}
+
 /* Begin the step. Where nobody asks, and there is room for all that may be met, nothing can fail, and nothing has to be recorded. Room that is not
  * used takes addresses only, but time: more than a few records would. */
 enum { FEW = 100 };
@@ -196,7 +209,7 @@ static bool begin(mw_editor *editor, const batch *b, const mw_change *change)
     mw_fabric *f = &editor->fabric;
     const mw_edit first = insertion(b->point[item(b, 0)]);
     bool sure = b->n >= FEW && !mw__editor_asks(editor, change) && are_finite(b) && mw__field_room(editor, b->n) &&
-                mw__fabric_reserve(f, b->n);
+                reserve_insertions(f, b->n);
     if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(f, TILES_PER_POINT * b->n))) return false;
     return mw__fabric_begin(f, &first, !sure);
 }

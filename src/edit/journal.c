@@ -1,4 +1,7 @@
 /* journal.c - an edit as a whole: what it changed, and how it is taken back. */
+#include "edit/journal.h"
+
+#include "edit/fabric_memory.h"
 #include "edit/stitch.h"
 
 #include <stdlib.h>
@@ -185,11 +188,6 @@ static const mw_triangle *tile_now(const mw_tiling *tiling, uint32_t number)
 static mw_changed_triangle made_triangle(const mw_triangle *tile)
 {
     return (mw_changed_triangle){tile->user & MW_USER_MASK, {MW_NONE, MW_NONE, MW_NONE}};
-}
-
-void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3])
-{
-    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(tile->user, k)] = f->vertex_number[tile->v[k]];
 }
 
 static int by_number(const void *a, const void *b)

@@ -6,6 +6,9 @@
 #include "edit/live_layers.h"
 
 #include "base/random.h"
+#include "edit/fabric_memory.h"
+#include "edit/journal.h"
+#include "edit/operations.h"
 #include "start/start.h"
 
 #include <stdlib.h>

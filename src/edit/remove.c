@@ -3,7 +3,11 @@
  * The tiles round the vertex are replaced by corners cut off their boundary, then edges between these are flipped until they are Delaunay. On
  * the hull corners are cut off until what is left is convex. Where two fixed edges meet at the vertex in line they become one, and the two
  * sides of it are filled each for itself. */
+#include "edit/flip.h"
+#include "edit/operations.h"
 #include "edit/rim.h"
+#include "edit/stitch.h"
+#include "edit/vertex_star.h"
 
 #include <inttypes.h>
 #include <string.h>

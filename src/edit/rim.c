@@ -1,130 +1,10 @@
 /* rim.c - filling the hole that tiles leave, by cutting off corners of its boundary. */
 #include "edit/rim.h"
 
-#include <stdlib.h>
+#include "edit/fabric_memory.h"
+#include "edit/stitch.h"
+
 #include <string.h>
-
-bool mw__rim_enlarge(mw_fabric *f, size_t steps)
-{
-    size_t room = steps + steps / 2 + 16;
-    mw_rim_step *rim = mw__realloc(f->rim, room, sizeof *rim);
-    if (!rim) return false;
-    f->rim = rim;
-    uint32_t *pool = mw__realloc(f->pool, room, sizeof *pool);
-    if (!pool) return false;
-    f->pool = pool;
-    mw_step_ahead *ahead = mw__realloc(f->ahead, room, sizeof *ahead);
-    if (!ahead) return false;
-    f->ahead = ahead;
-    mw_sight *sight = mw__realloc(f->sight, 2 * room, sizeof *sight);
-    if (!sight) return false;
-    f->sight = sight;
-    f->rim_room = room;
-    return true;
-}
-
-void mw__rim_release(mw_fabric *f)
-{
-    free(f->rim);
-    free(f->pool);
-    free(f->ahead);
-    free(f->sight);
-    f->rim = NULL;
-    f->pool = NULL;
-    f->ahead = NULL;
-    f->sight = NULL;
-    f->rim_room = 0;
-}
-
-size_t mw__rim_bytes(const mw_fabric *f)
-{
-    return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead + 2 * sizeof *f->sight);
-}
-
-/* --- the star of a vertex --------------------------------------------------------------------------------------------- */
-
-uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open)
-{
-    return mw__star_from(f, v, mw__fabric_tile(f, v), open);
-}
-
-uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t first, bool *open)
-{
-    const mw_tiling *tiling = f->tiling;
-    uint32_t at = mw__link(first, mw__corner_of(&tiling->tri[first], v));
-    for (;;) {
-        uint32_t link = tiling->tri[mw__link_triangle(at)].link[mw__link_edge(at)];
-        *open = link == MW_NONE;
-        if (*open) return at;
-        at = mw__half_next(link); /* link enters the tile by the edge that ends at v */
-        if (mw__link_triangle(at) == first) return at;
-    }
-}
-
-/* The edges round v from `first` on, until they close or end at the hull, onto the stack; *lowest: which of them is one of the lowest of its
- * triangles. */
-static bool go_round(mw_fabric *f, uint32_t first, mw_star *star, size_t *lowest)
-{
-    const mw_triangle *tri = f->tiling->tri;
-    uint32_t at = first, best = MW_NONE;
-    f->stack_count = 0;
-    do {
-        const mw_triangle *tile = &tri[mw__link_triangle(at)];
-        uint32_t number = tile->user & ~MW_FLIPPED;
-        *lowest = number < best ? f->stack_count : *lowest;
-        best = number < best ? number : best;
-        if (!mw__push(f, at)) return false;
-        at = tile->link[mw__prev(mw__link_edge(at))]; /* which begins at v */
-    } while (at != MW_NONE && at != first);
-    *star = (mw_star){.n = f->stack_count, .open = at == MW_NONE};
-    return mw__rim_room(f, star->n + 2);
-}
-
-static void note_spoke(mw_star *star, size_t at)
-{
-    if (star->spokes++ < 2) star->spoke[star->spokes - 1] = at;
-}
-
-/* The steps across from v, one for each edge on the stack, of which `first` is the first. What filling them will touch is fetched meanwhile. */
-static void set_steps(mw_fabric *f, mw_star *star, size_t first)
-{
-    const mw_triangle *tri = f->tiling->tri;
-    size_t from = first;
-    for (size_t i = 0; i < star->n; i++) {
-        uint32_t at = f->stack[from], t = mw__link_triangle(at), k = mw__link_edge(at), next = mw__next(k);
-        uint32_t marks = f->mark[t];
-        mw_rim_step *step = &f->rim[i];
-        step->vertex = tri[t].v[next];
-        step->beyond = tri[t].link[next];
-        step->half = mw__link(t, next);
-        step->fixed = marks >> next & 1;
-        step->slit = false;
-        __builtin_prefetch(&f->tiling->point[step->vertex]);
-        __builtin_prefetch(&f->tiling->tile_at[step->vertex], 1);
-        if (step->beyond != MW_NONE) __builtin_prefetch(&tri[mw__link_triangle(step->beyond)], 1);
-        f->pool[i] = t;
-        if (MW_UNLIKELY(marks >> k & 1)) note_spoke(star, i);
-        if (++from == star->n) from = 0;
-    }
-    uint32_t end = mw__half_prev(f->stack[from > 0 ? from - 1 : star->n - 1]);
-    f->rim[star->n].vertex = mw__corner(f, end);
-    if (star->open && mw__is_fixed(f, end)) note_spoke(star, star->n);
-    f->stack_count = 0;
-}
-
-bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
-{
-    uint32_t tile = f->tiling->tile_at[v];
-    size_t first = 0;
-    bool open;
-    if (!go_round(f, mw__link(tile, mw__corner_of(&f->tiling->tri[tile], v)), star, &first)) return false;
-    if (star->open) {
-        if (!go_round(f, mw__star_from(f, v, tile, &open), star, &first)) return false;
-        first = 0;
-    }
-    set_steps(f, star, first);
-    return true;
-}
 
 /* --- tiles from the pool ---------------------------------------------------------------------------------------------- */
 
@@ -233,13 +113,13 @@ bool mw__cut_chain(mw_fabric *f, mw_rim_step *step, size_t *n, mw_pool *pool)
 static size_t find_apex(const mw_fabric *f, const mw_rim_step *step, size_t n)
 {
     const mw_point *p = f->tiling->point, from = p[step[n].vertex];
-    mw_sight to = mw__sight_of(f->tiling, step[0].vertex, from), apex = to;
+    mw_lifted_vertex to = mw__lift_vertex(f->tiling, step[0].vertex, from), apex = to;
     size_t best = 0;
     for (size_t i = 1; i < n; i++) {
-        mw_sight next = mw__sight_of(f->tiling, step[i].vertex, from);
-        if (!(mw__sights_side(f->tiling, &to, &next, from) > 0)) continue;
+        mw_lifted_vertex next = mw__lift_vertex(f->tiling, step[i].vertex, from);
+        if (!(mw__lifted_side(f->tiling, &to, &next, from) > 0)) continue;
         if (best > 0) {
-            double bound, det = mw__sights_rounded(&to, &apex, &next, &bound); /* < 0: the next is in the circle */
+            double bound, det = mw__lifted_incircle(&to, &apex, &next, &bound); /* < 0: the next is in the circle */
             if (MW_UNLIKELY(!(fabs(det) > bound)))
                 det = -mw__incircle_exact(from, p[to.vertex], p[apex.vertex], p[next.vertex]);
             if (det >= 0) continue;

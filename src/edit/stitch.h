@@ -4,9 +4,7 @@
 #ifndef MW_SRC_STITCH_H
 #define MW_SRC_STITCH_H
 
-#include "edit/fabric.h"
-
-bool mw__journal_room(mw_fabric *f, size_t more); /* for so many records */
+#include "edit/fabric_memory.h"
 
 /* Put the record of a tile into the journal of this edit, before its corners, marks or neighbours beyond a hull edge change. */
 static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
@@ -19,15 +17,6 @@ static MW_INLINE bool mw__journal(mw_fabric *f, uint32_t t)
     before->tile = f->tiling->tri[t];
     f->mark[t] |= MW_JOURNALED;
     return true;
-}
-
-/* Room for n tiles more, and for their numbers if they are the user's, as tile `beside` is. False when out of memory or numbers. */
-bool mw__more_tiles(mw_fabric *f, size_t n, bool users);
-static MW_INLINE bool mw__tile_room(mw_fabric *f, uint32_t beside, size_t n)
-{
-    const mw_tiling *tiling = f->tiling;
-    bool room = tiling->tri_count + n <= f->tile_room && tiling->number_count + n <= f->number_room;
-    return MW_LIKELY(room) || mw__more_tiles(f, n, mw__is_users(f, beside));
 }
 
 /* n ghosts at the end of the array, for which there is room, all with the same number; as below. */
@@ -58,14 +47,6 @@ void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir);
 /* Take tiles out of the array; each has been journaled, and none is anyone's neighbour. Sorts the list. */
 bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count);
 
-/* Room for n vertices more, and their numbers. False when out of memory or numbers. */
-bool mw__more_vertices(mw_fabric *f, size_t n);
-static MW_INLINE bool mw__vertex_room(mw_fabric *f, size_t n)
-{
-    bool places = f->tiling->point_count + n <= f->point_room;
-    return MW_LIKELY(places && f->vertex_count + n <= f->vertex_room) || mw__more_vertices(f, n);
-}
-
 /* A vertex at q, for which there is room, with a number of its own. The place of one that no tile has any more is free. */
 static MW_INLINE uint32_t mw__add_vertex(mw_fabric *f, mw_point q)
 {
@@ -78,10 +59,8 @@ static MW_INLINE uint32_t mw__add_vertex(mw_fabric *f, mw_point q)
     return v;
 }
 
+/* Take a vertex out that no tile has any more: its place is free. False when out of memory. */
 bool mw__free_vertex(mw_fabric *f, uint32_t vertex);
-
-/* Room for so many numbers in the scratch stack (beyond its count). */
-bool mw__stack_room(mw_fabric *f, size_t more);
 
 /* half and `beyond`, which may be MW_NONE, become neighbours. */
 static MW_INLINE void mw__attach(mw_fabric *f, uint32_t half, uint32_t beyond)
@@ -107,27 +86,5 @@ static MW_INLINE void mw__set_fixed(mw_fabric *f, uint32_t t, uint32_t edges)
 {
     f->mark[t] = (uint8_t)((f->mark[t] & ~MW_FIXED_EDGES) | edges);
 }
-
-/* --- flips (flip.c) --------------------------------------------------------------------------------------------------- */
-
-/* The edge `half` of a convex quadrilateral becomes its other diagonal: a, b, c and b, a, d become a, d, c and d, b, c, the second one in
- * the place of the tile beyond. */
-bool mw__exchange(mw_fabric *f, uint32_t half);
-
-/* Is the vertex across the edge in the circle of its tile? Not if the edge is fixed or on the hull. */
-bool mw__is_illegal(const mw_fabric *f, uint32_t half);
-
-static MW_INLINE bool mw__push(mw_fabric *f, uint32_t half)
-{
-    if (MW_UNLIKELY(f->stack_count == f->stack_room) && !mw__stack_room(f, 1)) return false;
-    f->stack[f->stack_count++] = half;
-    return true;
-}
-
-/* Flip the edges on the stack, and what becomes illegal by it, until all are legal [Lawson 1977]. Where the mesh is not kept Delaunay,
- * only edges within what the edit has filled (MW_FILLED). Empties the stack. */
-bool mw__legalise(mw_fabric *f);
-/* The same, but only edges within what the edit has filled: where those round about are known to be legal. */
-bool mw__legalise_within(mw_fabric *f);
 
 #endif

@@ -2,7 +2,7 @@
 #include "edit/upkeep.h"
 
 #include "base/clock.h"
-#include "edit/rim.h"
+#include "edit/journal.h"
 #include "locate/spread.h"
 
 /* --- building ---------------------------------------------------------------------------------------------------------- */

@@ -172,3 +172,13 @@ mw_status mw__build_finish(mw_builder *builder, mw_error *error)
     file->triangles = triangles;
     return MW_OK;
 }
+
+void mw__release_fields(char **names, double **fields, size_t count)
+{
+    for (size_t f = 0; f < count; f++) {
+        free(names[f]);
+        free(fields[f]);
+    }
+    free(names);
+    free(fields);
+}

@@ -1,5 +1,5 @@
 /* Writing a mesh as a table: a row for each corner of each triangle, so that nothing but unused vertices is lost. */
-#include "io/formats.h"
+#include "io/mesh_writers.h"
 #include "io/output.h"
 
 static void write_csv(mw_output *output, const mw_mesh_file *file)

@@ -1,5 +1,8 @@
 #include "io/formats.h"
 
+#include "io/mesh_readers.h"
+#include "io/mesh_writers.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -57,13 +60,6 @@ const char *mw_mesh_format_name(size_t i)
     for (size_t k = 0; k < FORMAT_COUNT; k++)
         if (formats[k].write && i-- == 0) return formats[k].name;
     return NULL;
-}
-
-bool mw__path_ends(const char *path, const char *ending)
-{
-    size_t length = strlen(path), wanted = strlen(ending);
-    if (length > 3 && strcasecmp(path + length - 3, ".gz") == 0) length -= 3;
-    return length > wanted && strncasecmp(path + length - wanted, ending, wanted) == 0;
 }
 
 const mw_mesh_format *mw__format_by_path(const char *path)

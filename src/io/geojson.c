@@ -1,7 +1,7 @@
 /* GeoJSON [RFC 7946]: the geometries of all features. Properties, `crs`, `bbox` and foreign members are passed over,
  * and so are geometries that are null or have no coordinates. The third number of a position is z, further ones do not
  * count. A ring that is not closed is closed. The text is parsed by Jansson. */
-#include "io/constraints.h"
+#include "io/geojson.h"
 
 #ifdef MW_JANSSON
 

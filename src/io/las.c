@@ -2,8 +2,9 @@
  *
  * The number of points that the header gives is where reading stops; where the data end before, that is an error. What
  * else stands in the file (variable length records, waveforms) is passed over unread. */
+#include "io/las.h"
+
 #include "io/little.h"
-#include "io/points.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Meshes in files: choosing the reader or the writer. */
 #include "io/builder.h"
 #include "io/formats.h"
-#include "io/output.h"
+#include "io/mesh_readers.h"
 #include "io/source.h"
 
 #include <inttypes.h>
@@ -55,16 +55,6 @@ mw_status mw_read_mesh(const char *path, mw_mesh_file *file, mw_error *error)
     return status;
 }
 
-void mw__release_fields(char **names, double **fields, size_t count)
-{
-    for (size_t f = 0; f < count; f++) {
-        free(names[f]);
-        free(fields[f]);
-    }
-    free(names);
-    free(fields);
-}
-
 void mw_mesh_file_release(mw_mesh_file *file)
 {
     if (!file) return;
@@ -82,15 +72,6 @@ mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file)
                        .triangles = file->triangles,
                        .triangle_count = file->triangle_count,
                        .integer_type = MW_UINT32};
-}
-
-mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_error *error)
-{
-    mw_output *output;
-    mw_status status = mw_output_open(path, &output, error);
-    if (status) return status;
-    body(output, file);
-    return mw_output_close(output, 1, error);
 }
 
 mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *name, mw_error *error)
@@ -114,25 +95,4 @@ mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *
                                    "triangle %zu names vertex %" PRIu32 ", which does not exist", t,
                                    file->triangles[3 * t + (size_t)k]);
     return format->write(path, file, error);
-}
-
-void mw__output_points(mw_output *output, const mw_mesh_file *file)
-{
-    for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++)
-        for (size_t k = 0; k < 3; k++) {
-            mw_output_double(output, file->points[3 * v + k]);
-            mw__output_char(output, k < 2 ? ' ' : '\n');
-        }
-}
-
-void mw__output_triangles(mw_output *output, const mw_mesh_file *file)
-{
-    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) {
-        mw__output_char(output, '3');
-        for (size_t k = 0; k < 3; k++) {
-            mw__output_char(output, ' ');
-            mw__output_integer(output, file->triangles[3 * t + k]);
-        }
-        mw__output_char(output, '\n');
-    }
 }

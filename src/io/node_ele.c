@@ -4,7 +4,8 @@
  *
  * The format has no names for attributes and no heights. A comment "# attributes: z, depth" on top, which other
  * programs skip, names them here, and an attribute called z is taken as the height. */
-#include "io/formats.h"
+#include "io/mesh_readers.h"
+#include "io/mesh_writers.h"
 #include "io/number.h"
 #include "io/output.h"
 #include "io/row.h"

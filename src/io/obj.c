@@ -1,6 +1,7 @@
 /* OBJ, the format of Wavefront: "v x y z ...", "f a b c ..." with corners "a", "a/t", "a//n" or "a/t/n", counted from 1
  * or, when negative, back from the last vertex. A "\" at the end continues a line. All else is passed over. */
-#include "io/formats.h"
+#include "io/mesh_readers.h"
+#include "io/mesh_writers.h"
 #include "io/number.h"
 #include "io/output.h"
 

@@ -1,6 +1,7 @@
 /* OFF, the format of Geomview: [ST][C][N]OFF, then the counts of vertices, faces and (perhaps) edges, then the vertices
  * and the faces, one a line. Normals, colours and texture coordinates are passed over. */
-#include "io/formats.h"
+#include "io/mesh_readers.h"
+#include "io/mesh_writers.h"
 #include "io/number.h"
 #include "io/output.h"
 

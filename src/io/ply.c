@@ -1,10 +1,10 @@
 /* PLY, the Stanford polygon format: text, and binary in both byte orders. Read are the element "vertex", with its
  * properties x, y, (z) and its other numbers as fields, the element "face", and the element "tristrips" (strips of
  * triangles parted by -1); other elements and lists are passed over. */
-#include "io/formats.h"
 #include "io/little.h"
+#include "io/mesh_readers.h"
 #include "io/number.h"
-#include "io/ply.h"
+#include "io/ply_header.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,5 +1,6 @@
+#include "io/ply_header.h"
+
 #include "io/number.h"
-#include "io/ply.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Writing PLY: doubles, little-endian binary or text. */
-#include "io/formats.h"
 #include "io/little.h"
+#include "io/mesh_writers.h"
 #include "io/output.h"
 
 #include <limits.h>

@@ -1,30 +1,14 @@
+/* Points in files: telling the format, and the stream. */
 #include "io/points.h"
+
+#include "io/builder.h"
 #include "io/formats.h"
+#include "io/las.h"
+#include "io/mesh_readers.h"
+#include "io/points_text.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-mw_status mw__points_add(mw_point_reader *reader, const char *name, mw_error *error)
-{
-    char **names = mw__realloc(reader->names, reader->width + 1, sizeof *names);
-    if (!names) return mw__fail_memory(error);
-    reader->names = names;
-    names[reader->width] = strdup(name);
-    if (!names[reader->width]) return mw__fail_memory(error);
-    reader->width++;
-    return MW_OK;
-}
-
-const char *mw__points_item(const char **rest, size_t *length)
-{
-    if (!*rest) return NULL;
-    const char *item = mw__skip_blanks(*rest);
-    size_t size = strcspn(item, ",");
-    *rest = item[size] ? item + size + 1 : NULL;
-    while (size > 0 && mw__is_blank(item[size - 1])) size--;
-    *length = size;
-    return item;
-}
 
 /* A selection names at least two columns, and none of its items is empty. */
 static mw_status check_selection(const char *columns, mw_error *error)

@@ -1,8 +1,9 @@
 /* Points from text: which columns are read, and the rows. */
+#include "io/points_text.h"
+
+#include "io/builder.h"
 #include "io/columns.h"
-#include "io/formats.h"
 #include "io/number.h"
-#include "io/points.h"
 #include "io/table.h"
 
 #include <inttypes.h>

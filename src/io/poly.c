@@ -1,8 +1,9 @@
 /* Triangle's .poly: the vertices as in .node, or "0" and the vertices in the .node file of the same name; then "count
  * markers" and "number a b marker" a line for the segments; then "count" and "number x y" a line for the holes. What
  * follows, the attributes of regions, is passed over, and so are markers and the numbers of segments and holes. */
-#include "io/constraints.h"
-#include "io/formats.h"
+#include "io/poly.h"
+
+#include "io/mesh_readers.h"
 #include "io/row.h"
 
 #include <math.h>

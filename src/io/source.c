@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -18,6 +19,13 @@ enum { BLOCK = 1 << 18, PACKED_BLOCK = 1 << 16, MEMORY_BLOCK = 64 };
 const char *mw__source_name(const mw_source *source)
 {
     return strcmp(source->path, "-") == 0 ? "standard input" : source->path;
+}
+
+bool mw__path_ends(const char *path, const char *ending)
+{
+    size_t length = strlen(path), wanted = strlen(ending);
+    if (length > 3 && strcasecmp(path + length - 3, ".gz") == 0) length -= 3;
+    return length > wanted && strncasecmp(path + length - wanted, ending, wanted) == 0;
 }
 
 uint64_t mw__source_place(const mw_source *source)

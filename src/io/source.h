@@ -41,6 +41,9 @@ void mw__source_close(mw_source *source);
 /* The path for messages. */
 const char *mw__source_name(const mw_source *source);
 
+/* Whether a path ends so, in letters of any case, ".gz" disregarded. */
+bool mw__path_ends(const char *path, const char *ending);
+
 /* Up to `wanted` of the next bytes, which stay unread; fewer only at the end of the input. */
 mw_status mw__source_peek(mw_source *source, size_t wanted, const char **bytes, size_t *count, mw_error *error);
 

@@ -1,8 +1,9 @@
 /* STL, as text ("solid ... facet ... vertex x y z ...") and binary (80 bytes, a count, 50 bytes a triangle of single
  * precision numbers). Corners with equal coordinates become one vertex. */
 #define _DEFAULT_SOURCE /* strncasecmp */
-#include "io/formats.h"
 #include "io/little.h"
+#include "io/mesh_readers.h"
+#include "io/mesh_writers.h"
 #include "io/output.h"
 #include "io/weld.h"
 

@@ -1,6 +1,6 @@
 /* Writing legacy VTK (text, version 3.0), for ParaView: an unstructured grid of triangles with the fields as point
  * data. */
-#include "io/formats.h"
+#include "io/mesh_writers.h"
 #include "io/output.h"
 
 static void write_values(mw_output *output, const double *values, size_t count)

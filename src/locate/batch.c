@@ -2,8 +2,8 @@
  * Where they may, they take the fast path (interleaved.c).
  *
  * Answers are exact and therefore the same for any threads, lanes and order. The counters too do not depend on the
- * threads: chunks have a fixed size, and the random numbers of a query come from its own number (base/batch.c). */
-#include "base/batch.h"
+ * threads: chunks have a fixed size, and the random numbers of a query come from its own number (batch/batch.c). */
+#include "batch/batch.h"
 #include "base/random.h"
 #include "locate/fast_path.h"
 #include "locate/index.h"

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_INTERLEAVED_H
 #define MW_SRC_INTERLEAVED_H
 
-#include "base/batch.h"
+#include "batch/batch.h"
 #include "locate/locator.h"
 
 /* The queries of a batch that may take the fast path (mw__has_fast_path). */

@@ -2,6 +2,7 @@
 #include "locate/locator.h"
 
 #include "base/clock.h"
+#include "domain/tiling_create.h"
 #include "mesh/order.h"
 #include "start/start.h"
 

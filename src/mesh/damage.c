@@ -1,6 +1,8 @@
 /* damage.c - finds what makes arrays unusable. An edge of more than two triangles shows as an edge without neighbour
  * that has the ends of a linked one: those without are sorted, the linked ones looked up. */
 #include "mesh/damage.h"
+#include "mesh/arrays.h"
+#include "mesh/match.h"
 
 #include <stdlib.h>
 

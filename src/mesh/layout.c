@@ -5,6 +5,7 @@
 #include "mesh/layout.h"
 
 #include "base/threads.h"
+#include "mesh/arrays.h"
 #include "mesh/curve.h"
 #include "mesh/parts.h"
 

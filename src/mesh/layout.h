@@ -6,7 +6,7 @@
 #ifndef MW_SRC_LAYOUT_H
 #define MW_SRC_LAYOUT_H
 
-#include "mesh/mesh.h"
+#include "mesh/match.h"
 
 /* Are the vertices of the arrays' triangles far apart in memory, or triangles that follow each other? Looks at a few. */
 bool mw__is_scattered(const mw_arrays *arrays);

@@ -7,8 +7,6 @@
  * places that are known beforehand; the third edge is sorted in. Where a bunch is not as simple, each vertex is looked at by itself. */
 #include "mesh/link.h"
 
-#include "mesh/connect.h"
-
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_LINK_H
 #define MW_SRC_LINK_H
 
-#include "mesh/mesh.h"
+#include "mesh/match.h"
 
 /* Vertices base to before base + size, and the triangles whose lowest vertex is one of these, in order of that: first to before
  * end. */

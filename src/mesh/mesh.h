@@ -121,46 +121,6 @@ static MW_INLINE uint32_t mw__users_vertex(const mw_mesh *mesh, uint32_t place)
     return mesh->users_vertex ? mesh->users_vertex[place] : place;
 }
 
-/* Number i of the index array; numbers that do not fit become MW_NONE, which is out of range of any mesh. */
-static MW_INLINE uint32_t mw__index_at(const mw_arrays *from, size_t i)
-{
-    if (MW_LIKELY(from->integer_type == MW_UINT32)) return ((const uint32_t *)from->triangles)[i];
-    int64_t v =
-        from->integer_type == MW_INT32 ? ((const int32_t *)from->triangles)[i] : ((const int64_t *)from->triangles)[i];
-    return v < 0 || v >= MW_NONE ? MW_NONE : (uint32_t)v;
-}
-
-/* Are the arrays there, no larger than a mesh may be, and do their strides hold the coordinates of a vertex: 2 or 3? */
-mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_error *error);
-
-/* Copy the vertices of triangle t, without links; MW_ERROR_INPUT names what makes them unusable, unless it is
- * tolerated. */
-mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tolerant, uint32_t t, mw_triangle *tri,
-                            mw_error *error);
-
-/* The error of an edge that has two triangles already; the link `extra` names it, from and to are its vertices by the
- * user's numbers. */
-mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to, mw_error *error);
-
-/* What linking has found. */
-typedef struct mw_links {
-    uint64_t linked; /* half-edges that got a link                                                          */
-    uint32_t
-        extra;     /* a link to the third or a further triangle of an edge, the one of the lowest user's number; MW_NONE
-                        if there is none                                                                    */
-    bool opposite; /* both triangles of each edge run through it in opposite directions                   */
-} mw_links;
-
-static MW_INLINE mw_links mw__no_links(void)
-{
-    return (mw_links){.extra = MW_NONE, .opposite = true};
-}
-
-/* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). *links may be NULL.
- * An edge of more than two triangles links the first two. Links two triangles whatever their orientation, but none that
- * names a vertex twice. They have no links before. threads: 0 = as OpenMP gives. Returns false when out of memory. */
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links);
-
 /* Of three vertices, the lowest and the one between. */
 static MW_INLINE uint32_t mw__lowest(uint32_t a, uint32_t b, uint32_t c)
 {

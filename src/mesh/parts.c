@@ -6,7 +6,6 @@
 #include "mesh/parts.h"
 
 #include "base/threads.h"
-#include "mesh/connect.h"
 #include "mesh/link.h"
 
 #include <stdlib.h>

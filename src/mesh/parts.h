@@ -2,6 +2,7 @@
 #ifndef MW_SRC_PARTS_H
 #define MW_SRC_PARTS_H
 
+#include "mesh/match.h"
 #include "mesh/piles.h"
 
 /* Fill the arrays of triangles, and of their places, of a mesh that has its vertices: by their lowest vertices, counter-clockwise,

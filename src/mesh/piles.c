@@ -1,6 +1,8 @@
 /* piles.c - triangles of the caller's arrays to piles. */
 #include "mesh/piles.h"
 
+#include "mesh/arrays.h"
+
 #include <stdlib.h>
 
 static size_t share_begin(const mw_piles *p, uint32_t stacker)

@@ -1,5 +1,7 @@
 /* surface.c - a surface in space from arrays: copies, places, neighbours; its update. */
 #include "mesh/surface.h"
+#include "mesh/arrays.h"
+#include "mesh/connect.h"
 #include "mesh/place.h"
 
 #include <stdlib.h>

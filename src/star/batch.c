@@ -1,5 +1,5 @@
 /* batch.c - many queries: within the chunk of a thread many walks are in flight. */
-#include "base/batch.h"
+#include "batch/batch.h"
 #include "base/random.h"
 #include "star/locate.h"
 #include "star/place.h"

@@ -25,27 +25,6 @@ const char *mw_probe_start_name(mw_probe_start start)
 
 /* --- counters ----------------------------------------------------------------------------------------------------- */
 
-static void raise(uint64_t *most, uint64_t value)
-{
-    if (value > *most) *most = value;
-}
-
-void mw_probe_counters_add(mw_probe_counters *sum, const mw_probe_counters *more)
-{
-    sum->queries += more->queries;
-    sum->hits += more->hits;
-    sum->samples += more->samples;
-    sum->triangles += more->triangles;
-    raise(&sum->triangles_max, more->triangles_max);
-    sum->tests += more->tests;
-    raise(&sum->tests_max, more->tests_max);
-    sum->intersections += more->intersections;
-    sum->iterations += more->iterations;
-    raise(&sum->iterations_max, more->iterations_max);
-    sum->boxes += more->boxes;
-    sum->box_triangles += more->box_triangles;
-}
-
 static void count(mw_probe_counters *sum, mw_probe_counters *work, bool hit)
 {
     work->queries = 1;

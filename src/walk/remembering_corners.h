@@ -19,29 +19,8 @@
 #define MW_SRC_REMEMBERING_CORNERS_H
 
 #include "walk/fetch.h"
+#include "walk/lifted.h"
 #include "walk/walk.h"
-
-/* A vertex seen from a point: the way there, and its square. */
-typedef struct mw_sight {
-    double x, y, lift;
-    uint32_t vertex;
-} mw_sight;
-
-static MW_INLINE mw_sight mw__sight_of(const mw_tiling *tiling, uint32_t vertex, mw_point q)
-{
-    double x = tiling->point[vertex].x - q.x, y = tiling->point[vertex].y - q.y;
-    return (mw_sight){x, y, x * x + y * y, vertex};
-}
-
-/* mw__orient2d of a and b, seen from q, and q. The bound is that of mw__orient2d_bound, (3 u + 16 u^2)
- * times |ax by| + |ay bx|, but by the lifts alone: the sum is at most the product of both lengths, and
- * that half the sum of the lifts, which are off by less than 3 u of themselves. */
-static MW_INLINE double mw__sights_side(const mw_tiling *tiling, const mw_sight *a, const mw_sight *b, mw_point q)
-{
-    double det = a->x * b->y - a->y * b->x;
-    if (MW_LIKELY(fabs(det) > (a->lift + b->lift) * (2.0 * 0x1p-53) + MW_UNDERFLOW_ERROR)) return det;
-    return mw__orient2d_exact(tiling->point[a->vertex], tiling->point[b->vertex], q);
-}
 
 /* Where the walk ended: in `tile`, where q is; or outside, beyond an edge of that tile. */
 typedef struct mw_walk_end {
@@ -52,19 +31,19 @@ typedef struct mw_walk_end {
 #define MW_CORNER_STEPS (1 << 16)
 
 /* The same by the celestial walk, from tile t on. */
-mw_walk_end mw__corners_surely(const mw_tiling *tiling, mw_point q, uint32_t t, mw_sight corner[3]);
+mw_walk_end mw__corners_surely(const mw_tiling *tiling, mw_point q, uint32_t t, mw_lifted_vertex corner[3]);
 
 /* Walk to q from tile t. corner: those of the last tile, if q is in it or the celestial walk came
  * there. Inline: a call of its own took an insertion a fortieth of its time. */
 static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw_point q, uint32_t t,
-                                                     mw_sight corner[3])
+                                                     mw_lifted_vertex corner[3])
 {
     const mw_triangle *tri = tiling->tri;
     uint32_t fuel = MW_CORNER_STEPS, e = 0, exit = MW_NONE;
-    mw_sight a = mw__sight_of(tiling, tri[t].v[0], q), b = mw__sight_of(tiling, tri[t].v[1], q),
-             c = mw__sight_of(tiling, tri[t].v[2], q);
-    double ab = mw__sights_side(tiling, &a, &b, q), bc = mw__sights_side(tiling, &b, &c, q),
-           ca = mw__sights_side(tiling, &c, &a, q);
+    mw_lifted_vertex a = mw__lift_vertex(tiling, tri[t].v[0], q), b = mw__lift_vertex(tiling, tri[t].v[1], q),
+             c = mw__lift_vertex(tiling, tri[t].v[2], q);
+    double ab = mw__lifted_side(tiling, &a, &b, q), bc = mw__lifted_side(tiling, &b, &c, q),
+           ca = mw__lifted_side(tiling, &c, &a, q);
     if (ab < 0) {
         exit = 0, c = a, a = b, b = c;
     } else if (bc < 0) {
@@ -80,15 +59,15 @@ static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw
         e = mw__link_edge(link);
         mw__fetch_tile(tiling, tri[t].link[mw__next(e)]);
         mw__fetch_tile(tiling, tri[t].link[mw__prev(e)]);
-        c = mw__sight_of(tiling, tri[t].v[mw__prev(e)], q);
+        c = mw__lift_vertex(tiling, tri[t].v[mw__prev(e)], q);
         exit = MW_NONE;
         ab = 1; /* it came over this edge */
-        bc = mw__sights_side(tiling, &b, &c, q);
+        bc = mw__lifted_side(tiling, &b, &c, q);
         if (bc < 0) {
             exit = mw__next(e), a = c;
             continue;
         }
-        ca = mw__sights_side(tiling, &c, &a, q);
+        ca = mw__lifted_side(tiling, &c, &a, q);
         if (ca < 0) exit = mw__prev(e), b = c;
     }
     corner[e] = a;

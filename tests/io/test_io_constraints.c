@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 /* wrap: malloc calloc realloc aligned_alloc */
-#include "io/constraints.h"
+#include "io/geojson.h"
 #include "support/allocations.h"
 #include "support/files.h"
 

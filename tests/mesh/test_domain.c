@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "domain/tiling_create.h"
 #include "base/random.h"
 #include "domain/survey.h"
 #include "oracle/domain_oracle.h"

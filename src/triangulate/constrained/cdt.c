@@ -3,9 +3,10 @@
  * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c), the triangles that are to be
  * kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments cross and are to be split, points
  * are put there (cdt_split.c) and all is made anew, until nothing crosses. */
-#include "triangulate/constrained/cdt.h"
-
 #include "base/hilbert.h"
+#include "triangulate/constrained/cdt_keep.h"
+#include "triangulate/constrained/cdt_output.h"
+#include "triangulate/constrained/cdt_split.h"
 #include "triangulate/delaunay/delaunay.h"
 #include "triangulate/constrained/brio.h"
 
@@ -54,58 +55,6 @@ static void cdt_release(mw_cdt *m)
     free(m->kept);
 }
 
-/* --- lists --- */
-
-/* Room for one more record: the list, perhaps elsewhere now, or NULL when out of memory. */
-static void *list_grow(void *list, size_t count, size_t *capacity, size_t size)
-{
-    if (count < *capacity) return list;
-    size_t more = 2 * *capacity + 64;
-    void *grown = mw__realloc(list, more, size);
-    if (grown) *capacity = more;
-    return grown;
-}
-
-bool mw__stretches_add(mw_stretches *list, mw_stretch stretch)
-{
-    mw_stretch *item = list_grow(list->item, list->count, &list->capacity, sizeof *item);
-    if (!item) return false;
-    list->item = item;
-    item[list->count++] = stretch;
-    return true;
-}
-
-static bool add_run(mw_cdt *m, mw_run run)
-{
-    mw_run *list = list_grow(m->run, m->run_count, &m->run_capacity, sizeof *list);
-    if (!list) return false;
-    m->run = list;
-    list[m->run_count++] = run;
-    return true;
-}
-
-bool mw__runs_create(mw_runs *runs, const mw_cdt *m)
-{
-    size_t *first = mw__calloc(m->pieces.count + 1, sizeof *first);
-    uint32_t *segment = mw__alloc(m->run_count, sizeof *segment);
-    *runs = (mw_runs){first, segment};
-    if (!first || !segment) return false;
-    for (size_t i = 0; i < m->run_count; i++) first[m->run[i].piece]++;
-    size_t sum = 0;
-    for (size_t p = 0; p <= m->pieces.count; p++) {
-        sum += first[p];
-        first[p] = sum;
-    }
-    for (size_t i = m->run_count; i-- > 0;) segment[--first[m->run[i].piece]] = m->run[i].segment;
-    return true;
-}
-
-void mw__runs_release(mw_runs *runs)
-{
-    free(runs->first);
-    free(runs->segment);
-}
-
 /* --- forcing the stretches in --- */
 
 /* A piece is made, or one made before is a part of another stretch too. */
@@ -117,7 +66,7 @@ static bool note_piece(mw_cdt *m, const mw_subsegment *piece, uint32_t segment)
     } else if (segment < m->pieces.item[piece->number].segment) {
         m->pieces.item[piece->number] = stretch;
     }
-    return add_run(m, (mw_run){piece->number, segment});
+    return mw__run_add(m, (mw_run){piece->number, segment});
 }
 
 /* Force in a stretch, or as much of it as lies before what it crosses. Returns false when out of memory. */

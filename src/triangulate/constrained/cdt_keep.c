@@ -1,6 +1,6 @@
 /* cdt_keep.c - which triangles of a constrained triangulation are kept: those inside polygons, or not reached
  * from outside, and not in holes. */
-#include "triangulate/constrained/cdt.h"
+#include "triangulate/constrained/cdt_keep.h"
 
 #include "base/hilbert.h"
 #include "base/random.h"

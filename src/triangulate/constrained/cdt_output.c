@@ -1,5 +1,5 @@
-/* cdt_output.c - what was made, as a mesh and a list of edges. */
-#include "triangulate/constrained/cdt.h"
+/* cdt_output.c - what was made, as a mesh and a list of pieces. */
+#include "triangulate/constrained/cdt_output.h"
 
 #include "mesh/layout.h"
 

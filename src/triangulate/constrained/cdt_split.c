@@ -10,7 +10,7 @@
  * are nearly parallel that could go on for very long, one new point beside the other. So after the first round, as in snap
  * rounding [Hobby 1999; Guibas, Marimont 1998], a link that crosses another and passes close by its end is led through
  * that end, and no point is made. Why this ends: see docs/guarantees.md. */
-#include "triangulate/constrained/cdt.h"
+#include "triangulate/constrained/cdt_split.h"
 
 #include <float.h>
 #include <stdlib.h>

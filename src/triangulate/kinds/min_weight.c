@@ -13,6 +13,7 @@
  * make rings, the face holds vertices or parts of the skeleton. It is cut open along as many edges of T as there are
  * rings: the same gives the least weight with these edges, which is a local optimum. Faces that are too large stay as
  * they are in T. */
+#include "mesh/connect.h"
 #include "triangulate/kinds/kind_maker.h"
 #include "triangulate/kinds/lmt.h"
 

@@ -1,6 +1,7 @@
 /* triangulate.c - the table of kinds of triangulation, and what they share. */
 #include "triangulate/kinds/kind_maker.h"
 
+#include "mesh/connect.h"
 #include "mesh/layout.h"
 #include "mesh/order.h"
 #include "triangulate/delaunay/delaunay.h"

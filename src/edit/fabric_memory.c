@@ -1,14 +1,11 @@
-/* fabric.c - making a fabric from a tiling, and the room it needs. */
-#include "edit/fabric.h"
-
-#include "edit/hole.h"
-#include "edit/stitch.h"
+/* fabric_memory.c - making a fabric, the room it needs, and its end. */
+#include "edit/fabric_memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* --- from a tiling ---------------------------------------------------------------------------------------------------- */
+/* --- tiles and vertices ----------------------------------------------------------------------------------------- */
 
 /* Twice as much, so that n additions copy O(n) in all; what is not used yet takes addresses, no memory. */
 static size_t enlarged(size_t room)
@@ -74,6 +71,117 @@ static bool more_points(mw_fabric *f, size_t least)
     f->point_room = room;
     return true;
 }
+
+bool mw__more_tiles(mw_fabric *f, size_t n, bool users)
+{
+    const mw_tiling *tiling = f->tiling;
+    if (n > MW_MAX_TRIANGLES - tiling->tri_count || (users && n > MW_USER_MASK - tiling->number_count)) return false;
+    const size_t tiles = tiling->tri_count + n, numbers = tiling->number_count + n;
+    if (users && numbers > f->number_room && !more_numbers(f, numbers)) return false;
+    return tiles <= f->tile_room || more_tiles(f, tiles);
+}
+
+static bool more_vertices(mw_fabric *f, size_t least)
+{
+    uint32_t room = enlarged_to(f->vertex_room, least, MW_NONE);
+    uint32_t *place = mw__realloc(f->vertex_place, room, sizeof *place);
+    if (!place) return false;
+    f->vertex_place = place;
+    f->vertex_room = room;
+    return true;
+}
+
+bool mw__more_vertices(mw_fabric *f, size_t n)
+{
+    const size_t places = f->tiling->point_count + n, numbers = f->vertex_count + n;
+    if (numbers >= MW_GONE || places >= MW_NONE) return false;
+    if (places > f->point_room + f->free_count && !more_points(f, places - f->free_count)) return false;
+    return numbers <= f->vertex_room || more_vertices(f, numbers);
+}
+
+bool mw__free_place_room(mw_fabric *f)
+{
+    if (f->free_count < f->free_room) return true;
+    size_t room = enlarged(f->free_room);
+    uint32_t *place = mw__realloc(f->free_place, room, sizeof *place);
+    if (!place) return false;
+    f->free_place = place;
+    f->free_room = (uint32_t)room;
+    return true;
+}
+
+/* --- the journal, and scratch ----------------------------------------------------------------------------------- */
+
+bool mw__stack_room(mw_fabric *f, size_t more)
+{
+    if (f->stack_count + more <= f->stack_room) return true;
+    size_t room = enlarged(f->stack_count + more);
+    uint32_t *stack = mw__realloc(f->stack, room, sizeof *stack);
+    if (!stack) return false;
+    f->stack = stack;
+    f->stack_room = room;
+    return true;
+}
+
+void mw__fabric_trim(mw_fabric *f)
+{
+    free(f->before);
+    free(f->stack);
+    mw__rim_release(f);
+    f->before = NULL;
+    f->stack = NULL;
+    f->before_room = f->stack_room = 0;
+}
+
+bool mw__journal_room(mw_fabric *f, size_t more)
+{
+    if (f->before_count + more <= f->before_room) return true;
+    size_t room = enlarged(f->before_room + more);
+    mw_before *before = mw__realloc(f->before, room, sizeof *before);
+    if (!before) return false;
+    f->before = before;
+    f->before_room = room;
+    return true;
+}
+
+bool mw__rim_enlarge(mw_fabric *f, size_t steps)
+{
+    size_t room = steps + steps / 2 + 16;
+    mw_rim_step *rim = mw__realloc(f->rim, room, sizeof *rim);
+    if (!rim) return false;
+    f->rim = rim;
+    uint32_t *pool = mw__realloc(f->pool, room, sizeof *pool);
+    if (!pool) return false;
+    f->pool = pool;
+    mw_step_ahead *ahead = mw__realloc(f->ahead, room, sizeof *ahead);
+    if (!ahead) return false;
+    f->ahead = ahead;
+    mw_lifted_vertex *sight = mw__realloc(f->sight, 2 * room, sizeof *sight);
+    if (!sight) return false;
+    f->sight = sight;
+    f->rim_room = room;
+    return true;
+}
+
+void mw__rim_release(mw_fabric *f)
+{
+    free(f->rim);
+    free(f->pool);
+    free(f->ahead);
+    free(f->sight);
+    f->rim = NULL;
+    f->pool = NULL;
+    f->ahead = NULL;
+    f->sight = NULL;
+    f->rim_room = 0;
+}
+
+size_t mw__rim_bytes(const mw_fabric *f)
+{
+    return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead + 2 * sizeof *f->sight);
+}
+
+/* --- from a tiling ------------------------------------------------------------------------------------------------ */
 
 /* The tiling's arrays, or copies of the mesh's where it has borrowed them, with room for more. */
 static bool own_arrays(mw_fabric *f)
@@ -186,148 +294,4 @@ size_t mw__fabric_bytes(const mw_fabric *f)
            t->point_count * sizeof *f->vertex_number + f->free_room * sizeof *f->free_place +
            f->before_room * sizeof *f->before + f->step_room * sizeof *f->step + f->stack_room * sizeof *f->stack +
            mw__rim_bytes(f);
-}
-
-/* --- scratch, and the journal ------------------------------------------------------------------------------------------------------------- */
-
-bool mw__stack_room(mw_fabric *f, size_t more)
-{
-    if (f->stack_count + more <= f->stack_room) return true;
-    size_t room = enlarged(f->stack_count + more);
-    uint32_t *stack = mw__realloc(f->stack, room, sizeof *stack);
-    if (!stack) return false;
-    f->stack = stack;
-    f->stack_room = room;
-    return true;
-}
-
-void mw__fabric_trim(mw_fabric *f)
-{
-    free(f->before);
-    free(f->stack);
-    mw__rim_release(f);
-    f->before = NULL;
-    f->stack = NULL;
-    f->before_room = f->stack_room = 0;
-}
-
-bool mw__journal_room(mw_fabric *f, size_t more)
-{
-    if (f->before_count + more <= f->before_room) return true;
-    size_t room = enlarged(f->before_room + more);
-    mw_before *before = mw__realloc(f->before, room, sizeof *before);
-    if (!before) return false;
-    f->before = before;
-    f->before_room = room;
-    return true;
-}
-
-/* --- tiles and vertices come and go ----------------------------------------------------------------------------------- */
-
-bool mw__more_tiles(mw_fabric *f, size_t n, bool users)
-{
-    const mw_tiling *tiling = f->tiling;
-    if (n > MW_MAX_TRIANGLES - tiling->tri_count || (users && n > MW_USER_MASK - tiling->number_count)) return false;
-    const size_t tiles = tiling->tri_count + n, numbers = tiling->number_count + n;
-    if (users && numbers > f->number_room && !more_numbers(f, numbers)) return false;
-    return tiles <= f->tile_room || more_tiles(f, tiles);
-}
-
-void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles)
-{
-    mw_tiling *tiling = f->tiling;
-    for (uint32_t i = 0; i < n; i++) {
-        uint32_t t = tiles[i] = tiling->tri_count++;
-        f->mark[t] &= MW_JOURNALED; /* see mw__add_tiles */
-        tiling->tri[t].user = like;
-    }
-    tiling->ghost_count += n;
-}
-
-void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir)
-{
-    if (mw__is_users(f, t)) f->tiling->tile_of[f->tiling->tri[t].user & MW_USER_MASK] = MW_GONE | heir;
-}
-
-static int descending(const void *a, const void *b)
-{
-    uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
-    return (s < t) - (s > t);
-}
-
-/* Most often there are two. */
-static void sort_down(uint32_t *tiles, size_t count)
-{
-    if (count > 2) {
-        qsort(tiles, count, sizeof *tiles, descending);
-    } else if (count == 2 && tiles[0] < tiles[1]) {
-        uint32_t lower = tiles[0];
-        tiles[0] = tiles[1];
-        tiles[1] = lower;
-    }
-}
-
-bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
-{
-    mw_tiling *tiling = f->tiling;
-    sort_down(tiles, count); /* so that the last tile is none that has yet to go */
-    for (size_t i = 0; i < count; i++) {
-        uint32_t t = tiles[i], last = tiling->tri_count - 1;
-        if (!mw__is_users(f, t)) tiling->ghost_count--;
-        if (t != last) {
-            if (!mw__journal(f, last)) return false;
-            tiling->tri[t] = tiling->tri[last];
-            mw__set_fixed(f, t, f->mark[last] & MW_FIXED_EDGES);
-            for (uint32_t k = 0; k < 3; k++) {
-                uint32_t v = tiling->tri[t].v[k];
-                if (tiling->tile_at[v] == last) tiling->tile_at[v] = t;
-                mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
-            }
-            if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
-            if (f->last == last) f->last = t;
-        }
-        tiling->tri_count--;
-    }
-    return true;
-}
-
-static bool more_vertices(mw_fabric *f, size_t least)
-{
-    uint32_t room = enlarged_to(f->vertex_room, least, MW_NONE);
-    uint32_t *place = mw__realloc(f->vertex_place, room, sizeof *place);
-    if (!place) return false;
-    f->vertex_place = place;
-    f->vertex_room = room;
-    return true;
-}
-
-bool mw__more_vertices(mw_fabric *f, size_t n)
-{
-    const size_t places = f->tiling->point_count + n, numbers = f->vertex_count + n;
-    if (numbers >= MW_GONE || places >= MW_NONE) return false;
-    if (places > f->point_room + f->free_count && !more_points(f, places - f->free_count)) return false;
-    return numbers <= f->vertex_room || more_vertices(f, numbers);
-}
-
-bool mw__fabric_reserve(mw_fabric *f, size_t n)
-{
-    mw_tiling *tiling = f->tiling;
-    const size_t tiles = 2 * (tiling->point_count + n); /* there are fewer in any triangulation of so many points */
-    if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
-    return mw__more_tiles(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__hole_room(f, tiles);
-}
-
-bool mw__free_vertex(mw_fabric *f, uint32_t v)
-{
-    if (f->free_count == f->free_room) {
-        size_t room = enlarged(f->free_room);
-        uint32_t *place = mw__realloc(f->free_place, room, sizeof *place);
-        if (!place) return false;
-        f->free_place = place;
-        f->free_room = (uint32_t)room;
-    }
-    f->free_place[f->free_count++] = v;
-    f->vertex_place[f->vertex_number[v]] = MW_NONE;
-    f->tiling->tile_at[v] = MW_NONE;
-    return true;
 }

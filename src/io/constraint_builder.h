@@ -1,6 +1,6 @@
-/* constraints.h - a constraint_file that grows while a reader reads, and the readers. Private. */
-#ifndef MW_SRC_IO_CONSTRAINTS_H
-#define MW_SRC_IO_CONSTRAINTS_H
+/* constraint_builder.h - a constraint_file that grows while a reader reads. Private. */
+#ifndef MW_SRC_IO_CONSTRAINT_BUILDER_H
+#define MW_SRC_IO_CONSTRAINT_BUILDER_H
 
 #include "io/source.h"
 
@@ -17,11 +17,5 @@ mw_status mw__constraint_point(mw_constraint_builder *builder, const double xyz[
 mw_status mw__constraint_segment(mw_constraint_builder *builder, uint32_t a, uint32_t b, uint32_t polygon,
                                  uint64_t place, mw_error *error);
 mw_status mw__constraint_hole(mw_constraint_builder *builder, double x, double y, mw_error *error);
-
-/* The readers, each in its file. They begin at the start of the source; what they have read on failure the caller
- * releases. mw__geojson_is_read: was the library built with Jansson? */
-mw_status mw__read_poly(mw_source *source, mw_constraint_builder *builder, mw_error *error);
-mw_status mw__read_geojson(mw_source *source, mw_constraint_builder *builder, mw_error *error);
-bool mw__geojson_is_read(void);
 
 #endif

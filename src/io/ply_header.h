@@ -1,6 +1,6 @@
-/* ply.h - the header of a PLY file: elements and their properties, in the order of the data. Private. */
-#ifndef MW_SRC_IO_PLY_H
-#define MW_SRC_IO_PLY_H
+/* ply_header.h - the header of a PLY file: elements and their properties, in the order of the data. Private. */
+#ifndef MW_SRC_IO_PLY_HEADER_H
+#define MW_SRC_IO_PLY_HEADER_H
 
 #include "io/source.h"
 

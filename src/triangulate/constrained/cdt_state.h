@@ -1,9 +1,9 @@
-/* cdt.h - a constrained Delaunay triangulation in the making. Private.
+/* cdt_state.h - a constrained Delaunay triangulation in the making. Private.
  *
  * A segment is forced in as one stretch or, once it has been split, as several. A stretch is an edge of the
  * triangulation, a piece, or a chain of pieces; a piece may be a part of many stretches. */
-#ifndef MW_SRC_CONSTRAINED_H
-#define MW_SRC_CONSTRAINED_H
+#ifndef MW_SRC_CONSTRAINED_MAKING_H
+#define MW_SRC_CONSTRAINED_MAKING_H
 
 #include "triangulate/constrained/segment_insertion.h"
 
@@ -56,22 +56,8 @@ typedef struct mw_runs {
     size_t *first;
     uint32_t *segment;
 } mw_runs;
+bool mw__run_add(mw_cdt *m, mw_run run);              /* false when out of memory */
 bool mw__runs_create(mw_runs *runs, const mw_cdt *m); /* false when out of memory; release anyway */
 void mw__runs_release(mw_runs *runs);
-
-/* Where ab and cd cross, rounded, but in the boxes of both. */
-mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d);
-
-/* Some stretches cross: make points there, and cut all stretches at their points. Rounds count from 1; after the
- * first, stretches are led through ends of others that they cross and pass close by. MW_ERROR_MEMORY, MW_ERROR_LIMIT. */
-mw_status mw__cdt_split_crossings(mw_cdt *m, int round, mw_error *error);
-
-/* Set m->kept. MW_ERROR_INPUT: a polygon that is not closed; MW_ERROR_MEMORY. */
-mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error);
-
-/* Make the mesh and, unless NULL, the edges; fills what concerns them in the report. m->point and m->tri may be moved
- * into the mesh. MW_ERROR_INPUT: nothing is kept; MW_ERROR_MEMORY: the caller releases the edges. */
-mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out,
-                         mw_error *error);
 
 #endif

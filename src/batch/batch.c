@@ -1,7 +1,8 @@
 /* batch.c - many queries: pieces that are sorted at a time, chunks for the threads within a piece.
  *
  * Counters do not depend on the threads: chunks have a fixed size, and a chunk knows nothing of the one before it. */
-#include "base/batch.h"
+#include "batch/batch.h"
+
 #include "base/random.h"
 #include "base/threads.h"
 
@@ -49,37 +50,4 @@ mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters
     free(keys);
     if (counters) *counters = sum;
     return MW_OK;
-}
-
-/* --- counters ----------------------------------------------------------------------------------------------------- */
-
-static void raise_to(uint64_t *most, uint64_t value)
-{
-    if (value > *most) *most = value;
-}
-
-void mw_counters_add(mw_counters *sum, const mw_counters *more)
-{
-    sum->queries += more->queries;
-    sum->triangles_visited += more->triangles_visited;
-    raise_to(&sum->triangles_max, more->triangles_max);
-    sum->triangles_init += more->triangles_init;
-    sum->triangles += more->triangles;
-    raise_to(&sum->triangles_walk_max, more->triangles_walk_max);
-    sum->triangles_final += more->triangles_final;
-    raise_to(&sum->triangles_final_max, more->triangles_final_max);
-    sum->orient_init += more->orient_init;
-    sum->orient += more->orient;
-    sum->orient_final += more->orient_final;
-    sum->implicit += more->implicit;
-    sum->comparisons += more->comparisons;
-    sum->walk_runs += more->walk_runs;
-    sum->border_runs += more->border_runs;
-    sum->triangles_border += more->triangles_border;
-    raise_to(&sum->triangles_border_max, more->triangles_border_max);
-    sum->orient_border += more->orient_border;
-    sum->border_edges += more->border_edges;
-    raise_to(&sum->border_edges_max, more->border_edges_max);
-    sum->cycles += more->cycles;
-    sum->handovers += more->handovers;
 }

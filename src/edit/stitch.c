@@ -1,0 +1,71 @@
+/* stitch.c - tiles and vertices go, and ghosts come. */
+#include "edit/stitch.h"
+
+#include <stdlib.h>
+
+void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles)
+{
+    mw_tiling *tiling = f->tiling;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t t = tiles[i] = tiling->tri_count++;
+        f->mark[t] &= MW_JOURNALED; /* see mw__add_tiles */
+        tiling->tri[t].user = like;
+    }
+    tiling->ghost_count += n;
+}
+
+void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir)
+{
+    if (mw__is_users(f, t)) f->tiling->tile_of[f->tiling->tri[t].user & MW_USER_MASK] = MW_GONE | heir;
+}
+
+static int descending(const void *a, const void *b)
+{
+    uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
+    return (s < t) - (s > t);
+}
+
+/* Most often there are two. */
+static void sort_down(uint32_t *tiles, size_t count)
+{
+    if (count > 2) {
+        qsort(tiles, count, sizeof *tiles, descending);
+    } else if (count == 2 && tiles[0] < tiles[1]) {
+        uint32_t lower = tiles[0];
+        tiles[0] = tiles[1];
+        tiles[1] = lower;
+    }
+}
+
+bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
+{
+    mw_tiling *tiling = f->tiling;
+    sort_down(tiles, count); /* so that the last tile is none that has yet to go */
+    for (size_t i = 0; i < count; i++) {
+        uint32_t t = tiles[i], last = tiling->tri_count - 1;
+        if (!mw__is_users(f, t)) tiling->ghost_count--;
+        if (t != last) {
+            if (!mw__journal(f, last)) return false;
+            tiling->tri[t] = tiling->tri[last];
+            mw__set_fixed(f, t, f->mark[last] & MW_FIXED_EDGES);
+            for (uint32_t k = 0; k < 3; k++) {
+                uint32_t v = tiling->tri[t].v[k];
+                if (tiling->tile_at[v] == last) tiling->tile_at[v] = t;
+                mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
+            }
+            if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+            if (f->last == last) f->last = t;
+        }
+        tiling->tri_count--;
+    }
+    return true;
+}
+
+bool mw__free_vertex(mw_fabric *f, uint32_t v)
+{
+    if (!mw__free_place_room(f)) return false;
+    f->free_place[f->free_count++] = v;
+    f->vertex_place[f->vertex_number[v]] = MW_NONE;
+    f->tiling->tile_at[v] = MW_NONE;
+    return true;
+}

@@ -1,0 +1,53 @@
+/* star_check.c - what keeps arrays from being a star-shaped polyhedron. */
+#include "star/kernel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The arrays make a surface: what keeps it from being star-shaped joins the defects. */
+static mw_status check_kernel(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_defects *defects,
+                              bool *sound, mw_error *error)
+{
+    mw_surface_options how = {.weld = weld};
+    mw_surface *surface;
+    mw_status status = mw_surface_create(arrays, &how, &surface, error);
+    if (status) return status;
+    size_t before = defects->count;
+    mw_star star = {.surface = surface, .tri_count = surface->tri_count, .point_count = surface->point_count};
+    if (options) memcpy(star.centre, options->centre, sizeof star.centre);
+    star.tri = mw__alloc_lines(star.tri_count, sizeof *star.tri);
+    if (star.tri) memcpy(star.tri, surface->tri, star.tri_count * sizeof *star.tri);
+    if (!star.tri || !mw__star_kernel(&star, defects)) status = mw__fail_memory(error);
+    *sound = defects->count == before && star.area_count > 0;
+    free(star.tri);
+    mw_surface_destroy(surface);
+    return status;
+}
+
+mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_check *check,
+                               mw_error *error)
+{
+    if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the check");
+    *check = (mw_check){0};
+    if (options && !mw__is_finite3(options->centre))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
+    mw_status status = mw_surface_check_arrays(arrays, weld, check, error);
+    if (status) return status;
+    mw_defects defects = {0};
+    bool usable = true, sound = false;
+    for (size_t i = 0; i < check->defect_count && status == MW_OK; i++) {
+        mw_defect_kind kind = check->defects[i].kind;
+        usable = usable && (kind == MW_DEFECT_FLAT || kind == MW_DEFECT_CLASHING);
+        if (kind != MW_DEFECT_CLASHING && !mw__defects_add(&defects, check->defects[i]))
+            status = mw__fail_memory(error);
+    }
+    if (status == MW_OK && usable) status = check_kernel(arrays, weld, options, &defects, &sound, error);
+    mw_check_release(check);
+    if (status) {
+        mw__defects_release(&defects);
+        return status;
+    }
+    mw__defects_sort(&defects);
+    *check = (mw_check){.defects = defects.list, .defect_count = defects.count, .valid = sound};
+    return MW_OK;
+}

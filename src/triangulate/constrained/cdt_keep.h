@@ -1,0 +1,10 @@
+/* cdt_keep.h - which triangles are kept. Private. */
+#ifndef MW_SRC_CONSTRAINED_KEEP_H
+#define MW_SRC_CONSTRAINED_KEEP_H
+
+#include "triangulate/constrained/cdt_state.h"
+
+/* Set m->kept. MW_ERROR_INPUT: a polygon that is not closed; MW_ERROR_MEMORY. */
+mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error);
+
+#endif
