@@ -1,5 +1,5 @@
 #include "bench/data/domains.h"
-#include "bench/data/datasets.h"
+#include "bench/data/dataset.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,22 +8,22 @@
 #define PI 3.14159265358979323846
 
 /* A polygon whose corners are seen from its centre at equal angles, in the order of these. */
-typedef struct star {
+typedef struct star_polygon {
     double centre[2], reach; /* the corners are at most so far away */
     double *corner;          /* x0 y0 x1 y1 ... */
     size_t count;
-} star;
+} star_polygon;
 
 #define WAVES 8
 
 /* Distances of the corners of a star of `height` 0 are all about 1. */
-typedef struct waves {
+typedef struct star_waves {
     double size[WAVES], phase[WAVES];
-} waves;
+} star_waves;
 
-static waves draw_waves(uint64_t *random)
+static star_waves draw_waves(uint64_t *random)
 {
-    waves w;
+    star_waves w;
     for (size_t i = 0; i < WAVES; i++) {
         w.size[i] = (2 * dataset_unit(random) - 1) / sqrt((double)(i + 2));
         w.phase[i] = 2 * PI * dataset_unit(random);
@@ -38,7 +38,7 @@ static uint64_t draw_seed(uint64_t *random)
 }
 
 /* The same noise for the same seed. */
-static void shape_star(star *s, const waves *w, double height, uint64_t seed)
+static void star_shape(star_polygon *s, const star_waves *w, double height, uint64_t seed)
 {
     double step = 2 * PI / (double)s->count;
     s->reach = 0;
@@ -52,21 +52,21 @@ static void shape_star(star *s, const waves *w, double height, uint64_t seed)
     }
 }
 
-static void scale_star(star *s, double factor)
+static void star_scale(star_polygon *s, double factor)
 {
     for (size_t i = 0; i < 2 * s->count; i++)
         s->corner[i] = s->centre[i % 2] + factor * (s->corner[i] - s->centre[i % 2]);
     s->reach *= factor;
 }
 
-static void move_star(star *s, const double centre[2])
+static void star_move(star_polygon *s, const double centre[2])
 {
     for (size_t i = 0; i < 2 * s->count; i++) s->corner[i] += centre[i % 2] - s->centre[i % 2];
     memcpy(s->centre, centre, sizeof s->centre);
 }
 
 /* Only the edge in the direction of the point can part it from the centre. */
-static bool is_inside(const star *s, const double p[2])
+static bool star_contains(const star_polygon *s, const double p[2])
 {
     double dx = p[0] - s->centre[0], dy = p[1] - s->centre[1];
     if (dx * dx + dy * dy > s->reach * s->reach) return false;
@@ -80,16 +80,16 @@ static double cross(const double a[2], const double b[2], const double c[2])
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-static double area_of(const double *corner, size_t count)
+static double polygon_area(const double *corner, size_t count)
 {
     double sum = 0;
     for (size_t k = 1; k + 1 < count; k++) sum += cross(corner, corner + 2 * k, corner + 2 * (k + 1)) / 2;
     return sum;
 }
 
-/* Round the star from its farthest corner on, which is one of the hull, and back where it turns right [Graham 1972].
- * `hull` has room for one corner more than the star. */
-static double hull_area(const star *s, double *hull)
+/* Round the star from its farthest corner on, which is one of the hull, and back where it turns
+ * right [Graham 1972]. `hull` has room for one corner more than the star. */
+static double star_hull_area(const star_polygon *s, double *hull)
 {
     size_t first = 0, count = 0;
     for (size_t k = 0; k < s->count; k++)
@@ -100,7 +100,7 @@ static double hull_area(const star *s, double *hull)
         while (count > 1 && cross(hull + 2 * (count - 2), hull + 2 * (count - 1), next) <= 0) count--;
         memcpy(hull + 2 * count++, next, 2 * sizeof *next);
     }
-    return area_of(hull, count);
+    return polygon_area(hull, count);
 }
 
 /* Too high waves leave hardly more than one of them, which fills its own hull well. */
@@ -108,17 +108,17 @@ static double hull_area(const star *s, double *hull)
 #define HEIGHTS 300
 #define MOST_WAVES 100 /* drawn, until the last are taken as they are */
 
-/* The higher the waves, at first, the less of its hull the outline fills. Waves that never leave as little of it as wanted
- * are drawn again. Returns the area of the hull. */
-static double shape_outline(star *s, double share, double *hull, uint64_t *random)
+/* The higher the waves, at first, the less of its hull the outline fills. Waves that never leave as
+ * little of it as wanted are drawn again. Returns the area of the hull. */
+static double star_shape_outline(star_polygon *s, double share, double *hull, uint64_t *random)
 {
     for (int drawn = 0;; drawn++) {
-        waves w = draw_waves(random);
+        star_waves w = draw_waves(random);
         uint64_t noise = draw_seed(random);
         for (int i = 0; i <= HEIGHTS; i++) {
-            shape_star(s, &w, GREATEST_HEIGHT * i / HEIGHTS, noise);
-            double area = hull_area(s, hull);
-            if (area_of(s->corner, s->count) <= share * area || (drawn == MOST_WAVES && i == HEIGHTS)) return area;
+            star_shape(s, &w, GREATEST_HEIGHT * i / HEIGHTS, noise);
+            double area = star_hull_area(s, hull);
+            if (polygon_area(s->corner, s->count) <= share * area || (drawn == MOST_WAVES && i == HEIGHTS)) return area;
         }
     }
 }
@@ -130,24 +130,24 @@ static double distance_to_segment(const double p[2], const double a[2], const do
     return hypot(vx - t * ux, vy - t * uy);
 }
 
-typedef struct domain {
-    star *star; /* the outline, then the holes */
+typedef struct holed_domain {
+    star_polygon *star; /* the outline, then the holes */
     size_t stars;
     double *points; /* corners first */
     size_t corners, count;
-} domain;
+} holed_domain;
 
-static void draw_near(const star *outline, double p[2], uint64_t *random)
+static void star_draw_near(const star_polygon *outline, double p[2], uint64_t *random)
 {
     for (size_t k = 0; k < 2; k++) p[k] = outline->reach * (2 * dataset_unit(random) - 1);
 }
 
 /* Room for star i at p, with some space round it? */
-static bool is_free(const domain *d, size_t i, const double p[2])
+static bool domain_is_free(const holed_domain *d, size_t i, const double p[2])
 {
-    const star *outline = &d->star[0];
+    const star_polygon *outline = &d->star[0];
     double room = 1.2 * d->star[i].reach;
-    if (!is_inside(outline, p)) return false;
+    if (!star_contains(outline, p)) return false;
     for (size_t k = 1; k < i; k++)
         if (hypot(p[0] - d->star[k].centre[0], p[1] - d->star[k].centre[1]) < room + d->star[k].reach) return false;
     for (size_t k = 0; k < outline->count; k++)
@@ -159,28 +159,28 @@ static bool is_free(const domain *d, size_t i, const double p[2])
 #define DRAWN_IN_VAIN 500
 
 /* A hole that finds no place gets smaller. */
-static void place_hole(domain *d, size_t i, double area, uint64_t *random)
+static void domain_place_hole(holed_domain *d, size_t i, double area, uint64_t *random)
 {
-    star *s = &d->star[i];
-    waves w = draw_waves(random);
-    shape_star(s, &w, 0.5, draw_seed(random));
-    scale_star(s, sqrt(area / area_of(s->corner, s->count)));
+    star_polygon *s = &d->star[i];
+    star_waves w = draw_waves(random);
+    star_shape(s, &w, 0.5, draw_seed(random));
+    star_scale(s, sqrt(area / polygon_area(s->corner, s->count)));
     double p[2] = {0, 0};
     for (int drawn = 1;; drawn++) {
-        draw_near(&d->star[0], p, random);
-        if (is_free(d, i, p)) break;
-        if (drawn % DRAWN_IN_VAIN == 0) scale_star(s, 0.7);
+        star_draw_near(&d->star[0], p, random);
+        if (domain_is_free(d, i, p)) break;
+        if (drawn % DRAWN_IN_VAIN == 0) star_scale(s, 0.7);
     }
-    move_star(s, p);
+    star_move(s, p);
 }
 
-static void draw_point(const domain *d, double p[2], uint64_t *random)
+static void domain_draw_point(const holed_domain *d, double p[2], uint64_t *random)
 {
     bool inside;
     do {
-        draw_near(&d->star[0], p, random);
-        inside = is_inside(&d->star[0], p);
-        for (size_t i = 1; i < d->stars && inside; i++) inside = !is_inside(&d->star[i], p);
+        star_draw_near(&d->star[0], p, random);
+        inside = star_contains(&d->star[0], p);
+        for (size_t i = 1; i < d->stars && inside; i++) inside = !star_contains(&d->star[i], p);
     } while (!inside);
 }
 
@@ -189,15 +189,16 @@ static void draw_point(const domain *d, double p[2], uint64_t *random)
 /* Of the border edges, those of the outline. */
 #define EDGES_OF_OUTLINE 0.55
 
-static void fill(domain *d, const domain_shape *shape, double *hull, uint64_t *random)
+static void domain_fill(holed_domain *d, const domain_shape *shape, double *hull, uint64_t *random)
 {
     double holes = shape->holes ? SHARE_OF_HOLES : 0;
-    double area = shape_outline(&d->star[0], shape->share + holes, hull, random);
-    for (size_t i = 1; i < d->stars; i++) place_hole(d, i, holes * area / (double)shape->holes, random);
-    for (size_t i = d->corners; i < d->count; i++) draw_point(d, d->points + 2 * i, random);
+    double area = star_shape_outline(&d->star[0], shape->share + holes, hull, random);
+    for (size_t i = 1; i < d->stars; i++) domain_place_hole(d, i, holes * area / (double)shape->holes, random);
+    for (size_t i = d->corners; i < d->count; i++) domain_draw_point(d, d->points + 2 * i, random);
 }
 
-static mw_status triangulate(const domain *d, uint32_t *segments, uint32_t *polygon, mw_mesh **out, mw_error *error)
+static mw_status domain_triangulate(const holed_domain *d, uint32_t *segments, uint32_t *polygon, mw_mesh **out,
+                                    mw_error *error)
 {
     uint32_t first = 0;
     for (size_t i = 0; i < d->stars; i++) {
@@ -220,21 +221,21 @@ static mw_status triangulate(const domain *d, uint32_t *segments, uint32_t *poly
 }
 
 /* Holes share their edges equally; the outline has what remains. */
-static void share_corners(domain *d, const domain_shape *shape)
+static void domain_share_corners(holed_domain *d, const domain_shape *shape)
 {
     size_t each = 0, first = 0;
     if (shape->holes) each = (size_t)((1 - EDGES_OF_OUTLINE) * (double)shape->border_edges) / shape->holes;
     if (each < 3) each = 3;
     for (size_t i = 0; i < d->stars; i++) {
         size_t count = i ? each : d->corners - shape->holes * each;
-        d->star[i] = (star){.corner = d->points + 2 * first, .count = count};
+        d->star[i] = (star_polygon){.corner = d->points + 2 * first, .count = count};
         first += count;
     }
 }
 
 mw_status domain_make(const domain_shape *shape, uint64_t seed, mw_mesh **out, mw_error *error)
 {
-    domain d = {.stars = shape->holes + 1, .corners = shape->border_edges, .count = shape->vertices};
+    holed_domain d = {.stars = shape->holes + 1, .corners = shape->border_edges, .count = shape->vertices};
     uint64_t random = seed + shape->vertices;
     d.star = calloc(d.stars, sizeof *d.star);
     d.points = calloc(d.count, 2 * sizeof *d.points);
@@ -243,9 +244,9 @@ mw_status domain_make(const domain_shape *shape, uint64_t seed, mw_mesh **out, m
     mw_status status = MW_ERROR_MEMORY;
     *error = (mw_error){.status = status, .message = "out of memory"};
     if (d.star && d.points && hull && segments) {
-        share_corners(&d, shape);
-        fill(&d, shape, hull, &random);
-        status = triangulate(&d, segments, segments + 2 * d.corners, out, error);
+        domain_share_corners(&d, shape);
+        domain_fill(&d, shape, hull, &random);
+        status = domain_triangulate(&d, segments, segments + 2 * d.corners, out, error);
     }
     free(d.star);
     free(d.points);

@@ -1,5 +1,5 @@
 #include "bench/data/polyhedra.h"
-#include "bench/data/datasets.h"
+#include "bench/data/dataset.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -45,7 +45,7 @@ static void normalise(double a[3])
     for (size_t k = 0; k < 3; k++) a[k] /= length;
 }
 
-static bool make_room(polyhedron *p, size_t points, size_t triangles)
+static bool polyhedron_allocate(polyhedron *p, size_t points, size_t triangles)
 {
     p->points = malloc(3 * points * sizeof *p->points);
     p->triangles = malloc(3 * triangles * sizeof *p->triangles);
@@ -73,7 +73,7 @@ int polyhedron_is_icosahedron(size_t n)
     return level_vertices(level_below(n)) == n;
 }
 
-static void begin_icosahedron(polyhedron *p)
+static void polyhedron_begin_icosahedron(polyhedron *p)
 {
     static const double g = 1.6180339887498949; /* the golden section */
     static const double corners[12][3] = {
@@ -93,11 +93,11 @@ static void begin_icosahedron(polyhedron *p)
 }
 
 /* The middles of edges, by the lower-numbered end of an edge, which at most six meet. */
-typedef struct middles {
+typedef struct edge_middles {
     uint32_t other, middle; /* other 0: free, since no edge ends there as the higher one */
-} middles[6];
+} edge_middles[6];
 
-static uint32_t middle_of(polyhedron *p, middles *known, uint32_t a, uint32_t b)
+static uint32_t middle_of(polyhedron *p, edge_middles *known, uint32_t a, uint32_t b)
 {
     uint32_t low = a < b ? a : b, high = a < b ? b : a;
     size_t i = 0;
@@ -113,7 +113,7 @@ static uint32_t middle_of(polyhedron *p, middles *known, uint32_t a, uint32_t b)
 }
 
 /* From the last facet down, so that its four parts may take the places of facets done. */
-static void cut_in_four(polyhedron *p, middles *known)
+static void polyhedron_cut_in_four(polyhedron *p, edge_middles *known)
 {
     for (size_t i = p->triangle_count; i-- > 0;) {
         uint32_t v[3], m[3];
@@ -125,14 +125,14 @@ static void cut_in_four(polyhedron *p, middles *known)
     p->triangle_count *= 4;
 }
 
-static bool make_icosahedron(polyhedron *p, unsigned level)
+static bool polyhedron_make_icosahedron(polyhedron *p, unsigned level)
 {
-    middles *known = malloc(level_vertices(level) * sizeof *known);
-    bool room = make_room(p, level_vertices(level), (size_t)20 << 2 * level) && known;
-    if (room) begin_icosahedron(p);
+    edge_middles *known = malloc(level_vertices(level) * sizeof *known);
+    bool room = polyhedron_allocate(p, level_vertices(level), (size_t)20 << 2 * level) && known;
+    if (room) polyhedron_begin_icosahedron(p);
     for (unsigned i = 0; i < level && room; i++) {
         memset(known, 0, p->point_count * sizeof *known);
-        cut_in_four(p, known);
+        polyhedron_cut_in_four(p, known);
     }
     free(known);
     return room;
@@ -141,13 +141,13 @@ static bool make_icosahedron(polyhedron *p, unsigned level)
 /* --- the hull of random points on the sphere */
 
 /* u, v, pole: a right-handed frame. */
-typedef struct frame {
+typedef struct sphere_frame {
     double u[3], v[3], pole[3];
-} frame;
+} sphere_frame;
 
-static frame draw_frame(uint64_t *random)
+static sphere_frame draw_frame(uint64_t *random)
 {
-    frame f;
+    sphere_frame f;
     double other[3];
     polyhedron_direction(f.pole, random);
     polyhedron_direction(other, random);
@@ -157,9 +157,9 @@ static frame draw_frame(uint64_t *random)
     return f;
 }
 
-/* The first four points are the corners of a regular tetrahedron, the pole one of them: so the origin is inside, however
- * few points there are. */
-static void draw_points(polyhedron *p, const frame *f, uint64_t *random)
+/* The first four points are the corners of a regular tetrahedron, the pole one of them: so the
+ * origin is inside, however few points there are. */
+static void polyhedron_draw_points(polyhedron *p, const sphere_frame *f, uint64_t *random)
 {
     memcpy(p->points, f->pole, sizeof f->pole);
     for (size_t i = 1; i < 4; i++) {
@@ -170,9 +170,9 @@ static void draw_points(polyhedron *p, const frame *f, uint64_t *random)
     for (size_t i = 4; i < p->point_count; i++) polyhedron_direction(p->points + 3 * i, random);
 }
 
-/* Of the plane's triangles, seen from the pole and so from inside, each is turned over; beyond its border edges lie the
- * facets at the pole. Vertex i of the plane is point i + 1. */
-static void take_facets(polyhedron *p, const mw_mesh *plane)
+/* Of the plane's triangles, seen from the pole and so from inside, each is turned over; beyond its
+ * border edges lie the facets at the pole. Vertex i of the plane is point i + 1. */
+static void polyhedron_take_facets(polyhedron *p, const mw_mesh *plane)
 {
     uint32_t *next = p->triangles;
     for (uint32_t i = 0; i < mw_mesh_triangle_count(plane); i++) {
@@ -189,16 +189,17 @@ static void take_facets(polyhedron *p, const mw_mesh *plane)
     p->triangle_count = (size_t)(next - p->triangles) / 3;
 }
 
-/* Circles of the sphere are circles of the plane: the facets of the hull are the Delaunay triangles of the points seen
- * from one of them, the pole, which is in the facets beyond the plane's hull [Brown 1979]. */
-static mw_status make_hull(polyhedron *p, size_t n, uint64_t *random, mw_error *error)
+/* Circles of the sphere are circles of the plane: the facets of the hull are the Delaunay triangles
+ * of the points seen from one of them, the pole, which is in the facets beyond the plane's hull
+ * [Brown 1979]. */
+static mw_status polyhedron_make_hull(polyhedron *p, size_t n, uint64_t *random, mw_error *error)
 {
     mw_mesh *plane = NULL;
     mw_status status = MW_ERROR_MEMORY;
     double *seen = malloc(2 * n * sizeof *seen);
-    if (seen && make_room(p, n, 2 * n - 4)) {
-        frame f = draw_frame(random);
-        draw_points(p, &f, random);
+    if (seen && polyhedron_allocate(p, n, 2 * n - 4)) {
+        sphere_frame f = draw_frame(random);
+        polyhedron_draw_points(p, &f, random);
         for (size_t i = 1; i < n; i++) {
             const double *q = p->points + 3 * i;
             double height = 1 - dot(q, f.pole);
@@ -207,37 +208,37 @@ static mw_status make_hull(polyhedron *p, size_t n, uint64_t *random, mw_error *
         }
         status = mw_delaunay(seen, n - 1, 2, NULL, NULL, NULL, &plane, error);
     }
-    if (plane) take_facets(p, plane);
+    if (plane) polyhedron_take_facets(p, plane);
     mw_mesh_destroy(plane);
     free(seen);
     return status;
 }
 
-static void move(double point[3], double factor)
+static void scale_vector(double point[3], double factor)
 {
     for (size_t k = 0; k < 3; k++) point[k] *= factor;
 }
 
-static void roughen(polyhedron *p, uint64_t *random)
+static void polyhedron_roughen(polyhedron *p, uint64_t *random)
 {
-    for (size_t i = 0; i < p->point_count; i++) move(p->points + 3 * i, 0.8 + 0.4 * dataset_unit(random));
+    for (size_t i = 0; i < p->point_count; i++) scale_vector(p->points + 3 * i, 0.8 + 0.4 * dataset_unit(random));
 }
 
 #define WAVES 12
 
 /* Plane waves of one to three periods over the sphere. */
-static void wave(polyhedron *p, uint64_t *random)
+static void polyhedron_wave(polyhedron *p, uint64_t *random)
 {
     double way[WAVES][3], phase[WAVES];
     for (size_t w = 0; w < WAVES; w++) {
         polyhedron_direction(way[w], random);
-        move(way[w], PI * (1 + 2 * dataset_unit(random)));
+        scale_vector(way[w], PI * (1 + 2 * dataset_unit(random)));
         phase[w] = 2 * PI * dataset_unit(random);
     }
     for (size_t i = 0; i < p->point_count; i++) {
         double sum = 0;
         for (size_t w = 0; w < WAVES; w++) sum += cos(dot(way[w], p->points + 3 * i) + phase[w]);
-        move(p->points + 3 * i, exp(0.15 * sum));
+        scale_vector(p->points + 3 * i, exp(0.15 * sum));
     }
 }
 
@@ -245,8 +246,8 @@ static void wave(polyhedron *p, uint64_t *random)
 
 #define GIRTH 0.45 /* the tube's radius; parts of the knot are about two apart */
 
-/* The knot lies on a torus of the radii 2 and 1, whose normals are the knot's; they, its direction and their product
- * span the tube. */
+/* The knot lies on a torus of the radii 2 and 1, whose normals are the knot's; they, its direction
+ * and their product span the tube. */
 static void knot_point(double t, double s, double point[3])
 {
     double c = cos(3 * t), z = sin(3 * t), radius = 2 + c;
@@ -261,12 +262,12 @@ static void knot_point(double t, double s, double point[3])
 }
 
 /* The knot is about eleven times as long as the tube is round. */
-static bool make_knot(polyhedron *p, size_t n)
+static bool polyhedron_make_knot(polyhedron *p, size_t n)
 {
     size_t round = (size_t)lround(sqrt((double)n / 11));
     if (round < 3) round = 3;
     size_t length = n / round;
-    if (!make_room(p, length * round, 2 * length * round)) return false;
+    if (!polyhedron_allocate(p, length * round, 2 * length * round)) return false;
     for (size_t i = 0; i < length; i++)
         for (size_t k = 0; k < round; k++) {
             size_t vertex = i * round + k, next = (i + 1) % length * round;
@@ -286,13 +287,13 @@ mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_
     *p = (polyhedron){0};
     *error = (mw_error){.status = status, .message = "out of memory"};
     if (kind == POLYHEDRON_ICOSAHEDRON) {
-        if (make_icosahedron(p, level_below(n))) status = MW_OK;
+        if (polyhedron_make_icosahedron(p, level_below(n))) status = MW_OK;
     } else if (kind == POLYHEDRON_KNOT) {
-        if (make_knot(p, n)) status = MW_OK;
+        if (polyhedron_make_knot(p, n)) status = MW_OK;
     } else {
-        status = make_hull(p, n, &random, error);
-        if (status == MW_OK && kind == POLYHEDRON_STAR) roughen(p, &random);
-        if (status == MW_OK && kind == POLYHEDRON_BUMPS) wave(p, &random);
+        status = polyhedron_make_hull(p, n, &random, error);
+        if (status == MW_OK && kind == POLYHEDRON_STAR) polyhedron_roughen(p, &random);
+        if (status == MW_OK && kind == POLYHEDRON_BUMPS) polyhedron_wave(p, &random);
     }
     if (status != MW_OK) polyhedron_release(p);
     return status;

@@ -1,6 +1,6 @@
-/* polyhedra.h - closed surfaces in space to measure with, made from a seed. Shared with the programs of bench/. */
-#ifndef CLI_POLYHEDRA_H
-#define CLI_POLYHEDRA_H
+/* polyhedra.h - closed surfaces in space to measure with, made from a seed. */
+#ifndef MW_BENCH_DATA_POLYHEDRA_H
+#define MW_BENCH_DATA_POLYHEDRA_H
 
 #include <meshwalk/meshwalk.h>
 
@@ -29,8 +29,9 @@ typedef struct polyhedron {
     size_t triangle_count;
 } polyhedron;
 
-/* Make one of n vertices, at least 10; the same for the same seed. An icosahedron has the level that comes nearest to n
- * from below, a knot about n. MW_ERROR_MEMORY, or what the triangulation says; then it is empty. */
+/* Make one of n vertices, at least 10; the same for the same seed. An icosahedron has the level
+ * that comes nearest to n from below, a knot about n. MW_ERROR_MEMORY, or what the triangulation
+ * says; then it is empty. */
 mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed, mw_error *error);
 void polyhedron_release(polyhedron *p);
 

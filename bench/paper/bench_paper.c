@@ -1,28 +1,32 @@
 /* bench paper: the tables of the thesis, measured again. */
-#include "bench/core/bench.h"
+#include "bench/paper/bench_paper.h"
+#include "bench/core/word_list.h"
 #include "bench/data/dataset_file.h"
+#include "bench/paper/paper_domains.h"
+#include "bench/paper/paper_plot.h"
+#include "bench/paper/paper_polyhedra.h"
+#include "bench/paper/paper_print.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
-#include "bench/paper/paper.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static bool encloses(const paper *p)
+static bool paper_encloses(const paper *p)
 {
     int enclose = p->settings->enclose;
     return enclose == ENCLOSE_AUTO ? p->table->enclosed : enclose == ENCLOSE_YES;
 }
 
-static int run_points(paper *p, const size_t *sizes)
+static int paper_run_points(paper *p, const size_t *sizes)
 {
     int end = 0;
     for (int kind = 0; kind < DATASET_KINDS; kind++)
         for (size_t i = 0; i < MOST_SIZES && sizes[i] && p->table->sets >> kind & 1; i++) {
             dataset data;
-            if (!dataset_make(&data, (dataset_kind)kind, sizes[i], encloses(p), p->settings->common.seed))
+            if (!dataset_make(&data, (dataset_kind)kind, sizes[i], paper_encloses(p), p->settings->common.seed))
                 return fail_memory();
-            trial t = paper_trial(p, dataset_name(kind), &data, false);
+            walk_trial t = paper_trial(p, dataset_name(kind), &data, false);
             end = paper_measure(p, &t, false);
             dataset_release(&data);
             if (end) return end;
@@ -30,13 +34,13 @@ static int run_points(paper *p, const size_t *sizes)
     return 0;
 }
 
-static int run_generated(paper *p, const size_t *sizes)
+static int paper_run_made(paper *p, const size_t *sizes)
 {
     switch (p->table->subject) {
-    case PAPER_DOMAINS: return paper_domains(p, sizes);
-    case PAPER_STARS: return paper_stars(p, sizes);
-    case PAPER_SURFACES: return paper_surfaces(p, sizes);
-    default: return run_points(p, sizes);
+    case PAPER_DOMAINS: return paper_domains_made(p, sizes);
+    case PAPER_STARS: return paper_polyhedra_stars(p, sizes);
+    case PAPER_SURFACES: return paper_polyhedra_surfaces(p, sizes);
+    default: return paper_run_points(p, sizes);
     }
 }
 
@@ -46,28 +50,28 @@ static const char *base_name(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
-static int run_point_file(paper *p, const char *path)
+static int paper_run_point_file(paper *p, const char *path)
 {
     dataset data;
-    int end = dataset_read(&data, path, encloses(p));
-    trial t = paper_trial(p, base_name(path), &data, true);
+    int end = dataset_read(&data, path, paper_encloses(p));
+    walk_trial t = paper_trial(p, base_name(path), &data, true);
     if (end == 0) end = paper_measure(p, &t, true);
     dataset_release(&data);
     return end;
 }
 
-static int run_file(const char *path, void *self)
+static int paper_run_file(const char *path, void *self)
 {
     paper *p = self;
     switch (p->table->subject) {
-    case PAPER_DOMAINS: return paper_domain_file(p, path, base_name(path));
+    case PAPER_DOMAINS: return paper_domains_file(p, path, base_name(path));
     case PAPER_STARS:
-    case PAPER_SURFACES: return paper_polyhedron_file(p, path, base_name(path));
-    default: return run_point_file(p, path);
+    case PAPER_SURFACES: return paper_polyhedra_file(p, path, base_name(path));
+    default: return paper_run_point_file(p, path);
     }
 }
 
-static int check_file(const char *path, void *self)
+static int paper_check_file(const char *path, void *self)
 {
     const paper *p = self;
     if (!*path) {
@@ -89,13 +93,13 @@ int bench_paper(const bench_settings *s, const char *name)
         complain("bench paper: the sets of %s are meshes, which --enclose does not change", table->name);
         end = END_USAGE;
     }
-    if (end == 0 && s->sizes) end = bench_sizes(s->sizes, &sizes);
-    if (end == 0 && s->data) end = bench_each_word(s->data, check_file, &p);
+    if (end == 0 && s->sizes) end = word_list_sizes(s->sizes, &sizes);
+    if (end == 0 && s->data) end = word_list_each(s->data, paper_check_file, &p);
     if (end == 0) end = files_try_output(s->common.output, NULL);
     if (end == 0 && s->plot) end = files_try_output(s->plot, NULL);
     if (end == 0)
-        end =
-            s->data ? bench_each_word(s->data, run_file, &p) : run_generated(&p, s->sizes ? sizes.size : table->sizes);
+        end = s->data ? word_list_each(s->data, paper_run_file, &p)
+                      : paper_run_made(&p, s->sizes ? sizes.size : table->sizes);
     if (end == 0 && s->plot) end = paper_plot(&p, s->plot);
     if (end == 0) {
         text t = {0};

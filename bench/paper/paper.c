@@ -1,7 +1,7 @@
 #include "bench/paper/paper.h"
+#include "bench/paper/published.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
-#include "bench/paper/published.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 double paper_published_of(const paper *p, const paper_result *r, const algorithm *a, quantity q)
 {
     if (r->model) return published_value(p->table->name, r->model, r->model_vertices, a->name, q);
-    return r->own ? NAN : published_value(p->table->name, r->dataset, r->outcome.vertices, a->name, q);
+    return r->users_file ? NAN : published_value(p->table->name, r->dataset, r->outcome.vertices, a->name, q);
 }
 
 double paper_published(const paper *p, const paper_result *r, size_t i, quantity q)
@@ -43,17 +43,17 @@ static uint32_t layers_for(const paper_table *table, size_t n)
     return layers > 0 ? (uint32_t)layers : 0;
 }
 
-trial paper_trial(const paper *p, const char *name, const dataset *data, bool own)
+walk_trial paper_trial(const paper *p, const char *name, const dataset *data, bool users_file)
 {
     const bench_settings *s = p->settings;
     bool timed = p->table->quantities >> TIME_US & 1;
-    return (trial){
+    return (walk_trial){
         .name = name,
         .data = data,
         .algorithms = p->table->algorithms,
         .finish = p->table->finish ? p->table->finish : "auto",
         .start = p->table->start,
-        .layers = own ? 0 : layers_for(p->table, data->count),
+        .layers = users_file ? 0 : layers_for(p->table, data->count),
         .queries = p->queries,
         .seed = s->common.seed,
         .threads = s->common.threads,
@@ -61,13 +61,13 @@ trial paper_trial(const paper *p, const char *name, const dataset *data, bool ow
     };
 }
 
-paper_result *paper_add(paper *p, const char *name, bool own)
+paper_result *paper_add(paper *p, const char *name, bool users_file)
 {
     paper_result *results = realloc(p->results, (p->count + 1) * sizeof *results);
     if (!results) return NULL;
     p->results = results;
     paper_result *r = &results[p->count++];
-    *r = (paper_result){.own = own};
+    *r = (paper_result){.users_file = users_file};
     strncpy(r->dataset, name, sizeof r->dataset - 1);
     return r;
 }
@@ -89,7 +89,7 @@ static double correlation(const double *x, const double *y, size_t n)
     return xy / sqrt(xx * yy);
 }
 
-static double correlate(const paper_table *table, const outcome *o)
+static double paper_table_correlation(const paper_table *table, const walk_outcome *o)
 {
     double x[MOST_ALGORITHMS], y[MOST_ALGORITHMS];
     size_t n = 0;
@@ -100,18 +100,18 @@ static double correlate(const paper_table *table, const outcome *o)
     return correlation(x, y, n);
 }
 
-int paper_measure(paper *p, const trial *t, bool own)
+int paper_measure(paper *p, const walk_trial *t, bool users_file)
 {
-    paper_result *r = paper_add(p, t->name, own);
+    paper_result *r = paper_add(p, t->name, users_file);
     if (!r) return fail_memory();
     r->walks = true;
-    int end = measure(t, &r->outcome);
+    int end = walk_measurement_run(t, &r->outcome);
     progress_phase("measuring", NULL); /* the name may go */
     if (end) return end;
-    paper_sum_columns(p->table, &r->outcome);
+    paper_table_sum_columns(p->table, &r->outcome);
     if (p->table->whole_quantities >> CORRELATION & 1) {
         r->whole = true;
-        r->outcome.whole[CORRELATION] = correlate(p->table, &r->outcome);
+        r->outcome.whole[CORRELATION] = paper_table_correlation(p->table, &r->outcome);
     }
     return 0;
 }

@@ -1,15 +1,15 @@
+#include "bench/paper/paper_plot.h"
+#include "cli/draw/plot.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
-#include "bench/paper/paper.h"
-#include "cli/draw/plot.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The walks take about so many triangles times the square root of the vertices: divided by it the curves can be told
- * apart. */
+/* The walks take about so many triangles times the square root of the vertices: divided by it the
+ * curves can be told apart. */
 static bool is_scaled(const paper_table *table)
 {
     bool plain = strcmp(table->start, "random") == 0 || strcmp(table->start, "front") == 0;
@@ -38,15 +38,16 @@ int paper_plot_check(const bench_settings *s, const paper_table *table)
 }
 
 /* A curve for each algorithm; of Appendix D one for each phase of the first. */
-typedef struct curve {
+typedef struct paper_curve {
     size_t algorithm;
     quantity quantity;
     const char *name, *label;
-} curve;
+} paper_curve;
 
-static size_t curves_of(const paper_table *table, curve curves[MOST_ALGORITHMS])
+static size_t curves_of(const paper_table *table, paper_curve curves[MOST_ALGORITHMS])
 {
-    static const curve phases[] = {{0, TRIANGLES, "walk", "walk"}, {0, TRIANGLES_BORDER, "border walk", "border"}};
+    static const paper_curve phases[] = {{0, TRIANGLES, "walk", "walk"},
+                                         {0, TRIANGLES_BORDER, "border walk", "border"}};
     size_t count = 0;
     if (table->subject == PAPER_DOMAINS) {
         memcpy(curves, phases, sizeof phases);
@@ -54,13 +55,13 @@ static size_t curves_of(const paper_table *table, curve curves[MOST_ALGORITHMS])
     }
     for (; table->algorithms[count]; count++) {
         const algorithm *a = table->algorithms[count];
-        curves[count] = (curve){count, table->drawn, a->name, a->abbreviation};
+        curves[count] = (paper_curve){count, table->drawn, a->name, a->abbreviation};
     }
     return count;
 }
 
 /* All triangles of the thesis' column, the final location of the cheap walks too. */
-static plot_point point_of(const paper *p, const paper_result *r, const curve *c)
+static plot_point point_of(const paper *p, const paper_result *r, const paper_curve *c)
 {
     plot_point at = {.x = (double)r->outcome.vertices};
     if (c->quantity == TRIANGLES && p->table->subject != PAPER_DOMAINS) {
@@ -83,13 +84,13 @@ static bool is_drawn(const paper *p, const paper_result *r)
 /* The panel of a result: that of its set; a file is a set of its own. */
 static plot_panel *panel_of(plot_panel *panels, size_t *count, const paper_result *r)
 {
-    for (size_t k = 0; k < *count && !r->own; k++)
+    for (size_t k = 0; k < *count && !r->users_file; k++)
         if (strcmp(panels[k].title, r->dataset) == 0) return &panels[k];
     panels[*count].title = r->dataset;
     return &panels[(*count)++];
 }
 
-static size_t group(const paper *p, const curve *curves, size_t curve_count, plot_panel *panels)
+static size_t paper_group_panels(const paper *p, const paper_curve *curves, size_t curve_count, plot_panel *panels)
 {
     size_t count = 0;
     for (size_t k = 0; k < p->count; k++) {
@@ -104,7 +105,7 @@ static size_t group(const paper *p, const curve *curves, size_t curve_count, plo
 int paper_plot(const paper *p, const char *path)
 {
     char title[128];
-    curve curves[MOST_ALGORITHMS];
+    paper_curve curves[MOST_ALGORITHMS];
     plot_panel *panels = calloc(p->count, sizeof *panels);
     if (!panels) return fail_memory();
     snprintf(title, sizeof title, "%s: %s", p->table->name, p->table->title);
@@ -116,7 +117,7 @@ int paper_plot(const paper *p, const char *path)
         .panels = panels,
         .curves = curves_of(p->table, curves),
     };
-    drawing.count = group(p, curves, drawing.curves, panels);
+    drawing.count = paper_group_panels(p, curves, drawing.curves, panels);
     for (size_t i = 0; i < drawing.curves; i++) {
         drawing.name[i] = curves[i].name;
         drawing.label[i] = curves[i].label;

@@ -1,16 +1,20 @@
-/* paper_polyhedra.c - the polyhedra of App. F and the surfaces of App. G: those that are made, and those of files. */
+/* paper_polyhedra.c - the polyhedra of App. F and the surfaces of App. G: those that are made, and
+ * those of files. */
+#include "bench/paper/paper_polyhedra.h"
+#include "bench/data/polyhedra.h"
+#include "bench/paper/paper_probe.h"
+#include "bench/paper/paper_star.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
-#include "bench/paper/paper.h"
-#include "bench/data/polyhedra.h"
 #include "cli/frame/progress.h"
 
-static int measure_arrays(paper *p, const mw_arrays *arrays, const char *name, bool own)
+static int paper_measure_arrays(paper *p, const mw_arrays *arrays, const char *name, bool users_file)
 {
-    return p->table->subject == PAPER_STARS ? paper_star(p, arrays, name, own) : paper_surface(p, arrays, name, own);
+    return p->table->subject == PAPER_STARS ? paper_star(p, arrays, name, users_file)
+                                            : paper_probe(p, arrays, name, users_file);
 }
 
-static int measure_made(paper *p, polyhedron_kind kind, size_t size)
+static int paper_measure_made(paper *p, polyhedron_kind kind, size_t size)
 {
     mw_error error;
     polyhedron made;
@@ -18,37 +22,38 @@ static int measure_made(paper *p, polyhedron_kind kind, size_t size)
     progress_phase("making the polyhedron", name);
     if (polyhedron_make(&made, kind, size, p->settings->common.seed, &error) != MW_OK) return fail_mesh(name, &error);
     mw_arrays arrays = polyhedron_arrays(&made);
-    int end = measure_arrays(p, &arrays, name, false);
+    int end = paper_measure_arrays(p, &arrays, name, false);
     polyhedron_release(&made);
     return end;
 }
 
 /* A number of vertices that only a subdivided icosahedron has makes one. */
-int paper_stars(paper *p, const size_t *sizes)
+int paper_polyhedra_stars(paper *p, const size_t *sizes)
 {
     int end = 0;
     for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++)
-        end = measure_made(p, polyhedron_is_icosahedron(sizes[i]) ? POLYHEDRON_ICOSAHEDRON : POLYHEDRON_STAR, sizes[i]);
+        end = paper_measure_made(p, polyhedron_is_icosahedron(sizes[i]) ? POLYHEDRON_ICOSAHEDRON : POLYHEDRON_STAR,
+                                 sizes[i]);
     return end;
 }
 
-int paper_surfaces(paper *p, const size_t *sizes)
+int paper_polyhedra_surfaces(paper *p, const size_t *sizes)
 {
     static const polyhedron_kind kinds[] = {POLYHEDRON_BUMPS, POLYHEDRON_KNOT};
     int end = 0;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++) end = measure_made(p, kinds[k], sizes[i]);
+        for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++) end = paper_measure_made(p, kinds[k], sizes[i]);
     return end;
 }
 
-int paper_polyhedron_file(paper *p, const char *path, const char *name)
+int paper_polyhedra_file(paper *p, const char *path, const char *name)
 {
     mw_mesh_file file;
     progress_phase("reading", path);
     int end = files_read_mesh(path, &file);
     if (end) return end;
     mw_arrays arrays = mw_mesh_file_arrays(&file);
-    end = measure_arrays(p, &arrays, name, true);
+    end = paper_measure_arrays(p, &arrays, name, true);
     mw_mesh_file_release(&file);
     return end;
 }

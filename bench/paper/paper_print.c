@@ -1,4 +1,4 @@
-#include "bench/paper/paper.h"
+#include "bench/paper/paper_print.h"
 #include "bench/paper/published.h"
 #include "cli/frame/report.h"
 
@@ -13,29 +13,29 @@ static double rounded(double value)
 }
 
 /* The figures of a result, one after the other. */
-typedef struct figure {
+typedef struct paper_figure {
     const paper *paper;
     const paper_result *result;
     const algorithm *algorithm;
     quantity quantity;
     double ours, published, ratio; /* NaN: none */
-} figure;
+} paper_figure;
 
-typedef void print_figure(text *t, const figure *f);
+typedef void paper_figure_print(text *t, const paper_figure *f);
 
 static void each_quantity(const paper *p, const paper_result *r, const algorithm *a, const double *value,
-                          uint64_t which, text *t, print_figure *print)
+                          uint64_t which, text *t, paper_figure_print *print)
 {
     for (quantity q = 0; q < QUANTITIES; q++) {
         if (!(which >> q & 1) || (quantity_is_time(q) && p->settings->no_times)) continue;
-        figure f = {p, r, a, q, rounded(value[q]), 0, 0};
+        paper_figure f = {p, r, a, q, rounded(value[q]), 0, 0};
         f.published = paper_published_of(p, r, a, q);
         f.ratio = f.published > 0 ? rounded(f.ours / f.published) : NAN;
         print(t, &f);
     }
 }
 
-static void each_figure(const paper *p, const paper_result *r, text *t, print_figure *print)
+static void each_figure(const paper *p, const paper_result *r, text *t, paper_figure_print *print)
 {
     const paper_table *table = p->table;
     for (size_t i = 0; r->walks && table->algorithms[i]; i++)
@@ -51,7 +51,7 @@ static void tsv_number(text *t, double value)
     if (!isnan(value)) text_double(t, value);
 }
 
-static void tsv_line(text *t, const figure *f)
+static void tsv_line(text *t, const paper_figure *f)
 {
     text_printf(t, "%s\t", f->paper->table->name);
     for (const char *c = f->result->dataset; *c; c++) text_bytes(t, *c == '\t' || *c == '\n' ? " " : c, 1);
@@ -73,7 +73,7 @@ static void json_number(text *t, const char *name, double value)
         text_double(t, value);
 }
 
-static void json_object(text *t, const figure *f)
+static void json_object(text *t, const paper_figure *f)
 {
     bool first = t->size == 1; /* nothing but the bracket */
     text_printf(t, "%s\n {\"table\": \"%s\", \"dataset\": ", first ? "" : ",", f->paper->table->name);
@@ -89,7 +89,7 @@ static void json_object(text *t, const figure *f)
 /* --format table */
 
 /* A cell of so many letters; empty without a value. */
-static void cell(text *t, int width, int decimals, double value)
+static void print_cell(text *t, int width, int decimals, double value)
 {
     if (isnan(value))
         text_printf(t, " %*s", width, "");
@@ -114,21 +114,21 @@ static int decimals_of(quantity q)
 }
 
 /* What is zero and not published says nothing, nor do layers where there are none. */
-static void table_line(text *t, const figure *f)
+static void table_line(text *t, const paper_figure *f)
 {
     int decimals = decimals_of(f->quantity);
     if (f->ours == 0 && isnan(f->published)) return;
     if (f->quantity == LAYERS && strcmp(f->paper->table->start, "layers") != 0) return;
     text_printf(t, "  %-19s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation, quantity_name(f->quantity));
-    cell(t, 10, decimals, f->ours);
-    cell(t, 10, decimals, f->published);
-    cell(t, 7, 3, f->ratio);
+    print_cell(t, 10, decimals, f->ours);
+    print_cell(t, 10, decimals, f->published);
+    print_cell(t, 7, 3, f->ratio);
     end_line(t);
 }
 
-/* A figure of algorithm i over that of the reference, ours and published. Of real data what is published is the least
- * and the largest of the thesis' own real data. */
-typedef double proportion(const paper *p, const paper_result *r, size_t i, bool published);
+/* A figure of algorithm i over that of the reference, ours and published. Of real data what is
+ * published is the least and the largest of the thesis' own real data. */
+typedef double paper_proportion(const paper *p, const paper_result *r, size_t i, bool published);
 
 static double triangles(const paper *p, const paper_result *r, size_t i, bool published)
 {
@@ -152,7 +152,7 @@ static double time_exact(const paper *p, const paper_result *r, size_t i, bool p
 }
 
 static const struct {
-    proportion *of;
+    paper_proportion *of;
     const char *name;
     quantity needs; /* a quantity that the table has, and measures */
 } proportions[] = {
@@ -169,16 +169,16 @@ static size_t reference_of(const paper_table *table)
     return i;
 }
 
-static double over_reference(const paper *p, const paper_result *r, size_t i, proportion *of, bool published)
+static double over_reference(const paper *p, const paper_result *r, size_t i, paper_proportion *of, bool published)
 {
     return of(p, r, i, published) / of(p, r, reference_of(p->table), published);
 }
 
 /* From the least to the largest over the real data of the thesis. */
-static void cell_of_range(text *t, const paper *p, size_t i, proportion *of)
+static void cell_of_range(text *t, const paper *p, size_t i, paper_proportion *of)
 {
     double least = INFINITY, most = -INFINITY;
-    paper_result r = {.own = false};
+    paper_result r = {.users_file = false};
     const char *set;
     for (size_t k = 0; published_real(p->table->name, k, &set, &r.outcome.vertices); k++) {
         strncpy(r.dataset, set, sizeof r.dataset - 1);
@@ -196,17 +196,17 @@ static void proportion_line(text *t, const paper *p, const paper_result *r, size
     double published = over_reference(p, r, i, proportions[k].of, true);
     text_printf(t, "  %-19s %-4s %-21s", p->table->algorithms[i]->name, p->table->algorithms[i]->abbreviation,
                 proportions[k].name);
-    cell(t, 10, 3, ours);
-    if (r->own) {
+    print_cell(t, 10, 3, ours);
+    if (r->users_file) {
         cell_of_range(t, p, i, proportions[k].of);
     } else {
-        cell(t, 10, 3, published);
-        cell(t, 7, 3, ours / published);
+        print_cell(t, 10, 3, published);
+        print_cell(t, 7, 3, ours / published);
     }
     end_line(t);
 }
 
-static bool has(const paper *p, quantity q)
+static bool paper_has(const paper *p, quantity q)
 {
     return p->table->quantities >> q & 1 && !(quantity_is_time(q) && p->settings->no_times);
 }
@@ -219,23 +219,24 @@ static bool has_range(const paper *p)
            !isnan(published_value(p->table->name, set, vertices, p->table->reference->name, TRIANGLES));
 }
 
-static void print_proportions(text *t, const paper *p, const paper_result *r)
+static void paper_print_proportions(text *t, const paper *p, const paper_result *r)
 {
     text_printf(t, "\n  over those of %s%s\n", p->table->reference->name,
-                r->own && has_range(p) ? "; published: from the least to the largest of the thesis' real data" : "");
+                r->users_file && has_range(p) ? "; published: from the least to the largest of the thesis' real data"
+                                              : "");
     for (size_t k = 0; k < PROPORTIONS; k++)
-        for (size_t i = 0; has(p, proportions[k].needs) && p->table->algorithms[i]; i++)
+        for (size_t i = 0; paper_has(p, proportions[k].needs) && p->table->algorithms[i]; i++)
             if (p->table->algorithms[i] != p->table->reference) proportion_line(t, p, r, i, k);
 }
 
-static void print_local_optima(text *t, const paper *p, const paper_result *r)
+static void paper_print_local_optima(text *t, const paper *p, const paper_result *r)
 {
-    for (size_t i = 0; has(p, OPTIMAL) && p->table->algorithms[i]; i++)
+    for (size_t i = 0; paper_has(p, OPTIMAL) && p->table->algorithms[i]; i++)
         if (r->outcome.value[i][OPTIMAL] == 0)
             text_printf(t, "  %s: a local optimum only\n", p->table->algorithms[i]->name);
 }
 
-static void print_table(text *t, const paper *p)
+static void paper_print_table(text *t, const paper *p)
 {
     text_printf(t, "%s: %s\n%" PRIu64 " queries on each set, from %s; means per query, times in microseconds\n",
                 p->table->name, p->table->title, p->queries, p->table->from);
@@ -247,8 +248,8 @@ static void print_table(text *t, const paper *p)
         text_printf(t, "  %-24s %-21s %10s %10s %7s\n", "algorithm", "quantity", "ours", "published", "ratio");
         each_figure(p, r, t, table_line);
         if (!r->walks) continue;
-        print_local_optima(t, p, r);
-        if (p->table->algorithms[1]) print_proportions(t, p, r);
+        paper_print_local_optima(t, p, r);
+        if (p->table->algorithms[1]) paper_print_proportions(t, p, r);
     }
 }
 
@@ -264,6 +265,6 @@ void paper_print(const paper *p, text *t)
         for (size_t i = 0; i < p->count; i++) each_figure(p, &p->results[i], t, json_object);
         text_string(t, "\n]\n");
         break;
-    default: print_table(t, p);
+    default: paper_print_table(t, p);
     }
 }

@@ -1,17 +1,18 @@
 /* paper_probe.c - thesis, App. G, Tables 1 to 3: which triangle of a surface a probe touches.
  *
- * A query is made from a point of the surface: a random triangle, each as likely as the others, and a point uniform in
- * it. Table 1: the probe is there, and moves along the inverted normal. Table 2: it moves in a direction uniform among
- * those that deviate from the inverted normal by less than a right angle, and is up to D before the point. Table 3: the
- * same, but a little farther than D, and nothing else is within D. D itself is not published, nor is how triangles and
- * directions were drawn: with these the counts come near to the published ones. Every touch that is told is compared with
- * what a complete search finds. */
-#include "bench/data/datasets.h"
-#include "cli/frame/message.h"
-#include "bench/paper/paper.h"
+ * A query is made from a point of the surface: a random triangle, each as likely as the others, and
+ * a point uniform in it. Table 1: the probe is there, and moves along the inverted normal. Table 2:
+ * it moves in a direction uniform among those that deviate from the inverted normal by less than a
+ * right angle, and is up to D before the point. Table 3: the same, but a little farther than D, and
+ * nothing else is within D. D itself is not published, nor is how triangles and directions were
+ * drawn: with these the counts come near to the published ones. Every touch that is told is
+ * compared with what a complete search finds. */
+#include "bench/paper/paper_probe.h"
+#include "bench/core/query_rounds.h"
+#include "bench/data/dataset.h"
 #include "bench/data/polyhedra.h"
+#include "cli/frame/message.h"
 #include "cli/frame/progress.h"
-#include "bench/core/rounds.h"
 #include "cli/frame/monotonic_clock.h"
 
 #include <math.h>
@@ -24,14 +25,15 @@
 #define DISTANCE 0.003 /* D, of the diagonal of the surface's extent */
 #define FARTHER 1.1    /* times D at most, in Table 3 */
 
-/* Walks at most. Table 1 has no limit: this is many times what any search has taken that came to an end. */
+/* Walks at most. Table 1 has no limit: this is many times what any search has taken that came to an
+ * end. */
 #define LIMIT 10
 #define NO_LIMIT 100000
 
 enum { ON_SURFACE = 1, NEAR_SURFACE, OFF_SURFACE };
 
 /* A surface, and a block of queries with their answers. */
-typedef struct scene {
+typedef struct probe_measurement {
     const paper *paper;
     const char *name;
     const mw_surface *surface;
@@ -40,9 +42,9 @@ typedef struct scene {
     double *queries;
     mw_touch *answers, *touches;
     uint64_t random; /* of the queries */
-} scene;
+} probe_measurement;
 
-static void release(scene *s)
+static void probe_measurement_release(probe_measurement *s)
 {
     mw_prober_destroy(s->prober);
     free(s->queries);
@@ -51,7 +53,7 @@ static void release(scene *s)
 }
 
 /* Its corners, its normal as long as twice its area. */
-static void corners_of(const scene *s, uint32_t triangle, double corner[3][3], double normal[3])
+static void corners_of(const probe_measurement *s, uint32_t triangle, double corner[3][3], double normal[3])
 {
     uint32_t v[3];
     double u[3], w[3];
@@ -76,7 +78,7 @@ static bool is_usable(const double normal[3])
     return length > 0 && isfinite(length);
 }
 
-static bool has_usable(const scene *s)
+static bool has_usable(const probe_measurement *s)
 {
     double corner[3][3], normal[3];
     for (uint32_t i = 0; i < mw_surface_triangle_count(s->surface); i++) {
@@ -86,7 +88,7 @@ static bool has_usable(const scene *s)
     return false;
 }
 
-static int prepare(scene *s, const mw_surface_info *info)
+static int probe_measurement_prepare(probe_measurement *s, const mw_surface_info *info)
 {
     mw_error error;
     mw_prober_options options = {.boxes = 1};
@@ -108,7 +110,7 @@ static int prepare(scene *s, const mw_surface_info *info)
 /* --- queries */
 
 /* A point of a random triangle, and its normal of length 1. */
-static void draw_point(scene *s, double point[3], double normal[3])
+static void draw_point(probe_measurement *s, double point[3], double normal[3])
 {
     double corner[3][3], count = mw_surface_triangle_count(s->surface);
     do {
@@ -126,7 +128,7 @@ static void draw_point(scene *s, double point[3], double normal[3])
 }
 
 /* Uniform among the directions against the normal. */
-static void deviate(scene *s, const double normal[3], double motion[3])
+static void deviate(probe_measurement *s, const double normal[3], double motion[3])
 {
     double along;
     do {
@@ -136,7 +138,7 @@ static void deviate(scene *s, const double normal[3], double motion[3])
     for (size_t k = 0; k < 3 && along > 0; k++) motion[k] = -motion[k];
 }
 
-static void draw_query(scene *s, double query[6])
+static void draw_query(probe_measurement *s, double query[6])
 {
     double normal[3], *motion = query + 3, before = 0;
     draw_point(s, query, normal);
@@ -148,7 +150,7 @@ static void draw_query(scene *s, double query[6])
     for (size_t k = 0; k < 3; k++) query[k] -= before * motion[k];
 }
 
-static mw_probe_options options_of(const scene *s)
+static mw_probe_options options_of(const probe_measurement *s)
 {
     return (mw_probe_options){
         .max_distance = s->distance,
@@ -161,7 +163,7 @@ static mw_probe_options options_of(const scene *s)
 }
 
 /* What a complete search finds. */
-static int search(scene *s, const double *queries, size_t n, mw_touch *found)
+static int probe_measurement_search(probe_measurement *s, const double *queries, size_t n, mw_touch *found)
 {
     mw_error error;
     mw_probe_options options = options_of(s);
@@ -174,9 +176,9 @@ static int search(scene *s, const double *queries, size_t n, mw_touch *found)
 /* So many drawn in vain, beyond a thousand for each found, are no accident. */
 #define DRAWN_IN_VAIN 100000
 
-/* n queries and what a complete search finds. Those that should touch nothing, and do, are drawn anew; so are those on the
- * surface that by rounding miss it, since the search has no limit. */
-static int draw(scene *s, size_t n)
+/* n queries and what a complete search finds. Those that should touch nothing, and do, are drawn
+ * anew; so are those on the surface that by rounding miss it, since the search has no limit. */
+static int probe_measurement_draw(probe_measurement *s, size_t n)
 {
     int variant = s->paper->table->variant;
     size_t found = 0, drawn = 0;
@@ -188,7 +190,7 @@ static int draw(scene *s, size_t n)
         size_t more = n - found;
         double *queries = s->queries + 6 * found;
         for (size_t i = 0; i < more; i++) draw_query(s, queries + 6 * i);
-        int end = search(s, queries, more, s->touches);
+        int end = probe_measurement_search(s, queries, more, s->touches);
         if (end) return end;
         for (size_t i = 0; i < more; i++) {
             bool touches = s->touches[i].state == MW_TOUCH_HIT;
@@ -204,7 +206,7 @@ static int draw(scene *s, size_t n)
 /* --- counts and times */
 
 /* A touch told of is one, at most as near as the nearest. */
-static int compare(const scene *s, size_t n)
+static int probe_measurement_compare(const probe_measurement *s, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         const mw_touch *a = &s->touches[i], *b = &s->answers[i];
@@ -220,7 +222,7 @@ static int compare(const scene *s, size_t n)
     return 0;
 }
 
-static void take_counts(const mw_probe_counters *c, uint32_t samples, double value[QUANTITIES])
+static void probe_measurement_take_counts(const mw_probe_counters *c, uint32_t samples, double value[QUANTITIES])
 {
     double queries = (double)c->queries;
     value[SAMPLE] = samples;
@@ -234,7 +236,7 @@ static void take_counts(const mw_probe_counters *c, uint32_t samples, double val
     value[ITERATIONS_MAX] = (double)c->iterations_max;
 }
 
-static int count(scene *s, outcome *o)
+static int probe_measurement_count(probe_measurement *s, walk_outcome *o)
 {
     mw_probe_counters sum = {0};
     mw_probe_options options = options_of(s);
@@ -245,23 +247,23 @@ static int count(scene *s, outcome *o)
         mw_error error;
         mw_probe_counters counters;
         size_t n = queries - done < BLOCK ? (size_t)(queries - done) : BLOCK;
-        int end = draw(s, n);
+        int end = probe_measurement_draw(s, n);
         if (end) return end;
         if (mw_probe_batch(s->prober, s->queries, n, 6, &options, s->touches, &counters, &error) != MW_OK)
             return fail_mesh(s->name, &error);
         mw_probe_counters_add(&sum, &counters);
-        end = compare(s, n);
+        end = probe_measurement_compare(s, n);
         if (end) return end;
         done += n;
         progress_points(done);
     }
-    take_counts(&sum, options.samples, o->value[0]);
+    probe_measurement_take_counts(&sum, options.samples, o->value[0]);
     return 0;
 }
 
-static int time_one(void *self, size_t entry, size_t begin, size_t n, double *time)
+static int probe_measurement_time_share(void *self, size_t entry, size_t begin, size_t n, double *time)
 {
-    scene *s = self;
+    probe_measurement *s = self;
     mw_error error;
     mw_probe_cursor cursor;
     mw_probe_options options = options_of(s);
@@ -274,18 +276,18 @@ static int time_one(void *self, size_t entry, size_t begin, size_t n, double *ti
     return 0;
 }
 
-static int time_all(scene *s, outcome *o)
+static int probe_measurement_time(probe_measurement *s, walk_outcome *o)
 {
-    size_t share = rounds_share(s->paper->queries);
-    int end = draw(s, TIMED_ROUNDS * share);
+    size_t share = query_rounds_share(s->paper->queries);
+    int end = probe_measurement_draw(s, TIMED_ROUNDS * share);
     progress_phase("timing", s->name);
-    return end ? end : rounds_time(1, share, time_one, s, &o->value[0][TIME_EXACT_US]);
+    return end ? end : query_rounds_measure(1, share, probe_measurement_time_share, s, &o->value[0][TIME_EXACT_US]);
 }
 
 /* --- surfaces */
 
-/* The models of the thesis. The vertices are not printed, but follow from the triangles where a surface is closed, in one
- * piece and without handles. */
+/* The models of the thesis. The vertices are not printed, but follow from the triangles where a
+ * surface is closed, in one piece and without handles. */
 static const struct {
     const char *name;
     uint32_t triangles;
@@ -299,7 +301,7 @@ static const struct {
 /* A file that bears the name of a model, and has about as many triangles. */
 static void find_model(paper_result *r, double triangles)
 {
-    for (size_t i = 0; i < sizeof models / sizeof *models && r->own; i++) {
+    for (size_t i = 0; i < sizeof models / sizeof *models && r->users_file; i++) {
         double wanted = models[i].triangles;
         bool named = strncasecmp(r->dataset, models[i].name, strlen(models[i].name)) == 0;
         if (!named || fabs(triangles - wanted) > VERSION * wanted) continue;
@@ -308,28 +310,28 @@ static void find_model(paper_result *r, double triangles)
     }
 }
 
-int paper_surface(paper *p, const mw_arrays *arrays, const char *name, bool own)
+int paper_probe(paper *p, const mw_arrays *arrays, const char *name, bool users_file)
 {
     mw_error error;
     mw_surface *surface = NULL;
     mw_surface_info info;
     mw_surface_options options = {.weld = 1};
-    paper_result *r = paper_add(p, name, own);
+    paper_result *r = paper_add(p, name, users_file);
     if (!r) return fail_memory();
     if (mw_surface_create(arrays, &options, &surface, &error) != MW_OK ||
         mw_surface_describe(surface, &info, &error) != MW_OK) {
         mw_surface_destroy(surface);
         return fail_mesh(name, &error);
     }
-    scene s = {.paper = p, .name = name, .surface = surface, .random = ~p->settings->common.seed};
+    probe_measurement s = {.paper = p, .name = name, .surface = surface, .random = ~p->settings->common.seed};
     r->walks = r->whole = true;
     r->outcome.vertices = info.vertices - info.unused_vertices;
     r->outcome.whole[MESH_TRIANGLES] = info.triangles;
     find_model(r, info.triangles);
-    int end = prepare(&s, &info);
-    if (end == 0) end = count(&s, &r->outcome);
-    if (end == 0 && !p->settings->no_times) end = time_all(&s, &r->outcome);
-    release(&s);
+    int end = probe_measurement_prepare(&s, &info);
+    if (end == 0) end = probe_measurement_count(&s, &r->outcome);
+    if (end == 0 && !p->settings->no_times) end = probe_measurement_time(&s, &r->outcome);
+    probe_measurement_release(&s);
     mw_surface_destroy(surface);
     progress_phase("measuring", NULL); /* the name may go */
     return end;

@@ -1,13 +1,14 @@
 /* paper_star.c - thesis, App. F, Tables 1 and 2: walks on star-shaped polyhedra.
  *
- * All walks locate the same rays, uniform over the sphere; what they find is compared. The polyhedra are the subdivided
- * icosahedron, which is the authors' own, and hulls of random points. Table 2 has the same queries begin by indexes of 128,
- * 512 and 2048 elements, each a data set of its own. */
-#include "cli/frame/message.h"
-#include "bench/paper/paper.h"
+ * All walks locate the same rays, uniform over the sphere; what they find is compared. The
+ * polyhedra are the subdivided icosahedron, which is the authors' own, and hulls of random points.
+ * Table 2 has the same queries begin by indexes of 128, 512 and 2048 elements, each a data set of
+ * its own. */
+#include "bench/paper/paper_star.h"
+#include "bench/core/query_rounds.h"
 #include "bench/data/polyhedra.h"
+#include "cli/frame/message.h"
 #include "cli/frame/progress.h"
-#include "bench/core/rounds.h"
 #include "cli/frame/monotonic_clock.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@
 #define BLOCK ((size_t)1 << 18) /* queries in memory at a time */
 
 /* A star, and a block of queries with their answers. */
-typedef struct scene {
+typedef struct star_measurement {
     const paper *paper;
     const char *name;
     const mw_star *star;
@@ -28,21 +29,21 @@ typedef struct scene {
     double *queries;
     mw_location *answers, *locations;
     uint64_t random; /* of the queries */
-} scene;
+} star_measurement;
 
-static const algorithm *algorithm_of(const scene *s, size_t i)
+static const algorithm *algorithm_of(const star_measurement *s, size_t i)
 {
     return s->paper->table->algorithms[i];
 }
 
 /* Where the table is about indexes, an algorithm has the name of its start. */
-static mw_star_start_kind start_of(const scene *s, size_t i)
+static mw_star_start_kind start_of(const star_measurement *s, size_t i)
 {
     const char *start = s->paper->table->start;
     return mw_star_start_by_name(strcmp(start, "index") == 0 ? algorithm_of(s, i)->name : start);
 }
 
-static void release(scene *s)
+static void star_measurement_release(star_measurement *s)
 {
     for (size_t i = 0; i < s->algorithms; i++) mw_star_index_destroy(s->index[i]);
     free(s->queries);
@@ -58,7 +59,7 @@ static uint32_t levels_of(uint32_t elements)
     return level;
 }
 
-static int prepare(scene *s, uint32_t elements)
+static int star_measurement_prepare(star_measurement *s, uint32_t elements)
 {
     mw_error error;
     mw_star_index_options options = {.cells = elements, .levels = levels_of(elements) + 1};
@@ -76,7 +77,7 @@ static int prepare(scene *s, uint32_t elements)
     return 0;
 }
 
-static void draw(scene *s, size_t n)
+static void star_measurement_draw(star_measurement *s, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         double *q = s->queries + 3 * i;
@@ -85,7 +86,7 @@ static void draw(scene *s, size_t n)
     }
 }
 
-static mw_star_query_options options_of(const scene *s, size_t i)
+static mw_star_query_options options_of(const star_measurement *s, size_t i)
 {
     return (mw_star_query_options){
         .walk = mw_star_walk_by_name(algorithm_of(s, i)->walk),
@@ -97,7 +98,7 @@ static mw_star_query_options options_of(const scene *s, size_t i)
     };
 }
 
-static int compare(const scene *s, size_t n, const char *walk)
+static int star_measurement_compare(const star_measurement *s, size_t n, const char *walk)
 {
     for (size_t i = 0; i < n; i++) {
         const mw_location *a = &s->locations[i], *b = &s->answers[i];
@@ -110,7 +111,7 @@ static int compare(const scene *s, size_t n, const char *walk)
     return 0;
 }
 
-static int count_block(scene *s, size_t n, uint64_t block, mw_counters *sums)
+static int star_measurement_count_block(star_measurement *s, size_t n, uint64_t block, mw_counters *sums)
 {
     mw_error error;
     mw_star_query_options automatic = {.threads = s->paper->settings->common.threads};
@@ -124,20 +125,22 @@ static int count_block(scene *s, size_t n, uint64_t block, mw_counters *sums)
         if (mw_star_locate_batch(s->star, s->queries, n, 3, &options, s->locations, &counters, &error) != MW_OK)
             return fail_mesh(s->name, &error);
         mw_counters_add(&sums[i], &counters);
-        int end = compare(s, n, algorithm_of(s, i)->name);
+        int end = star_measurement_compare(s, n, algorithm_of(s, i)->name);
         if (end) return end;
     }
     return 0;
 }
 
-/* The paper's orthogonal walk counts the facets that it enters, and two comparisons for each; ours the first one, too. */
+/* The paper's orthogonal walk counts the facets that it enters, and two comparisons for each; ours
+ * the first one, too. */
 static void leave_out_first(double value[QUANTITIES])
 {
     value[TRIANGLES] -= 1;
     value[COMPARISONS] -= 2;
 }
 
-static void take_counts(const scene *s, size_t i, const mw_counters *c, double value[QUANTITIES])
+static void star_measurement_take_counts(const star_measurement *s, size_t i, const mw_counters *c,
+                                         double value[QUANTITIES])
 {
     double queries = (double)c->queries;
     value[TRIANGLES_INIT] = (double)c->triangles_init / queries;
@@ -155,26 +158,26 @@ static void take_counts(const scene *s, size_t i, const mw_counters *c, double v
     value[LOCATOR_SECONDS] = info.seconds;
 }
 
-static int count(scene *s, outcome *o)
+static int star_measurement_count(star_measurement *s, walk_outcome *o)
 {
     mw_counters sums[MOST_ALGORITHMS] = {0};
     uint64_t done = 0, queries = s->paper->queries;
     progress_phase("counting", s->name);
     for (uint64_t block = 0; done < queries; block++) {
         size_t n = queries - done < BLOCK ? (size_t)(queries - done) : BLOCK;
-        draw(s, n);
-        int end = count_block(s, n, block, sums);
+        star_measurement_draw(s, n);
+        int end = star_measurement_count_block(s, n, block, sums);
         if (end) return end;
         done += n;
         progress_points(done);
     }
-    for (size_t i = 0; i < s->algorithms; i++) take_counts(s, i, &sums[i], o->value[i]);
+    for (size_t i = 0; i < s->algorithms; i++) star_measurement_take_counts(s, i, &sums[i], o->value[i]);
     return 0;
 }
 
-static int time_one(void *self, size_t i, size_t begin, size_t n, double *time)
+static int star_measurement_time_share(void *self, size_t i, size_t begin, size_t n, double *time)
 {
-    scene *s = self;
+    star_measurement *s = self;
     mw_error error;
     mw_star_cursor cursor;
     mw_star_query_options options = options_of(s, i);
@@ -187,26 +190,26 @@ static int time_one(void *self, size_t i, size_t begin, size_t n, double *time)
     return 0;
 }
 
-static int time_all(scene *s, outcome *o)
+static int star_measurement_time(star_measurement *s, walk_outcome *o)
 {
     double times[MOST_ALGORITHMS];
-    size_t share = rounds_share(s->paper->queries);
-    draw(s, TIMED_ROUNDS * share);
+    size_t share = query_rounds_share(s->paper->queries);
+    star_measurement_draw(s, TIMED_ROUNDS * share);
     progress_phase("timing", s->name);
-    int end = rounds_time(s->algorithms, share, time_one, s, times);
+    int end = query_rounds_measure(s->algorithms, share, star_measurement_time_share, s, times);
     for (size_t i = 0; i < s->algorithms && end == 0; i++) o->value[i][TIME_EXACT_US] = times[i];
     return end;
 }
 
 /* With an index of so many elements; 0: without one. */
-static int measure_star(paper *p, const mw_surface *surface, const mw_star *star, const char *set, bool own,
-                        uint32_t elements)
+static int paper_measure_star(paper *p, const mw_surface *surface, const mw_star *star, const char *set,
+                              bool users_file, uint32_t elements)
 {
     char name[256];
     mw_star_info info;
-    scene s = {.paper = p, .name = name, .star = star};
+    star_measurement s = {.paper = p, .name = name, .star = star};
     snprintf(name, sizeof name, elements ? "%.230s-%u" : "%.230s", set, elements);
-    paper_result *r = paper_add(p, name, own);
+    paper_result *r = paper_add(p, name, users_file);
     if (!r) return fail_memory();
     r->walks = r->whole = true;
     r->outcome.vertices = mw_surface_vertex_count(surface);
@@ -218,10 +221,10 @@ static int measure_star(paper *p, const mw_surface *surface, const mw_star *star
         for (size_t k = 0; k < 3; k++) s.reach = fmax(s.reach, fabs(q[k] - info.centre[k]));
     }
     memcpy(s.centre, info.centre, sizeof s.centre);
-    int end = prepare(&s, elements);
-    if (end == 0) end = count(&s, &r->outcome);
-    if (end == 0 && !p->settings->no_times) end = time_all(&s, &r->outcome);
-    release(&s);
+    int end = star_measurement_prepare(&s, elements);
+    if (end == 0) end = star_measurement_count(&s, &r->outcome);
+    if (end == 0 && !p->settings->no_times) end = star_measurement_time(&s, &r->outcome);
+    star_measurement_release(&s);
     progress_phase("measuring", NULL); /* the name may go */
     return end;
 }
@@ -241,7 +244,7 @@ static mw_status make_star(const mw_surface *surface, mw_star **star, mw_error *
     return mw_star_create(surface, &options, star, error);
 }
 
-int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool own)
+int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool users_file)
 {
     static const uint32_t elements[] = {128, 512, 2048};
     mw_error error;
@@ -252,10 +255,10 @@ int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool own)
     if (mw_surface_create(arrays, &options, &surface, &error) != MW_OK || make_star(surface, &star, &error) != MW_OK)
         end = fail_mesh(name, &error);
     else if (strcmp(p->table->start, "index") != 0)
-        end = measure_star(p, surface, star, name, own, 0);
+        end = paper_measure_star(p, surface, star, name, users_file, 0);
     else
         for (size_t i = 0; i < sizeof elements / sizeof *elements && end == 0; i++)
-            end = measure_star(p, surface, star, name, own, elements[i]);
+            end = paper_measure_star(p, surface, star, name, users_file, elements[i]);
     mw_star_destroy(star);
     mw_surface_destroy(surface);
     return end;

@@ -1,6 +1,7 @@
-/* paper_tables.c - the tables of the thesis that can be measured again, and what their columns mean. */
+/* paper_tables.c - the tables of the thesis that can be measured again, and what their columns
+ * mean. */
+#include "bench/paper/paper_tables.h"
 #include "cli/frame/message.h"
-#include "bench/paper/paper.h"
 #include "cli/frame/spelling.h"
 
 #include <string.h>
@@ -16,10 +17,11 @@ static const algorithm improved_orthogonal = {"improved-orthogonal", "IOW", "imp
                                               MW_KIND_DELAUNAY};
 static const algorithm hybrid = {"hybrid", "HW", "hybrid", FILLED, MW_KIND_DELAUNAY};
 static const algorithm direct_computed = {"direct-dw2", "DW2", "direct", FILLED, MW_KIND_DELAUNAY};
-static const algorithm direct_stored = {"direct-dw1", "DW1", "direct", AREAS, MW_KIND_DELAUNAY};
+static const algorithm direct_stored = {"direct-dw1", "DW1", "direct", FILLED_WITH_AREAS, MW_KIND_DELAUNAY};
 
-/* Appendix D: the mesh as it is; and beside it, on the same mesh with its pockets and holes filled, two that need that. */
-static const algorithm border = {"border", "", "border", OPEN, MW_KIND_DELAUNAY};
+/* Appendix D: the mesh as it is; and beside it, on the same mesh with its pockets and holes filled,
+ * two that need that. */
+static const algorithm border = {"border", "", "border", UNFILLED, MW_KIND_DELAUNAY};
 static const algorithm filled_straight = {"straight-filled", "", "straight", FILLED, MW_KIND_DELAUNAY};
 static const algorithm filled_auto = {"auto-filled", "", "auto", FILLED, MW_KIND_DELAUNAY};
 static const algorithm mesh = {"mesh", "", NULL, FILLED, MW_KIND_DELAUNAY};
@@ -256,7 +258,8 @@ const paper_table *paper_table_named(const char *name)
     return NULL;
 }
 
-/* Columns that are sums of our quantities: the first then means what the column does (docs/published-tables.md). */
+/* Columns that are sums of our quantities: the first then means what the column does
+ * (docs/published-tables.md). */
 static const struct {
     const char *table;
     const algorithm *algorithm;
@@ -269,7 +272,7 @@ static const struct {
     {"E2", &orthogonal, TRIANGLES, TRIANGLES_INIT, 1},
 };
 
-void paper_sum_columns(const paper_table *table, outcome *o)
+void paper_table_sum_columns(const paper_table *table, walk_outcome *o)
 {
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         for (size_t i = 0; table->algorithms[i] && strcmp(columns[c].table, table->name) == 0; i++)

@@ -3,43 +3,44 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct cell {
+typedef struct published_cell {
     quantity quantity;
     double value;
-} cell;
+} published_cell;
 
 #define MOST_CELLS 16
 
-typedef struct row {
+typedef struct published_row {
     const char *table, *dataset;
     size_t vertices;
     const char *algorithm;
     size_t count;
-    cell cells[MOST_CELLS];
-} row;
+    published_cell cells[MOST_CELLS];
+} published_row;
 
-static const row rows[] = {
+static const published_row rows[] = {
 #define PUBLISHED(table, dataset, vertices, algorithm, ...)                                                            \
-    {#table, dataset, vertices, algorithm, sizeof(cell[]){__VA_ARGS__} / sizeof(cell), {__VA_ARGS__}},
+    {#table,       dataset, vertices, algorithm, sizeof(published_cell[]){__VA_ARGS__} / sizeof(published_cell),       \
+     {__VA_ARGS__}},
 #include "bench/paper/published.def"
 };
 #define ROWS (sizeof rows / sizeof *rows)
 
-static const double *cell_of(const row *r, quantity q)
+static const double *cell_of(const published_row *r, quantity q)
 {
     for (size_t i = 0; i < r->count; i++)
         if (r->cells[i].quantity == q) return &r->cells[i].value;
     return NULL;
 }
 
-static bool is_about(const row *r, const char *table, const char *walk)
+static bool is_about(const published_row *r, const char *table, const char *walk)
 {
     return strcmp(r->table, table) == 0 && strcmp(r->algorithm, walk) == 0;
 }
 
 double published_value(const char *table, const char *set, size_t vertices, const char *walk, quantity q)
 {
-    for (const row *r = rows; r < rows + ROWS; r++) {
+    for (const published_row *r = rows; r < rows + ROWS; r++) {
         if (!is_about(r, table, walk) || r->vertices != vertices || strcmp(r->dataset, set) != 0) continue;
         const double *value = cell_of(r, q);
         return value ? *value : NAN;
@@ -49,12 +50,12 @@ double published_value(const char *table, const char *set, size_t vertices, cons
 
 bool published_prints(const char *table, const char *walk, quantity q)
 {
-    for (const row *r = rows; r < rows + ROWS; r++)
+    for (const published_row *r = rows; r < rows + ROWS; r++)
         if (is_about(r, table, walk) && cell_of(r, q)) return true;
     return false;
 }
 
-static bool is_real(const row *r, const char *table)
+static bool is_real(const published_row *r, const char *table)
 {
     static const char *const real[] = {"cadastre", "lidar", "skull", "bunny"};
     for (size_t i = 0; i < sizeof real / sizeof *real; i++)
@@ -65,7 +66,7 @@ static bool is_real(const row *r, const char *table)
 /* The rows of a set stand together. */
 bool published_real(const char *table, size_t i, const char **set, size_t *vertices)
 {
-    for (const row *r = rows; r < rows + ROWS; r++) {
+    for (const published_row *r = rows; r < rows + ROWS; r++) {
         bool again = r > rows && is_real(r - 1, table) && r[-1].vertices == r->vertices;
         if (!is_real(r, table) || again || i-- > 0) continue;
         *set = r->dataset;

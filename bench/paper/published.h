@@ -1,10 +1,13 @@
 /* published.h - what the thesis prints in its tables. */
-#ifndef CLI_PUBLISHED_H
-#define CLI_PUBLISHED_H
+#ifndef MW_BENCH_PAPER_PUBLISHED_H
+#define MW_BENCH_PAPER_PUBLISHED_H
 
-#include "bench/core/measure.h"
+#include "bench/paper/quantity.h"
 
-/* The number that a table prints for an algorithm on a set of so many vertices; NaN where it prints none. */
+#include <stddef.h>
+
+/* The number that a table prints for an algorithm on a set of so many vertices; NaN where it prints
+ * none. */
 double published_value(const char *table, const char *set, size_t vertices, const char *walk, quantity q);
 
 /* Has the table a column of this quantity for the algorithm, whatever the data? */

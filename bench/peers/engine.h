@@ -1,7 +1,8 @@
-/* engine.h - engines: whatever tells which triangle contains a point, and can be measured beside others. Ours are in
- * engine_own.c; those of the peers are files of bench/, linked only where the benchmarks are built. */
-#ifndef CLI_ENGINE_H
-#define CLI_ENGINE_H
+/* engine.h - what an engine does: it tells which triangle contains a point, and is measured beside
+ * others. Ours are in engine_meshwalk.c; each peer is a file peer_NAME.cpp, linked only where
+ * MW_BUILD_BENCH is set. */
+#ifndef MW_BENCH_PEERS_ENGINE_H
+#define MW_BENCH_PEERS_ENGINE_H
 
 #include <meshwalk/predicates.h>
 
@@ -15,14 +16,14 @@ extern "C" {
 
 /* What is measured. */
 typedef enum engine_task {
-    TASK_RANDOM,       /* queries uniform in the mesh, in random order                                        */
-    TASK_SORTED,       /* the same, given along a Hilbert curve                                               */
-    TASK_COHERENT,     /* a stream with steps of about one edge                                               */
-    TASK_HALF_OUTSIDE, /* every other one, at random, is in no triangle                                       */
-    TASK_TOTAL,        /* as random, from the arrays of the mesh to the answers: what is built counts         */
-    TASK_DENSE,        /* each triangle is as likely as any other: as dense as the mesh is, in random order   */
-    TASK_DELAUNAY,     /* the Delaunay triangulation of the points                                            */
-    TASK_CONNECTIVITY, /* from the arrays of the mesh to the first query                                      */
+    TASK_RANDOM,       /* queries uniform in the mesh, in random order */
+    TASK_SORTED,       /* the same, given along a Hilbert curve */
+    TASK_COHERENT,     /* a stream with steps of about one edge */
+    TASK_HALF_OUTSIDE, /* every other one, at random, is in no triangle */
+    TASK_TOTAL,        /* as random, from the arrays of the mesh to the answers: what is built counts */
+    TASK_DENSE,        /* each triangle is as likely as any other: as dense as the mesh is, in random order */
+    TASK_DELAUNAY,     /* the Delaunay triangulation of the points */
+    TASK_CONNECTIVITY, /* from the arrays of the mesh to the first query */
     TASKS
 } engine_task;
 
@@ -43,7 +44,7 @@ typedef enum engine_library {
 
 typedef enum engine_id {
 #define ENGINE(id, name, library, exact, parallel, tasks, help) ENGINE_##id,
-#include "bench/peers/engines.def"
+#include "bench/peers/engine.def"
     ENGINES
 } engine_id;
 
@@ -58,8 +59,9 @@ typedef struct engine_mesh {
 #define ENGINE_NONE UINT64_MAX /* the answer for a point in no triangle */
 #define ENGINE_FAILED (-1.0)   /* in the place of seconds               */
 
-/* What is built before the first query; engines with the same one share it. Each measures itself: preparing the form in
- * which queries are given, or answers are wanted, is no part of the seconds, but what it needs to be told in doubles is. */
+/* What is built before the first query; engines with the same one share it. Each measures itself:
+ * preparing the form in which queries are given, or answers are wanted, is no part of the seconds,
+ * but what it needs to be told in doubles is. */
 typedef struct engine_structure {
     /* The library and its version. NULL: it is not to be had on this machine. */
     const char *(*version)(void);
@@ -67,7 +69,8 @@ typedef struct engine_structure {
     double (*build)(const engine_mesh *mesh, unsigned threads, void **self);
     /* All that is kept for queries; the arrays of the mesh, where they are used, not counted. */
     size_t (*bytes)(const void *self);
-    /* The corners of an answer that is not ENGINE_NONE. No function: answers are numbers of triangles in the arrays. */
+    /* The corners of an answer that is not ENGINE_NONE. No function: answers are numbers of
+     * triangles in the arrays. */
     void (*corners)(const void *self, uint64_t answer, double corners[6]);
     void (*destroy)(void *self);
 } engine_structure;
@@ -79,9 +82,6 @@ typedef struct engine_code {
     /* For TASK_DELAUNAY alone: returns seconds. */
     double (*triangulate)(const double *points, size_t n, unsigned threads, size_t *bytes);
 } engine_code;
-
-/* The code of an engine of a peer; NULL: it was not built. */
-const engine_code *peers_engine(engine_id id);
 
 /* Is q in the triangle, its border included? A triangle without area has no inside. Exact. */
 static inline bool engine_contains(const double *a, const double *b, const double *c, const double *q)

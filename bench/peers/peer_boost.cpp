@@ -1,6 +1,7 @@
-// peer_boost.cpp - Boost's R-tree over the boxes of the triangles, packed [Leutenegger, Edgington, Lopez 1997], and an exact
-// orientation test of each triangle whose box holds the point.
-#include "bench/peers/peers.h"
+// peer_boost.cpp - Boost's R-tree over the boxes of the triangles, packed [Leutenegger, Edgington,
+// Lopez 1997], and an exact orientation test of each triangle whose box holds the point.
+#include "bench/peers/peer_list.h"
+#include "bench/peers/peer_support.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -13,16 +14,18 @@
 
 #include <string>
 
-namespace bench
+namespace peer_boost
 {
 namespace
 {
 
+using namespace bench;
+
 namespace bg = boost::geometry;
 using BoostPoint = bg::model::point<double, 2, bg::cs::cartesian>;
-using Box = bg::model::box<BoostPoint>;
-using Entry = std::pair<Box, uint32_t>;
-using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
+using BoostBox = bg::model::box<BoostPoint>;
+using BoostEntry = std::pair<BoostBox, uint32_t>;
+using BoostTree = bg::index::rtree<BoostEntry, bg::index::rstar<16>>;
 
 const char *version()
 {
@@ -32,7 +35,7 @@ const char *version()
     return name.c_str();
 }
 
-Box box_of(const engine_mesh &mesh, size_t triangle)
+BoostBox box_of(const engine_mesh &mesh, size_t triangle)
 {
     const uint32_t *v = mesh.triangles + 3 * triangle;
     double low[2], high[2];
@@ -42,27 +45,27 @@ Box box_of(const engine_mesh &mesh, size_t triangle)
         low[k] = least;
         high[k] = most;
     }
-    return Box(BoostPoint(low[0], low[1]), BoostPoint(high[0], high[1]));
+    return BoostBox(BoostPoint(low[0], low[1]), BoostPoint(high[0], high[1]));
 }
 
-struct Boxes {
+struct BoostBoxes {
     engine_mesh mesh;
-    Tree tree;
+    BoostTree tree;
     size_t bytes = 0;
 
-    explicit Boxes(const engine_mesh &of) : mesh(of)
+    explicit BoostBoxes(const engine_mesh &of) : mesh(of)
     {
-        std::vector<Entry> entries(mesh.triangle_count);
+        std::vector<BoostEntry> entries(mesh.triangle_count);
         for (size_t t = 0; t < mesh.triangle_count; t++) entries[t] = {box_of(mesh, t), static_cast<uint32_t>(t)};
-        tree = Tree(entries.begin(), entries.end());
+        tree = BoostTree(entries.begin(), entries.end());
     }
 };
 
-uint64_t find(const Boxes &boxes, const double *query)
+uint64_t find(const BoostBoxes &boxes, const double *query)
 {
     uint64_t answer = ENGINE_NONE;
-    auto look = [&](const Entry &entry) {
-        if (answer == ENGINE_NONE && contains(boxes.mesh, entry.second, query)) answer = entry.second;
+    auto look = [&](const BoostEntry &entry) {
+        if (answer == ENGINE_NONE && triangle_contains(boxes.mesh, entry.second, query)) answer = entry.second;
     };
     boxes.tree.query(bg::index::intersects(BoostPoint(query[0], query[1])), boost::make_function_output_iterator(look));
     return answer;
@@ -70,7 +73,7 @@ uint64_t find(const Boxes &boxes, const double *query)
 
 double locate(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
 {
-    const Boxes &boxes = *static_cast<const Boxes *>(self);
+    const BoostBoxes &boxes = *static_cast<const BoostBoxes *>(self);
     Stopwatch watch;
     in_parts(n, threads, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; i++) answers[i] = find(boxes, queries + 2 * i);
@@ -79,13 +82,13 @@ double locate(void *self, const double *queries, size_t n, unsigned threads, uin
 }
 
 } // namespace
+} // namespace peer_boost
 
-const engine_code *boost_engine(engine_id id)
+const engine_code *peer_boost_engine(engine_id id)
 {
-    static const engine_structure tree = {version, Keeper<Boxes>::build, Keeper<Boxes>::bytes, nullptr,
-                                          Keeper<Boxes>::destroy};
+    using namespace peer_boost;
+    static const engine_structure tree = {version, BuiltStructure<BoostBoxes>::build, BuiltStructure<BoostBoxes>::bytes,
+                                          nullptr, BuiltStructure<BoostBoxes>::destroy};
     static const engine_code code = {&tree, locate, nullptr};
     return id == ENGINE_BOOST ? &code : nullptr;
 }
-
-} // namespace bench

@@ -1,41 +1,32 @@
-// peer_cgal.cpp - CGAL: locates in its own Delaunay triangulation of the points, in which an answer is the address of a
-// face. Predicates are exact.
-#include "bench/programs/harness.h"
-#include "bench/programs/peer.h"
-#include "bench/peers/peers.h"
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include <CGAL/Triangulation_hierarchy_2.h>
-#pragma GCC diagnostic pop
+// peer_cgal.cpp - CGAL: locates in its own Delaunay triangulation of the points, in which an answer
+// is the address of a face. Predicates are exact.
+#include "bench/core/cgal.h"
+#include "bench/peers/peer_list.h"
+#include "bench/peers/peer_support.h"
 
 #include <cmath>
 #include <numeric>
 #include <random>
 
-namespace bench
+namespace peer_cgal
 {
 namespace
 {
 
-using Levels = CGAL::Triangulation_hierarchy_2<CGAL::Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<
-                CGAL::Triangulation_hierarchy_vertex_base_2<CGAL::Triangulation_vertex_base_2<Kernel>>,
-                CGAL::Triangulation_face_base_2<Kernel>>>>;
+using namespace bench;
 
 // A triangulation, and the memory that it took.
-template <class Triangulation> struct Built {
+template <class Triangulation> struct CgalBuilt {
     Triangulation triangulation;
     size_t bytes = 0;
     std::vector<typename Triangulation::Face_handle> sample; // random faces for jump and walk
 };
 
-using Plain = Built<Delaunay>;
+using CgalPlain = CgalBuilt<Delaunay>;
 
-template <class Triangulation> double insert(Built<Triangulation> &built, const double *coordinates, size_t n)
+template <class Triangulation> double insert(CgalBuilt<Triangulation> &built, const double *coordinates, size_t n)
 {
-    std::vector<Point> points = peer_points(coordinates, n);
+    std::vector<Point> points = cgal_points(coordinates, n);
     size_t before = heap_bytes();
     Stopwatch watch;
     built.triangulation.insert(points.begin(), points.end());
@@ -45,7 +36,7 @@ template <class Triangulation> double insert(Built<Triangulation> &built, const 
 }
 
 // As many faces as the cube root of the vertices [Devroye, Muecke, Zhu 1998].
-template <class Triangulation> void take_sample(Built<Triangulation> &built)
+template <class Triangulation> void take_sample(CgalBuilt<Triangulation> &built)
 {
     std::mt19937_64 random(1);
     std::vector<typename Triangulation::Face_handle> faces;
@@ -57,7 +48,7 @@ template <class Triangulation> void take_sample(Built<Triangulation> &built)
 
 template <class Triangulation> double build(const engine_mesh *mesh, unsigned, void **self)
 try {
-    auto built = std::make_unique<Built<Triangulation>>();
+    auto built = std::make_unique<CgalBuilt<Triangulation>>();
     double seconds = insert(*built, mesh->points, mesh->point_count);
     take_sample(*built);
     *self = built.release();
@@ -69,12 +60,12 @@ try {
 
 template <class Triangulation> size_t bytes(const void *self)
 {
-    return static_cast<const Built<Triangulation> *>(self)->bytes;
+    return static_cast<const CgalBuilt<Triangulation> *>(self)->bytes;
 }
 
 template <class Triangulation> void destroy(void *self)
 {
-    delete static_cast<Built<Triangulation> *>(self);
+    delete static_cast<CgalBuilt<Triangulation> *>(self);
 }
 
 template <class Triangulation> void corners(const void *, uint64_t answer, double xy[6])
@@ -120,20 +111,20 @@ double locate_each(const Triangulation &t, size_t n, uint64_t *answers, const Lo
 template <class Triangulation>
 double locate_plainly(void *self, const double *queries, size_t n, unsigned, uint64_t *answers)
 {
-    const Triangulation &t = static_cast<Built<Triangulation> *>(self)->triangulation;
+    const Triangulation &t = static_cast<CgalBuilt<Triangulation> *>(self)->triangulation;
     return locate_each(t, n, answers, [&](size_t i) { return t.locate(point(queries, i)); });
 }
 
 double locate_last(void *self, const double *queries, size_t n, unsigned, uint64_t *answers)
 {
-    const Delaunay &t = static_cast<Plain *>(self)->triangulation;
+    const Delaunay &t = static_cast<CgalPlain *>(self)->triangulation;
     Delaunay::Face_handle face = t.infinite_face();
     return locate_each(t, n, answers, [&](size_t i) { return face = t.locate(point(queries, i), face); });
 }
 
 double locate_jumping(void *self, const double *queries, size_t n, unsigned, uint64_t *answers)
 {
-    const Plain &built = *static_cast<Plain *>(self);
+    const CgalPlain &built = *static_cast<CgalPlain *>(self);
     return locate_each(built.triangulation, n, answers, [&](size_t i) {
         Point query = point(queries, i);
         auto distance = [&](Delaunay::Face_handle face) {
@@ -155,23 +146,23 @@ double locate_jumping(void *self, const double *queries, size_t n, unsigned, uin
 }
 
 // The points of numbers, for CGAL's sort.
-struct Numbered {
+struct NumberedQueries {
     using key_type = size_t;
     using value_type = Point;
     using reference = Point;
     using category = boost::readable_property_map_tag;
     const double *queries;
-    friend Point get(const Numbered &map, size_t i) { return point(map.queries, i); }
+    friend Point get(const NumberedQueries &map, size_t i) { return point(map.queries, i); }
 };
 
 double locate_sorted(void *self, const double *queries, size_t n, unsigned, uint64_t *answers)
 {
-    const Delaunay &t = static_cast<Plain *>(self)->triangulation;
+    const Delaunay &t = static_cast<CgalPlain *>(self)->triangulation;
     Stopwatch watch;
     std::vector<size_t> order(n);
     std::iota(order.begin(), order.end(), 0);
     CGAL::hilbert_sort(order.begin(), order.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, Numbered>(Numbered{queries}));
+                       CGAL::Spatial_sort_traits_adapter_2<Kernel, NumberedQueries>(NumberedQueries{queries}));
     Delaunay::Face_handle face = t.infinite_face();
     for (size_t i : order) {
         face = t.locate(point(queries, i), face);
@@ -184,7 +175,7 @@ double locate_sorted(void *self, const double *queries, size_t n, unsigned, uint
 
 double triangulate(const double *points, size_t n, unsigned, size_t *size)
 try {
-    Plain built;
+    CgalPlain built;
     double seconds = insert(built, points, n);
     *size = built.bytes;
     return seconds;
@@ -193,15 +184,17 @@ try {
 }
 
 } // namespace
+} // namespace peer_cgal
 
-const engine_code *cgal_engine(engine_id id)
+const engine_code *peer_cgal_engine(engine_id id)
 {
-    static const engine_structure plain = {peer_version, build<Delaunay>, bytes<Delaunay>, corners<Delaunay>,
+    using namespace peer_cgal;
+    static const engine_structure plain = {cgal_version, build<Delaunay>, bytes<Delaunay>, corners<Delaunay>,
                                            destroy<Delaunay>};
-    static const engine_structure levels = {peer_version, build<Levels>, bytes<Levels>, corners<Levels>,
-                                            destroy<Levels>};
+    static const engine_structure levels = {cgal_version, build<DelaunayHierarchy>, bytes<DelaunayHierarchy>,
+                                            corners<DelaunayHierarchy>, destroy<DelaunayHierarchy>};
     static const engine_code alone = {&plain, nullptr, triangulate};
-    static const engine_code hierarchy = {&levels, locate_plainly<Levels>, nullptr};
+    static const engine_code hierarchy = {&levels, locate_plainly<DelaunayHierarchy>, nullptr};
     static const engine_code walk = {&plain, locate_plainly<Delaunay>, nullptr};
     static const engine_code jump = {&plain, locate_jumping, nullptr};
     static const engine_code sorted = {&plain, locate_sorted, nullptr};
@@ -216,5 +209,3 @@ const engine_code *cgal_engine(engine_id id)
     default: return nullptr;
     }
 }
-
-} // namespace bench

@@ -1,21 +1,23 @@
-// peer_embree.cpp - Embree: the mesh lies in the plane z = 0, and rays come down from z = 1. Single precision: what goes in
-// is moved by the middle of the mesh, then rounded.
-#include "bench/programs/device.h"
-#include "bench/programs/harness.h"
-#include "bench/peers/peers.h"
+// peer_embree.cpp - Embree: the mesh lies in the plane z = 0, and rays come down from z = 1. Single
+// precision: what goes in is moved by the middle of the mesh, then rounded.
+#include "bench/core/embree_device.h"
+#include "bench/peers/peer_list.h"
+#include "bench/peers/peer_support.h"
 #include "bench/peers/spatial_order.h"
 
 #include <limits>
 #include <memory>
 
-namespace bench
+namespace peer_embree
 {
 namespace
 {
 
-class Ground
+using namespace bench;
+
+class EmbreePlane
 {
-    Device device;
+    EmbreeDevice device;
     RTCGeometry geometry;
     double middle[2];
 
@@ -50,7 +52,7 @@ class Ground
   public:
     RTCScene scene;
 
-    Ground(const engine_mesh &mesh, unsigned threads)
+    EmbreePlane(const engine_mesh &mesh, unsigned threads)
         : device(threads, nullptr), geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE)),
           scene(rtcNewScene(device))
     {
@@ -63,13 +65,13 @@ class Ground
         rtcCommitScene(scene);
         if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error("Embree has failed");
     }
-    ~Ground()
+    ~EmbreePlane()
     {
         rtcReleaseGeometry(geometry);
         rtcReleaseScene(scene);
     }
-    Ground(const Ground &) = delete;
-    Ground &operator=(const Ground &) = delete;
+    EmbreePlane(const EmbreePlane &) = delete;
+    EmbreePlane &operator=(const EmbreePlane &) = delete;
 
     size_t bytes() const { return device.bytes(); }
     float x(const double *query) const { return rounded(query[0], 0); }
@@ -79,7 +81,7 @@ class Ground
 double build(const engine_mesh *mesh, unsigned threads, void **self)
 try {
     Stopwatch watch;
-    *self = new Ground(*mesh, threads);
+    *self = new EmbreePlane(*mesh, threads);
     return watch.seconds();
 } catch (const std::exception &) {
     *self = nullptr;
@@ -88,12 +90,12 @@ try {
 
 size_t bytes(const void *self)
 {
-    return static_cast<const Ground *>(self)->bytes();
+    return static_cast<const EmbreePlane *>(self)->bytes();
 }
 
 void destroy(void *self)
 {
-    delete static_cast<Ground *>(self);
+    delete static_cast<EmbreePlane *>(self);
 }
 
 RTCIntersectContext context_for(bool coherent)
@@ -111,20 +113,20 @@ uint64_t answer_of(unsigned triangle)
 
 double locate_single(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
 {
-    const Ground &ground = *static_cast<const Ground *>(self);
+    const EmbreePlane &plane = *static_cast<const EmbreePlane *>(self);
     Stopwatch watch;
     in_parts(n, threads, [&](size_t begin, size_t end) {
         RTCIntersectContext context = context_for(false);
         for (size_t i = begin; i < end; i++) {
             RTCRayHit ray = {};
-            ray.ray.org_x = ground.x(queries + 2 * i);
-            ray.ray.org_y = ground.y(queries + 2 * i);
+            ray.ray.org_x = plane.x(queries + 2 * i);
+            ray.ray.org_y = plane.y(queries + 2 * i);
             ray.ray.org_z = 1;
             ray.ray.dir_z = -1;
             ray.ray.tfar = std::numeric_limits<float>::infinity();
             ray.ray.mask = ~0u;
             ray.hit.geomID = ray.hit.primID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(ground.scene, &context, &ray);
+            rtcIntersect1(plane.scene, &context, &ray);
             answers[i] = answer_of(ray.hit.primID);
         }
     });
@@ -135,7 +137,7 @@ constexpr size_t width = 8;
 
 // The queries `number(i)` for i from `begin` to `end`.
 template <class Number>
-void locate_packets(const Ground &ground, const double *queries, size_t begin, size_t end, bool coherent,
+void locate_packets(const EmbreePlane &plane, const double *queries, size_t begin, size_t end, bool coherent,
                     const Number &number, uint64_t *answers)
 {
     RTCIntersectContext context = context_for(coherent);
@@ -146,15 +148,15 @@ void locate_packets(const Ground &ground, const double *queries, size_t begin, s
             bool used = first + k < end;
             const double *query = queries + 2 * number(used ? first + k : first);
             valid[k] = used ? -1 : 0;
-            rays.ray.org_x[k] = ground.x(query);
-            rays.ray.org_y[k] = ground.y(query);
+            rays.ray.org_x[k] = plane.x(query);
+            rays.ray.org_y[k] = plane.y(query);
             rays.ray.org_z[k] = 1;
             rays.ray.dir_z[k] = -1;
             rays.ray.tfar[k] = std::numeric_limits<float>::infinity();
             rays.ray.mask[k] = ~0u;
             rays.hit.geomID[k] = rays.hit.primID[k] = RTC_INVALID_GEOMETRY_ID;
         }
-        rtcIntersect8(valid, ground.scene, &context, &rays);
+        rtcIntersect8(valid, plane.scene, &context, &rays);
         for (size_t k = 0; k < width && first + k < end; k++)
             answers[number(first + k)] = answer_of(rays.hit.primID[k]);
     }
@@ -163,11 +165,11 @@ void locate_packets(const Ground &ground, const double *queries, size_t begin, s
 double locate_in_packets(void *self, const double *queries, size_t n, unsigned threads, bool coherent,
                          uint64_t *answers)
 {
-    const Ground &ground = *static_cast<const Ground *>(self);
+    const EmbreePlane &plane = *static_cast<const EmbreePlane *>(self);
     Stopwatch watch;
     in_parts(n, threads, [&](size_t begin, size_t end) {
         locate_packets(
-            ground, queries, begin, end, coherent, [](size_t i) { return i; }, answers);
+            plane, queries, begin, end, coherent, [](size_t i) { return i; }, answers);
     });
     return watch.seconds();
 }
@@ -184,22 +186,24 @@ double locate_coherent(void *self, const double *queries, size_t n, unsigned thr
 
 double locate_sorted(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
 {
-    const Ground &ground = *static_cast<const Ground *>(self);
+    const EmbreePlane &plane = *static_cast<const EmbreePlane *>(self);
     Stopwatch watch;
     std::unique_ptr<uint32_t[]> order(new (std::nothrow) uint32_t[n]);
     if (!order || !spatial_order(queries, n, order.get())) return ENGINE_FAILED;
     in_parts(n, threads, [&](size_t begin, size_t end) {
         locate_packets(
-            ground, queries, begin, end, true, [&](size_t i) { return size_t(order[i]); }, answers);
+            plane, queries, begin, end, true, [&](size_t i) { return size_t(order[i]); }, answers);
     });
     return watch.seconds();
 }
 
 } // namespace
+} // namespace peer_embree
 
-const engine_code *embree_engine(engine_id id)
+const engine_code *peer_embree_engine(engine_id id)
 {
-    static const engine_structure tree = {caster_version, build, bytes, nullptr, destroy};
+    using namespace peer_embree;
+    static const engine_structure tree = {embree_version, build, bytes, nullptr, destroy};
     static const engine_code single = {&tree, locate_single, nullptr}, packets = {&tree, locate_packets_any, nullptr};
     static const engine_code sorted = {&tree, locate_sorted, nullptr}, coherent = {&tree, locate_coherent, nullptr};
     switch (id) {
@@ -210,5 +214,3 @@ const engine_code *embree_engine(engine_id id)
     default: return nullptr;
     }
 }
-
-} // namespace bench

@@ -1,30 +1,34 @@
-// peer_geos.cpp - GEOS: its STRtree [Leutenegger, Edgington, Lopez 1997] over the boxes of the triangles, by the C interface,
-// and an exact orientation test of each triangle whose box holds the point.
-#include "bench/peers/peers.h"
+// peer_geos.cpp - GEOS: its STRtree [Leutenegger, Edgington, Lopez 1997] over the boxes of the
+// triangles, by the C interface, and an exact orientation test of each triangle whose box holds the
+// point.
+#include "bench/peers/peer_list.h"
+#include "bench/peers/peer_support.h"
 
 #include <geos_c.h>
 
 #include <new>
 #include <string>
 
-namespace bench
+namespace peer_geos
 {
 namespace
 {
 
+using namespace bench;
+
 // Each thread has a handle of its own.
-class Handle
+class GeosHandle
 {
     GEOSContextHandle_t handle = GEOS_init_r();
 
   public:
-    Handle()
+    GeosHandle()
     {
         if (!handle) throw std::bad_alloc();
     }
-    ~Handle() { GEOS_finish_r(handle); }
-    Handle(const Handle &) = delete;
-    Handle &operator=(const Handle &) = delete;
+    ~GeosHandle() { GEOS_finish_r(handle); }
+    GeosHandle(const GeosHandle &) = delete;
+    GeosHandle &operator=(const GeosHandle &) = delete;
     operator GEOSContextHandle_t() const { return handle; }
 };
 
@@ -38,7 +42,7 @@ size_t item_to_number(const void *item)
     return reinterpret_cast<size_t>(item) - 1;
 }
 
-struct Search {
+struct GeosSearch {
     const engine_mesh *mesh;
     const double *query;
     uint64_t answer;
@@ -46,15 +50,16 @@ struct Search {
 
 void look(void *item, void *self)
 {
-    Search &search = *static_cast<Search *>(self);
+    GeosSearch &search = *static_cast<GeosSearch *>(self);
     size_t triangle = item_to_number(item);
-    if (search.answer == ENGINE_NONE && contains(*search.mesh, triangle, search.query)) search.answer = triangle;
+    if (search.answer == ENGINE_NONE && triangle_contains(*search.mesh, triangle, search.query))
+        search.answer = triangle;
 }
 
-class Boxes
+class GeosBoxes
 {
     engine_mesh mesh;
-    Handle handle;
+    GeosHandle handle;
     GEOSSTRtree *tree;
 
     // The tree takes the box of a geometry: here of the broken line through the corners.
@@ -73,19 +78,19 @@ class Boxes
   public:
     size_t bytes = 0;
 
-    explicit Boxes(const engine_mesh &of) : mesh(of), tree(GEOSSTRtree_create_r(handle, 10))
+    explicit GeosBoxes(const engine_mesh &of) : mesh(of), tree(GEOSSTRtree_create_r(handle, 10))
     {
         if (!tree) throw std::bad_alloc();
         for (size_t t = 0; t < mesh.triangle_count; t++) insert(t);
         find(handle, mesh.points); // the first query makes the tree
     }
-    ~Boxes() { GEOSSTRtree_destroy_r(handle, tree); }
-    Boxes(const Boxes &) = delete;
-    Boxes &operator=(const Boxes &) = delete;
+    ~GeosBoxes() { GEOSSTRtree_destroy_r(handle, tree); }
+    GeosBoxes(const GeosBoxes &) = delete;
+    GeosBoxes &operator=(const GeosBoxes &) = delete;
 
-    uint64_t find(const Handle &of_thread, const double *query) const
+    uint64_t find(const GeosHandle &of_thread, const double *query) const
     {
-        Search search = {&mesh, query, ENGINE_NONE};
+        GeosSearch search = {&mesh, query, ENGINE_NONE};
         GEOSGeometry *point = GEOSGeom_createPointFromXY_r(of_thread, query[0], query[1]);
         GEOSSTRtree_query_r(of_thread, tree, point, look, &search);
         GEOSGeom_destroy_r(of_thread, point);
@@ -101,23 +106,23 @@ const char *version()
 
 double locate(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
 {
-    const Boxes &boxes = *static_cast<const Boxes *>(self);
+    const GeosBoxes &boxes = *static_cast<const GeosBoxes *>(self);
     Stopwatch watch;
     in_parts(n, threads, [&](size_t begin, size_t end) {
-        Handle handle;
+        GeosHandle handle;
         for (size_t i = begin; i < end; i++) answers[i] = boxes.find(handle, queries + 2 * i);
     });
     return watch.seconds();
 }
 
 } // namespace
+} // namespace peer_geos
 
-const engine_code *geos_engine(engine_id id)
+const engine_code *peer_geos_engine(engine_id id)
 {
-    static const engine_structure tree = {version, Keeper<Boxes>::build, Keeper<Boxes>::bytes, nullptr,
-                                          Keeper<Boxes>::destroy};
+    using namespace peer_geos;
+    static const engine_structure tree = {version, BuiltStructure<GeosBoxes>::build, BuiltStructure<GeosBoxes>::bytes,
+                                          nullptr, BuiltStructure<GeosBoxes>::destroy};
     static const engine_code code = {&tree, locate, nullptr};
     return id == ENGINE_GEOS ? &code : nullptr;
 }
-
-} // namespace bench

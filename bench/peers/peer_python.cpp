@@ -1,6 +1,7 @@
-// peer_python.cpp - SciPy and matplotlib, in a python3 of their own, which takes its times itself. Arrays are passed in files
-// without a name, words on pipes.
-#include "bench/peers/peers.h"
+// peer_python.cpp - SciPy and matplotlib, in a python3 of their own, which takes its times itself.
+// Arrays are passed in files without a name, words on pipes.
+#include "bench/peers/peer_list.h"
+#include "bench/peers/peer_support.h"
 
 #include <cstdio>
 #include <cstring>
@@ -16,13 +17,16 @@
 
 extern char **environ;
 
-namespace bench
+namespace peer_python
 {
 namespace
 {
 
-// Told "build POINTS TRIANGLES" or "locate QUERIES", it answers "SECONDS BYTES TRIANGLES"; at first it tells its version.
-// SciPy locates in its own Delaunay triangulation, whose triangles it hands back.
+using namespace bench;
+
+// Told "build POINTS TRIANGLES" or "locate QUERIES", it answers "SECONDS BYTES TRIANGLES"; at first
+// it tells its version. SciPy locates in its own Delaunay triangulation, whose triangles it hands
+// back.
 const char script[] = R"(
 import sys, time
 import numpy
@@ -69,31 +73,31 @@ for line in sys.stdin:
         print(seconds, 0, 0, flush=True)
 )";
 
-[[noreturn]] void fail(const char *why)
+[[noreturn]] void python_fail(const char *why)
 {
     throw std::runtime_error(why);
 }
 
 // A file in memory.
-class Shared
+class SharedFile
 {
   public:
     int fd = memfd_create("meshwalk", 0); // inherited
 
-    Shared()
+    SharedFile()
     {
-        if (fd < 0) fail("no file in memory");
+        if (fd < 0) python_fail("no file in memory");
     }
-    ~Shared() { close(fd); }
-    Shared(const Shared &) = delete;
-    Shared &operator=(const Shared &) = delete;
+    ~SharedFile() { close(fd); }
+    SharedFile(const SharedFile &) = delete;
+    SharedFile &operator=(const SharedFile &) = delete;
 
     void put(const void *bytes, size_t size)
     {
-        if (ftruncate(fd, 0) != 0) fail("a file in memory cannot be cleared");
+        if (ftruncate(fd, 0) != 0) python_fail("a file in memory cannot be cleared");
         for (size_t done = 0; done < size;) {
             ssize_t more = pwrite(fd, static_cast<const char *>(bytes) + done, size - done, off_t(done));
-            if (more <= 0) fail("a file in memory cannot be written");
+            if (more <= 0) python_fail("a file in memory cannot be written");
             done += size_t(more);
         }
     }
@@ -101,18 +105,18 @@ class Shared
     {
         for (size_t done = 0; done < size;) {
             ssize_t more = pread(fd, static_cast<char *>(bytes) + done, size - done, off_t(done));
-            if (more <= 0) fail("a file in memory is short");
+            if (more <= 0) python_fail("a file in memory is short");
             done += size_t(more);
         }
     }
 };
 
-struct Reply {
+struct PythonReply {
     double seconds;
     size_t bytes, triangles;
 };
 
-class Child
+class PythonProcess
 {
     pid_t pid = 0;
     FILE *to = nullptr, *from = nullptr;
@@ -120,7 +124,7 @@ class Child
     std::string line()
     {
         char text[256];
-        if (!fgets(text, sizeof text, from)) fail("python3 has ended");
+        if (!fgets(text, sizeof text, from)) python_fail("python3 has ended");
         text[strcspn(text, "\n")] = 0;
         return text;
     }
@@ -128,7 +132,7 @@ class Child
     void start(const char *library, int in, int out)
     {
         std::string number[4];
-        const Shared *const shared[] = {&points, &triangles, &queries, &answers};
+        const SharedFile *const shared[] = {&points, &triangles, &queries, &answers};
         for (size_t k = 0; k < 4; k++) number[k] = std::to_string(shared[k]->fd);
         const char *words[] = {
             "python3",         "-c",   script, library, number[0].c_str(), number[1].c_str(), number[2].c_str(),
@@ -150,17 +154,17 @@ class Child
     }
 
   public:
-    Shared points, triangles, queries, answers;
+    SharedFile points, triangles, queries, answers;
     std::string version;
 
-    explicit Child(const char *library)
+    explicit PythonProcess(const char *library)
     {
         int in[2], out[2];
-        if (pipe2(in, O_CLOEXEC) != 0) fail("no pipe");
+        if (pipe2(in, O_CLOEXEC) != 0) python_fail("no pipe");
         if (pipe2(out, O_CLOEXEC) != 0) {
             close(in[0]);
             close(in[1]);
-            fail("no pipe");
+            python_fail("no pipe");
         }
         start(library, in[0], out[1]);
         close(in[0]);
@@ -168,34 +172,34 @@ class Child
         to = fdopen(in[1], "w");
         from = fdopen(out[0], "r");
         try {
-            if (!pid || !to || !from) fail("python3 cannot be started");
+            if (!pid || !to || !from) python_fail("python3 cannot be started");
             version = line();
         } catch (...) {
             end();
             throw;
         }
     }
-    ~Child() { end(); }
-    Child(const Child &) = delete;
-    Child &operator=(const Child &) = delete;
+    ~PythonProcess() { end(); }
+    PythonProcess(const PythonProcess &) = delete;
+    PythonProcess &operator=(const PythonProcess &) = delete;
 
-    Reply ask(const char *task, size_t count)
+    PythonReply ask(const char *task, size_t count)
     {
-        Reply reply;
-        if (fprintf(to, "%s %zu\n", task, count) < 0 || fflush(to) != 0) fail("python3 has ended");
+        PythonReply reply;
+        if (fprintf(to, "%s %zu\n", task, count) < 0 || fflush(to) != 0) python_fail("python3 has ended");
         if (sscanf(line().c_str(), "%lf %zu %zu", &reply.seconds, &reply.bytes, &reply.triangles) != 3)
-            fail("python3 has failed");
+            python_fail("python3 has failed");
         return reply;
     }
 };
 
-struct Finder {
-    Child child;
+struct PythonFinder {
+    PythonProcess child;
     const double *points;
     size_t bytes = 0;
     std::vector<uint32_t> own; // triangles of SciPy
 
-    explicit Finder(const char *library) : child(library) {}
+    explicit PythonFinder(const char *library) : child(library) {}
 };
 
 // NULL where Python does not have the library. It is asked once.
@@ -204,7 +208,7 @@ const char *version_of(const char *library, std::string &version, bool &asked)
     if (!asked) {
         asked = true;
         try {
-            version = Child(library).version;
+            version = PythonProcess(library).version;
         } catch (const std::exception &) {
             version.clear();
         }
@@ -228,11 +232,11 @@ const char *matplotlib_version()
 
 double build(const char *library, const engine_mesh *mesh, void **self)
 try {
-    auto finder = std::make_unique<Finder>(library);
+    auto finder = std::make_unique<PythonFinder>(library);
     finder->points = mesh->points;
     finder->child.points.put(mesh->points, 2 * mesh->point_count * sizeof(double));
     finder->child.triangles.put(mesh->triangles, 3 * mesh->triangle_count * sizeof(uint32_t));
-    Reply reply = finder->child.ask("build", mesh->point_count);
+    PythonReply reply = finder->child.ask("build", mesh->point_count);
     finder->bytes = reply.bytes;
     finder->own.resize(3 * reply.triangles);
     finder->child.triangles.get(finder->own.data(), finder->own.size() * sizeof(uint32_t));
@@ -255,24 +259,24 @@ double build_matplotlib(const engine_mesh *mesh, unsigned, void **self)
 
 size_t bytes(const void *self)
 {
-    return static_cast<const Finder *>(self)->bytes;
+    return static_cast<const PythonFinder *>(self)->bytes;
 }
 
 void corners(const void *self, uint64_t answer, double xy[6])
 {
-    const Finder &finder = *static_cast<const Finder *>(self);
+    const PythonFinder &finder = *static_cast<const PythonFinder *>(self);
     for (size_t k = 0; k < 6; k++) xy[k] = finder.points[2 * size_t(finder.own[3 * answer + k / 2]) + k % 2];
 }
 
 void destroy(void *self)
 {
-    delete static_cast<Finder *>(self);
+    delete static_cast<PythonFinder *>(self);
 }
 
 double locate(void *self, const double *queries, size_t n, unsigned, uint64_t *answers)
 try {
     static_assert(ENGINE_NONE == uint64_t(-1), "Python's -1 is the answer for no triangle");
-    Child &child = static_cast<Finder *>(self)->child;
+    PythonProcess &child = static_cast<PythonFinder *>(self)->child;
     child.queries.put(queries, 2 * n * sizeof(double));
     double seconds = child.ask("locate", n).seconds;
     child.answers.get(answers, n * sizeof(uint64_t));
@@ -282,13 +286,13 @@ try {
 }
 
 } // namespace
+} // namespace peer_python
 
-const engine_code *python_engine(engine_id id)
+const engine_code *peer_python_engine(engine_id id)
 {
+    using namespace peer_python;
     static const engine_structure delaunay = {scipy_version, build_scipy, bytes, corners, destroy};
     static const engine_structure map = {matplotlib_version, build_matplotlib, bytes, nullptr, destroy};
     static const engine_code scipy = {&delaunay, locate, nullptr}, matplotlib = {&map, locate, nullptr};
     return id == ENGINE_SCIPY ? &scipy : id == ENGINE_MATPLOTLIB ? &matplotlib : nullptr;
 }
-
-} // namespace bench

@@ -1,10 +1,12 @@
+/* The one file of bench/peers with a private header of the library: what is measured is the
+ * library's own sort, and no public function sorts points. It is built with the peers only. */
 #include "bench/peers/spatial_order.h"
 #include "base/hilbert.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static void extent(const double *points, size_t n, double low[2], double high[2])
+static void point_extent(const double *points, size_t n, double low[2], double high[2])
 {
     for (size_t k = 0; k < 2; k++) {
         low[k] = INFINITY;
@@ -22,7 +24,7 @@ bool spatial_order(const double *points, size_t n, uint32_t *order)
     double low[2], high[2];
     mw_key *keys = malloc(2 * n * sizeof *keys);
     if (!keys) return false;
-    extent(points, n, low, high);
+    point_extent(points, n, low, high);
     mw_hilbert curve = mw__hilbert(low, high);
     for (size_t i = 0; i < n; i++)
         keys[i] = (mw_key){mw__hilbert_key(&curve, points[2 * i], points[2 * i + 1]), (uint32_t)i};

@@ -1,6 +1,7 @@
-/* spatial_order.h - the sort of the library's own batches, for peers that take queries in a good order. */
-#ifndef MW_BENCH_SPATIAL_ORDER_H
-#define MW_BENCH_SPATIAL_ORDER_H
+/* spatial_order.h - the sort of the library's own batches, for peers that take queries in a good
+ * order. */
+#ifndef MW_BENCH_PEERS_SPATIAL_ORDER_H
+#define MW_BENCH_PEERS_SPATIAL_ORDER_H
 
 #include <stdbool.h>
 #include <stddef.h>

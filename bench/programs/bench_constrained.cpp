@@ -1,7 +1,9 @@
-// bench_constrained - constrained Delaunay triangulation beside CGAL's, in one process: mw_constrained_delaunay makes a mesh
-// of the whole hull, CGAL inserts the range of points with the pairs of their numbers. Freeing the result is not timed.
-#include "bench/programs/harness.h"
-#include "bench/programs/peer.h"
+// bench_constrained - constrained Delaunay triangulation beside CGAL's, in one process:
+// mw_constrained_delaunay makes a mesh of the whole hull, CGAL inserts the range of points with the
+// pairs of their numbers. Freeing the result is not timed.
+#include "bench/core/cgal.h"
+#include "bench/programs/inputs.h"
+#include "bench/programs/program.h"
 
 #include <meshwalk/meshwalk.h>
 
@@ -23,19 +25,19 @@ using namespace bench;
 
 using Constrained = CGAL::Constrained_Delaunay_triangulation_2<Kernel>;
 
-struct Scene {
+struct ConstrainedScene {
     Coordinates points;
     std::vector<uint32_t> segments; // two numbers of points each
 };
 
-uint32_t add(Scene &s, double x, double y)
+uint32_t add(ConstrainedScene &s, double x, double y)
 {
     s.points.push_back(x);
     s.points.push_back(y);
     return static_cast<uint32_t>(s.points.size() / 2 - 1);
 }
 
-void join(Scene &s, uint32_t a, uint32_t b)
+void join(ConstrainedScene &s, uint32_t a, uint32_t b)
 {
     s.segments.push_back(a);
     s.segments.push_back(b);
@@ -47,7 +49,7 @@ double uniform(std::mt19937_64 &random)
 }
 
 // Points in any order, as a file may bring them.
-void shuffle(Scene &s, std::mt19937_64 &random)
+void shuffle(ConstrainedScene &s, std::mt19937_64 &random)
 {
     size_t n = s.points.size() / 2;
     std::vector<uint32_t> place(n);
@@ -62,10 +64,11 @@ void shuffle(Scene &s, std::mt19937_64 &random)
     for (uint32_t &end : s.segments) end = place[end];
 }
 
-// A closed line round the origin with bays of all sizes, in polar coordinates: it does not meet itself.
-Scene coast(size_t n, size_t inside, std::mt19937_64 &random)
+// A closed line round the origin with bays of all sizes, in polar coordinates: it does not meet
+// itself.
+ConstrainedScene coast(size_t n, size_t inside, std::mt19937_64 &random)
 {
-    Scene s;
+    ConstrainedScene s;
     std::vector<double> depth(20), phase(20);
     for (size_t k = 0; k < 20; k++) {
         depth[k] = 0.5 / std::pow(1.6, static_cast<double>(k));
@@ -89,10 +92,11 @@ Scene coast(size_t n, size_t inside, std::mt19937_64 &random)
     return s;
 }
 
-// Points, and segments of about `length` spacings between some of them: one per cell of a grid, so that none cross.
-Scene segments(size_t n, double length, std::mt19937_64 &random)
+// Points, and segments of about `length` spacings between some of them: one per cell of a grid, so
+// that none cross.
+ConstrainedScene segments(size_t n, double length, std::mt19937_64 &random)
 {
-    Scene s;
+    ConstrainedScene s;
     size_t cells = static_cast<size_t>(std::sqrt(static_cast<double>(n)) / length);
     double side = 1 / static_cast<double>(cells);
     for (size_t i = 0; i < cells * cells; i++) {
@@ -106,9 +110,9 @@ Scene segments(size_t n, double length, std::mt19937_64 &random)
 }
 
 // Parcels: quadrilaterals that share their borders, with points along them.
-Scene parcels(size_t n, std::mt19937_64 &random)
+ConstrainedScene parcels(size_t n, std::mt19937_64 &random)
 {
-    Scene s;
+    ConstrainedScene s;
     size_t side = static_cast<size_t>(std::sqrt(static_cast<double>(n) / 5));
     std::vector<uint32_t> corner;
     for (size_t i = 0; i < side * side; i++)
@@ -133,9 +137,9 @@ Scene parcels(size_t n, std::mt19937_64 &random)
 }
 
 // Few segments from one side of the points to the other.
-Scene across(size_t n, size_t lines, std::mt19937_64 &random)
+ConstrainedScene across(size_t n, size_t lines, std::mt19937_64 &random)
 {
-    Scene s;
+    ConstrainedScene s;
     for (size_t i = 0; i < lines; i++) {
         double low = static_cast<double>(i) / static_cast<double>(lines), room = 0.9 / static_cast<double>(lines);
         uint32_t a = add(s, 0, low + room * uniform(random));
@@ -146,7 +150,7 @@ Scene across(size_t n, size_t lines, std::mt19937_64 &random)
     return s;
 }
 
-double run_ours(const Scene &s, size_t &triangles)
+double run_ours(const ConstrainedScene &s, size_t &triangles)
 {
     mw_constraints given = {};
     given.points = s.points.data();
@@ -178,7 +182,7 @@ double run_peer(const std::vector<Point> &points, const std::vector<std::pair<si
 }
 
 // The triangulation of the points alone, to tell what the segments cost.
-double run_plain(const Scene &s)
+double run_plain(const ConstrainedScene &s)
 {
     mw_mesh *mesh;
     mw_error error;
@@ -192,26 +196,27 @@ double run_plain(const Scene &s)
     return seconds;
 }
 
-void measure(const std::string &name, const Scene &s, const Options &options, Table &table)
+void measure(const std::string &name, const ConstrainedScene &s, const ProgramOptions &options, TextTable &table)
 {
-    const std::vector<Point> points = peer_points(s.points);
+    const std::vector<Point> points = cgal_points(s.points);
     std::vector<std::pair<size_t, size_t>> pairs;
     for (size_t i = 0; i < s.segments.size(); i += 2) pairs.emplace_back(s.segments[i], s.segments[i + 1]);
     size_t triangles[2];
-    Contest contest;
-    size_t ours = contest.enter([&] { return run_ours(s, triangles[0]); });
-    size_t peer = contest.enter([&] { return run_peer(points, pairs, triangles[1]); });
-    size_t plain = contest.enter([&] { return run_plain(s); });
-    contest.hold(options);
+    Competitors competitors;
+    size_t ours = competitors.enter([&] { return run_ours(s, triangles[0]); });
+    size_t peer = competitors.enter([&] { return run_peer(points, pairs, triangles[1]); });
+    size_t plain = competitors.enter([&] { return run_plain(s); });
+    competitors.measure(options);
     if (triangles[0] != triangles[1])
         fail(name + ": " + std::to_string(triangles[0]) + " triangles, CGAL has " + std::to_string(triangles[1]));
     table.row({name, std::to_string(points.size()), std::to_string(pairs.size()),
-               number(1e3 * contest.median(plain), 1), number(1e3 * contest.median(ours), 1),
-               number(1e3 * contest.least(ours), 1), number(1e3 * contest.median(peer), 1),
-               number(1e3 * contest.least(peer), 1), number(contest.median(ours) / contest.median(peer), 3)});
+               number(1e3 * competitors.median(plain), 1), number(1e3 * competitors.median(ours), 1),
+               number(1e3 * competitors.least(ours), 1), number(1e3 * competitors.median(peer), 1),
+               number(1e3 * competitors.least(peer), 1),
+               number(competitors.median(ours) / competitors.median(peer), 3)});
 }
 
-Scene make(const std::string &name, std::mt19937_64 &random)
+ConstrainedScene make(const std::string &name, std::mt19937_64 &random)
 {
     if (name == "coast") return coast(100000, 0, random);
     if (name == "coast-filled") return coast(100000, 100000, random);
@@ -227,12 +232,13 @@ Scene make(const std::string &name, std::mt19937_64 &random)
 
 int main(int argc, char **argv)
 {
-    Options defaults;
+    ProgramOptions defaults;
     defaults.rounds = 5;
     defaults.data = {"coast", "coast-filled", "short", "middling", "parcels", "across", "bundle"};
-    Options options = parse(argc, argv, defaults, "constrained triangulation beside CGAL, ms; --data: scenes");
-    print_machine(options.tsv, peer_version());
-    Table table({"scene", "points", "segments", "Delaunay", "meshwalk", "(least)", "CGAL", "(least)", "ratio"});
+    ProgramOptions options =
+        parse_options(argc, argv, defaults, "constrained triangulation beside CGAL, ms; --data: scenes");
+    print_machine(options.tsv, cgal_version());
+    TextTable table({"scene", "points", "segments", "Delaunay", "meshwalk", "(least)", "CGAL", "(least)", "ratio"});
     for (const auto &name : options.data) {
         std::mt19937_64 random(options.seed);
         measure(name, make(name, random), options, table);

@@ -1,8 +1,9 @@
-// bench_locate - location in a Delaunay triangulation, every walk from random triangles, beside CGAL's locate from random
-// faces of the same triangulation; and, for queries that may be put in order, `auto` beside CGAL's locate from face to
-// face along its own spatial order, the sorting timed. One thread. The answers of both are compared.
-#include "bench/programs/locating.h"
-#include "bench/programs/peer.h"
+// bench_locate - location in a Delaunay triangulation, every walk from random triangles, beside
+// CGAL's locate from random faces of the same triangulation; and, for queries that may be put in
+// order, `auto` beside CGAL's locate from face to face along its own spatial order, the sorting
+// timed. One thread. The answers of both are compared.
+#include "bench/core/cgal.h"
+#include "bench/programs/location_runs.h"
 
 #include <meshwalk/meshwalk.h>
 
@@ -17,7 +18,7 @@ namespace
 
 using namespace bench;
 
-struct Scene {
+struct LocateScene {
     Coordinates points, queries;
     std::vector<Point> peer_queries;
     mw_mesh *mesh = nullptr;
@@ -25,25 +26,25 @@ struct Scene {
     Delaunay peer;
     std::vector<Delaunay::Face_handle> faces;
 
-    Scene(const std::string &name, size_t size, const Options &options)
+    LocateScene(const std::string &name, size_t size, const ProgramOptions &options)
         : points(make_points(name, size, options.seed)), queries(make_queries(points, options.queries, options.seed)),
-          peer_queries(peer_points(queries))
+          peer_queries(cgal_points(queries))
     {
         mw_error error;
         if (mw_delaunay(points.data(), points.size() / 2, 2, NULL, nullptr, nullptr, &mesh, &error) != MW_OK ||
             mw_locator_create(mesh, nullptr, &locator, &error) != MW_OK)
             fail(error.message);
-        std::vector<Point> same = peer_points(points);
+        std::vector<Point> same = cgal_points(points);
         peer.insert(same.begin(), same.end());
         for (auto face : peer.finite_face_handles()) faces.push_back(face);
     }
-    ~Scene()
+    ~LocateScene()
     {
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);
     }
-    Scene(const Scene &) = delete;
-    Scene &operator=(const Scene &) = delete;
+    LocateScene(const LocateScene &) = delete;
+    LocateScene &operator=(const LocateScene &) = delete;
     size_t query_count() const { return peer_queries.size(); }
 };
 
@@ -57,9 +58,9 @@ mw_query_options how(mw_walk_kind walk, mw_start_kind start, int count)
     return options;
 }
 
-using Faces = std::vector<Delaunay::Face_handle>;
+using CgalFaces = std::vector<Delaunay::Face_handle>;
 
-double run_peer_random(const Scene &scene, uint64_t seed, Faces &found)
+double run_peer_random(const LocateScene &scene, uint64_t seed, CgalFaces &found)
 {
     std::mt19937_64 random(seed);
     size_t n = scene.faces.size();
@@ -69,7 +70,7 @@ double run_peer_random(const Scene &scene, uint64_t seed, Faces &found)
     return watch.seconds();
 }
 
-double run_peer_sorted(const Scene &scene, Faces &found)
+double run_peer_sorted(const LocateScene &scene, CgalFaces &found)
 {
     using Map = CGAL::Pointer_property_map<Point>::const_type;
     Stopwatch watch;
@@ -86,7 +87,7 @@ double run_peer_sorted(const Scene &scene, Faces &found)
 }
 
 // Where both found the inside of a triangle, it has to be the same one.
-void compare(const Scene &scene, const std::vector<mw_location> &ours, const Faces &theirs)
+void compare(const LocateScene &scene, const std::vector<mw_location> &ours, const CgalFaces &theirs)
 {
     for (size_t i = 0; i < ours.size(); i++) {
         if (ours[i].where != MW_INSIDE || scene.peer.is_infinite(theirs[i])) {
@@ -107,47 +108,47 @@ void compare(const Scene &scene, const std::vector<mw_location> &ours, const Fac
     }
 }
 
-struct Line {
+struct LocateLine {
     std::string walk, start, way;
     size_t competitor;
     mw_counters counters;
     bool counted;
 };
 
-void print_lines(const std::string &name, const Scene &scene, const std::vector<Line> &lines, const Contest &contest,
-                 Table &table)
+void print_lines(const std::string &name, const LocateScene &scene, const std::vector<LocateLine> &lines,
+                 const Competitors &competitors, TextTable &table)
 {
     double queries = static_cast<double>(scene.query_count()), base = 0;
-    for (const Line &line : lines)
-        if (line.walk == "CGAL" && line.start == "random") base = contest.median(line.competitor);
-    for (const Line &line : lines) {
-        double median = contest.median(line.competitor);
+    for (const LocateLine &line : lines)
+        if (line.walk == "CGAL" && line.start == "random") base = competitors.median(line.competitor);
+    for (const LocateLine &line : lines) {
+        double median = competitors.median(line.competitor);
         auto each = [&](uint64_t count) {
             return line.counted ? number(double(count) / queries, 2) : std::string("-");
         };
         table.row({name, std::to_string(scene.points.size() / 2), line.walk, line.start, line.way,
-                   number(1e9 * median / queries, 1), number(1e9 * contest.least(line.competitor) / queries, 1),
+                   number(1e9 * median / queries, 1), number(1e9 * competitors.least(line.competitor) / queries, 1),
                    number(median / base, 3), each(line.counters.triangles_visited),
                    each(line.counters.orient_init + line.counters.orient + line.counters.orient_final)});
     }
 }
 
-void measure(const std::string &name, size_t size, const Options &options, Table &table)
+void measure(const std::string &name, size_t size, const ProgramOptions &options, TextTable &table)
 {
-    Scene scene(name, size, options);
+    LocateScene scene(name, size, options);
     std::vector<mw_location> found(scene.query_count());
-    Faces faces(scene.query_count());
-    Contest contest;
-    std::vector<Line> lines;
+    CgalFaces faces(scene.query_count());
+    Competitors competitors;
+    std::vector<LocateLine> lines;
     auto count = [&](mw_walk_kind walk, mw_start_kind start) {
         mw_counters counters;
-        run_batch(scene.locator, scene.queries, how(walk, start, 1), found, &counters);
+        locate_in_batch(scene.locator, scene.queries, how(walk, start, 1), found, &counters);
         return counters;
     };
     auto enter = [&](mw_walk_kind walk, mw_start_kind start, bool batch) {
-        size_t competitor = contest.enter([=, &scene, &found] {
-            return batch ? run_batch(scene.locator, scene.queries, how(walk, start, 0), found)
-                         : run_single(scene.locator, scene.queries, how(walk, start, 0), found);
+        size_t competitor = competitors.enter([=, &scene, &found] {
+            return batch ? locate_in_batch(scene.locator, scene.queries, how(walk, start, 0), found)
+                         : locate_singly(scene.locator, scene.queries, how(walk, start, 0), found);
         });
         lines.push_back({mw_walk_name(walk), mw_start_name(start), batch ? "batch" : "single", competitor,
                          count(walk, start), true});
@@ -164,28 +165,28 @@ void measure(const std::string &name, size_t size, const Options &options, Table
     lines.push_back({"CGAL",
                      "random",
                      "single",
-                     contest.enter([&] { return run_peer_random(scene, options.seed, faces); }),
+                     competitors.enter([&] { return run_peer_random(scene, options.seed, faces); }),
                      {},
                      false});
     lines.push_back(
-        {"CGAL", "sorted", "single", contest.enter([&] { return run_peer_sorted(scene, faces); }), {}, false});
-    contest.hold(options);
-    print_lines(name, scene, lines, contest, table);
+        {"CGAL", "sorted", "single", competitors.enter([&] { return run_peer_sorted(scene, faces); }), {}, false});
+    competitors.measure(options);
+    print_lines(name, scene, lines, competitors, table);
 }
 
 } // namespace
 
 int main(int argc, char **argv)
 {
-    Options defaults;
+    ProgramOptions defaults;
     defaults.sizes = {10000, 100000, 1000000};
     defaults.data = {"uniform"};
     defaults.queries = 5000;
 #define MW_WALK_ENTRY(id, symbol, name, source, help) defaults.walks.push_back(name);
 #include <meshwalk/walks.def>
-    Options options = parse(argc, argv, defaults, "point location beside CGAL, ns per query");
-    print_machine(options.tsv, peer_version());
-    Table table({"data", "points", "walk", "start", "way", "ns/query", "(least)", "ratio", "triangles", "tests"});
+    ProgramOptions options = parse_options(argc, argv, defaults, "point location beside CGAL, ns per query");
+    print_machine(options.tsv, cgal_version());
+    TextTable table({"data", "points", "walk", "start", "way", "ns/query", "(least)", "ratio", "triangles", "tests"});
     for (const auto &name : options.data)
         for (size_t size : options.sizes) measure(name, size, options, table);
     table.print(options.tsv);

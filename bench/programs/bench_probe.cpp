@@ -1,8 +1,10 @@
-// bench_probe - which triangle a probe touches: walks over the surface and boxes, beside Embree's ray caster with a
-// ray either way. First a probe that moves along a surface that stays as it is: just above it, where it touches,
-// then out of reach. Then one above a surface that is deformed in every frame, where what is kept beside it has to
-// follow. A control loop cares for its slowest query, so each is timed by itself.
-#include "bench/programs/caster.h"
+// bench_probe - which triangle a probe touches: walks over the surface and boxes, beside Embree's
+// ray caster with a ray either way. First a probe that moves along a surface that stays as it is:
+// just above it, where it touches, then out of reach. Then one above a surface that is deformed in
+// every frame, where what is kept beside it has to follow. A control loop cares for its slowest
+// query, so each is timed by itself.
+#include "bench/programs/embree_caster.h"
+#include "bench/programs/program.h"
 
 #include <cmath>
 
@@ -19,12 +21,12 @@ const double lean = 0.3;            // the motion points forward by so much
 const double contact_budget = 1e-3; // seconds of a query
 const double free_budget = 1e-2;
 
-struct Answer {
+struct ProbeAnswer {
     bool hit;
     uint32_t triangle;
     double distance;
 };
-using Answers = std::vector<Answer>;
+using ProbeAnswers = std::vector<ProbeAnswer>;
 
 double dot(const double *a, const double *b)
 {
@@ -40,7 +42,7 @@ void normalise(double *a)
 // --- the surface and what answers
 
 // Two rays, forward and back; `sign` tells the filter which one this is.
-struct Way {
+struct RayWay {
     RTCIntersectContext context; // first: the filter gets its address
     float sign;
 };
@@ -51,12 +53,12 @@ void filter_fronts(const RTCFilterFunctionNArguments *args)
     float facing = RTCRayN_dir_x(args->ray, args->N, 0) * RTCHitN_Ng_x(args->hit, args->N, 0) +
                    RTCRayN_dir_y(args->ray, args->N, 0) * RTCHitN_Ng_y(args->hit, args->N, 0) +
                    RTCRayN_dir_z(args->ray, args->N, 0) * RTCHitN_Ng_z(args->hit, args->N, 0);
-    if (reinterpret_cast<const Way *>(args->context)->sign * facing >= 0) args->valid[0] = 0;
+    if (reinterpret_cast<const RayWay *>(args->context)->sign * facing >= 0) args->valid[0] = 0;
 }
 
-Answer cast_one(RTCScene scene, const double *query, float sign, double reach)
+ProbeAnswer cast_one(RTCScene scene, const double *query, float sign, double reach)
 {
-    Way way;
+    RayWay way;
     rtcInitIntersectContext(&way.context);
     way.sign = sign;
     RTCRayHit ray = ray_from(query, query + 3, sign, reach);
@@ -64,14 +66,14 @@ Answer cast_one(RTCScene scene, const double *query, float sign, double reach)
     return {ray.hit.geomID != RTC_INVALID_GEOMETRY_ID, ray.hit.primID, sign * ray.ray.tfar};
 }
 
-struct Scene {
+struct ProbeScene {
     Model model;
     mw_surface *surface = nullptr;
     mw_surface_info info;
     mw_prober *plain = nullptr, *boxed = nullptr;
     double diagonal, edge;
 
-    Scene(const std::string &name, const Options &options) : model(make_model(name, options.seed))
+    ProbeScene(const std::string &name, const ProgramOptions &options) : model(make_model(name, options.seed))
     {
         mw_error error;
         mw_arrays arrays = model.arrays();
@@ -87,14 +89,14 @@ struct Scene {
         diagonal = std::sqrt(dot(size, size));
         edge = std::sqrt(info.area / static_cast<double>(model.triangle_count()) * 4 / std::sqrt(3.0));
     }
-    ~Scene()
+    ~ProbeScene()
     {
         mw_prober_destroy(plain);
         mw_prober_destroy(boxed);
         mw_surface_destroy(surface);
     }
-    Scene(const Scene &) = delete;
-    Scene &operator=(const Scene &) = delete;
+    ProbeScene(const ProbeScene &) = delete;
+    ProbeScene &operator=(const ProbeScene &) = delete;
 
     double reach() const { return reach_share * diagonal; }
     mw_prober *prober(bool boxes) const
@@ -123,14 +125,14 @@ struct Scene {
 };
 
 // Who answers: a walk with a cursor that remembers, or a caster.
-class Prober
+class WalkProber
 {
     const mw_prober *prober;
     mw_probe_options options = {};
     mw_probe_cursor cursor;
 
   public:
-    Prober(const Scene &scene, const mw_prober *p, bool certain, uint64_t seed) : prober(p)
+    WalkProber(const ProbeScene &scene, const mw_prober *p, bool certain, uint64_t seed) : prober(p)
     {
         options.max_distance = scene.reach();
         options.certain = certain;
@@ -142,7 +144,7 @@ class Prober
         mw_error error;
         if (mw_probe_cursor_init(prober, &options, &cursor, &error) != MW_OK) fail(error.message);
     }
-    Answer operator()(const double *query)
+    ProbeAnswer operator()(const double *query)
     {
         mw_touch touch = mw_probe(prober, &cursor, query, query + 3);
         if (touch.state == MW_TOUCH_BAD) fail("a probe that is not answered");
@@ -150,25 +152,25 @@ class Prober
     }
 };
 
-struct Rays {
+struct RayProber {
     RTCScene scene;
     double reach;
 
     void restart() {}
-    Answer operator()(const double *query) const
+    ProbeAnswer operator()(const double *query) const
     {
-        Answer ahead = cast_one(scene, query, 1, reach);
-        Answer behind = cast_one(scene, query, -1, ahead.hit ? ahead.distance : reach);
+        ProbeAnswer ahead = cast_one(scene, query, 1, reach);
+        ProbeAnswer behind = cast_one(scene, query, -1, ahead.hit ? ahead.distance : reach);
         return behind.hit ? behind : ahead;
     }
 };
 
 // --- answers beside the exact ones
 
-struct Verdict {
+struct ProbeVerdict {
     size_t hits = 0, same = 0, other = 0, missed = 0, invented = 0;
 
-    void add(const Answer &answer, const Answer &exact, double tolerance)
+    void add(const ProbeAnswer &answer, const ProbeAnswer &exact, double tolerance)
     {
         hits += answer.hit;
         bool near = std::abs(std::abs(answer.distance) - std::abs(exact.distance)) <= tolerance;
@@ -181,7 +183,7 @@ struct Verdict {
         else
             other++;
     }
-    void add(const Answers &answers, const Answers &exact, double tolerance)
+    void add(const ProbeAnswers &answers, const ProbeAnswers &exact, double tolerance)
     {
         for (size_t i = 0; i < exact.size(); i++) add(answers[i], exact[i], tolerance);
     }
@@ -191,7 +193,7 @@ struct Verdict {
     }
 };
 
-double tolerance(const Scene &scene)
+double tolerance(const ProbeScene &scene)
 {
     return 1e-6 * scene.diagonal; // single precision at the size of the model
 }
@@ -199,7 +201,7 @@ double tolerance(const Scene &scene)
 // --- the path of a probe: x y z and motion of each query
 
 // Ahead, turning a little at each step; where it gets no farther, at a border, elsewhere.
-Coordinates make_path(const Scene &scene, double height, size_t n, uint64_t seed)
+Coordinates make_path(const ProbeScene &scene, double height, size_t n, uint64_t seed)
 {
     Coordinates turns = make_directions(n, seed), path;
     double step = step_share * scene.edge, p[3], ahead[3] = {}, up[3], moved[3], motion[3];
@@ -231,7 +233,7 @@ Coordinates make_path(const Scene &scene, double height, size_t n, uint64_t seed
 // --- the time of each query
 
 // A pass over the path; the clock is read once for each query.
-template <class Who> double pass(Who &who, const double *path, Answers &answers, std::vector<double> &seconds)
+template <class Who> double pass(Who &who, const double *path, ProbeAnswers &answers, std::vector<double> &seconds)
 {
     using clock = std::chrono::steady_clock;
     clock::time_point begin = clock::now(), last = begin;
@@ -258,7 +260,8 @@ double mean(const std::vector<double> &values)
     return sum / static_cast<double>(values.size());
 }
 
-// The mean of all but the slowest thousandth, which is mostly the machine's doing where each is timed once.
+// The mean of all but the slowest thousandth, which is mostly the machine's doing where each is
+// timed once.
 double mean_of_most(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());
@@ -266,19 +269,19 @@ double mean_of_most(std::vector<double> values)
     return mean(values);
 }
 
-// Passes over a path, round by round. What the machine does beside delays other queries in each round, so a query's
-// time is its median over the rounds.
-class Passes
+// ProbePasses over a path, round by round. What the machine does beside delays other queries in
+// each round, so a query's time is its median over the rounds.
+class ProbePasses
 {
     std::vector<std::vector<double>> rounds;
 
   public:
-    Answers answers;
+    ProbeAnswers answers;
 
-    template <class Who> void enter(Contest &contest, Who who, const Coordinates &path)
+    template <class Who> void enter(Competitors &competitors, Who who, const Coordinates &path)
     {
         answers.resize(path.size() / 6);
-        contest.enter([this, who, &path]() mutable {
+        competitors.enter([this, who, &path]() mutable {
             who.restart();
             rounds.emplace_back(answers.size());
             return pass(who, path.data(), answers, rounds.back());
@@ -303,23 +306,23 @@ class Passes
     }
 };
 
-void measure_still(const Scene &scene, const Options &options, bool contact, Table &table)
+void measure_still(const ProbeScene &scene, const ProgramOptions &options, bool contact, TextTable &table)
 {
     Coordinates path = make_path(scene, (contact ? hover_share : free_share) * scene.diagonal,
                                  contact ? options.queries : std::max<size_t>(1, options.queries / 10), options.seed);
-    Device device(options.threads);
-    Caster caster(device, scene.model, filter_fronts);
-    Contest contest;
-    Passes published, certain, rays;
-    published.enter(contest, Prober(scene, scene.plain, false, options.seed), path);
-    certain.enter(contest, Prober(scene, scene.boxed, true, options.seed), path);
-    rays.enter(contest, Rays{caster, scene.reach()}, path);
-    contest.hold(options);
-    auto print = [&](const char *who, Passes &passes) {
+    EmbreeDevice device(options.threads);
+    EmbreeCaster caster(device, scene.model, filter_fronts);
+    Competitors competitors;
+    ProbePasses published, certain, rays;
+    published.enter(competitors, WalkProber(scene, scene.plain, false, options.seed), path);
+    certain.enter(competitors, WalkProber(scene, scene.boxed, true, options.seed), path);
+    rays.enter(competitors, RayProber{caster, scene.reach()}, path);
+    competitors.measure(options);
+    auto print = [&](const char *who, ProbePasses &passes) {
         std::vector<std::string> cells = scene.row(contact ? "contact" : "free");
         cells.push_back(who);
         passes.print(cells, static_cast<size_t>(options.warmup), contact ? contact_budget : free_budget);
-        Verdict verdict;
+        ProbeVerdict verdict;
         verdict.add(passes.answers, certain.answers, tolerance(scene));
         verdict.print(cells);
         table.row(cells);
@@ -331,47 +334,65 @@ void measure_still(const Scene &scene, const Options &options, bool contact, Tab
 
 // --- what is kept beside the surface
 
-void measure_builds(const Scene &scene, const Options &options, Table &table)
+double build_surface(const Model &model)
 {
-    auto print = [&](const char *what, double seconds, size_t bytes) {
-        std::vector<std::string> cells = scene.row(what);
-        double triangles = static_cast<double>(scene.model.triangle_count());
-        cells.insert(cells.end(), {number(1e3 * seconds, 1), number(double(bytes) / 1e6, 2),
-                                   number(static_cast<double>(bytes) / triangles, 1)});
-        table.row(cells);
-    };
-    std::vector<double> ours, boxes, theirs;
+    mw_surface *surface;
+    mw_error error;
+    mw_surface_options how = {};
+    mw_arrays arrays = model.arrays();
+    how.tolerant = 1;
+    Stopwatch watch;
+    if (mw_surface_create(&arrays, &how, &surface, &error) != MW_OK) fail(error.message);
+    double seconds = watch.seconds();
+    mw_surface_destroy(surface);
+    return seconds;
+}
+
+// The fit takes all threads when the boxes are made: it is timed once more, with those of the
+// options.
+double build_boxes(const ProbeScene &scene, unsigned threads, mw_prober_info &info)
+{
+    Stopwatch watch;
+    mw_prober *prober = scene.prober(true);
+    double seconds = watch.seconds();
+    mw_prober_describe(prober, &info);
+    seconds -= info.fit_seconds;
+    mw_prober_update(prober, -1, threads);
+    mw_prober_describe(prober, &info);
+    mw_prober_destroy(prober);
+    return seconds + info.fit_seconds;
+}
+
+double build_caster(const Model &model, unsigned threads, size_t &bytes)
+{
+    EmbreeDevice device(threads);
+    size_t before = device.bytes();
+    Stopwatch watch;
+    EmbreeCaster caster(device, model, filter_fronts);
+    double seconds = watch.seconds();
+    bytes = device.bytes() - before;
+    return seconds;
+}
+
+void measure_builds(const ProbeScene &scene, const ProgramOptions &options, TextTable &table)
+{
     mw_prober_info info;
     size_t bytes = 0;
-    for (int round = 0; round < options.rounds; round++) {
-        mw_surface *surface;
-        mw_error error;
-        mw_surface_options how = {};
-        mw_arrays arrays = scene.model.arrays();
-        how.tolerant = 1;
-        Stopwatch first;
-        if (mw_surface_create(&arrays, &how, &surface, &error) != MW_OK) fail(error.message);
-        ours.push_back(first.seconds());
-        mw_surface_destroy(surface);
-        Stopwatch second;
-        mw_prober *prober = scene.prober(true);
-        double seconds = second.seconds();
-        mw_prober_describe(prober, &info);
-        seconds -= info.fit_seconds; // with all threads; once more with those of the options
-        mw_prober_update(prober, -1, options.threads);
-        mw_prober_describe(prober, &info);
-        boxes.push_back(seconds + info.fit_seconds);
-        mw_prober_destroy(prober);
-        Device device(options.threads);
-        size_t before = device.bytes();
-        Stopwatch third;
-        Caster caster(device, scene.model, filter_fronts);
-        theirs.push_back(third.seconds());
-        bytes = device.bytes() - before;
-    }
-    print("surface", share(ours, 0.5), mw_surface_bytes(scene.surface));
-    print("boxes", share(boxes, 0.5), info.box_bytes);
-    print("Embree", share(theirs, 0.5), bytes);
+    Competitors competitors;
+    size_t surface = competitors.enter([&] { return build_surface(scene.model); });
+    size_t boxes = competitors.enter([&] { return build_boxes(scene, options.threads, info); });
+    size_t embree = competitors.enter([&] { return build_caster(scene.model, options.threads, bytes); });
+    competitors.measure(options);
+    auto print = [&](const char *what, size_t competitor, size_t size) {
+        std::vector<std::string> cells = scene.row(what);
+        double triangles = static_cast<double>(scene.model.triangle_count());
+        cells.insert(cells.end(), {number(1e3 * competitors.median(competitor), 1), number(double(size) / 1e6, 2),
+                                   number(static_cast<double>(size) / triangles, 1)});
+        table.row(cells);
+    };
+    print("surface", surface, mw_surface_bytes(scene.surface));
+    print("boxes", boxes, info.box_bytes);
+    print("Embree", embree, bytes);
 }
 
 // --- a surface that moves
@@ -381,7 +402,7 @@ struct Wave {
     double waves[3], across[3], amplitude;
     const double turn = 0.12; // of its phase, from frame to frame
 
-    explicit Wave(const Scene &scene) : waves{9, 6, 3}, across{0, 0.6, 0.8}, amplitude(0.002 * scene.diagonal)
+    explicit Wave(const ProbeScene &scene) : waves{9, 6, 3}, across{0, 0.6, 0.8}, amplitude(0.002 * scene.diagonal)
     {
         for (double &n : waves) n /= scene.diagonal;
     }
@@ -397,13 +418,13 @@ const int frames = 30;
 const size_t frame_queries = 1000;
 
 // One who answers, frame by frame.
-struct Follower {
+struct SurfaceFollower {
     std::string name;
     std::function<double()> update; // what it costs to follow the surface: seconds
-    std::function<void(const double *, Answers &, std::vector<double> &)> probe; // the queries of a frame
-    std::vector<double> updates, queries;                                        // seconds
-    Verdict verdict;
-    Answers answers = Answers(frame_queries);
+    std::function<void(const double *, ProbeAnswers &, std::vector<double> &)> probe; // the queries of a frame
+    std::vector<double> updates, queries;                                             // seconds
+    ProbeVerdict verdict;
+    ProbeAnswers answers = ProbeAnswers(frame_queries);
 
     void play(const double *path)
     {
@@ -414,20 +435,20 @@ struct Follower {
     }
 };
 
-template <class Who> Follower follower(const std::string &name, std::function<double()> update, Who who)
+template <class Who> SurfaceFollower follower(const std::string &name, std::function<double()> update, Who who)
 {
-    Follower f;
+    SurfaceFollower f;
     f.name = name;
     f.update = std::move(update);
-    f.probe = [who](const double *path, Answers &answers, std::vector<double> &seconds) mutable {
+    f.probe = [who](const double *path, ProbeAnswers &answers, std::vector<double> &seconds) mutable {
         pass(who, path, answers, seconds);
     };
     return f;
 }
 
-void print_followers(const Scene &scene, const std::vector<Follower> &followers, Table &table)
+void print_followers(const ProbeScene &scene, const std::vector<SurfaceFollower> &followers, TextTable &table)
 {
-    for (const Follower &f : followers) {
+    for (const SurfaceFollower &f : followers) {
         std::vector<std::string> cells = scene.row(f.name);
         double each = 1e9 * mean(f.updates) / static_cast<double>(scene.model.vertex_count());
         double update = mean(f.updates), query = mean_of_most(f.queries);
@@ -439,31 +460,32 @@ void print_followers(const Scene &scene, const std::vector<Follower> &followers,
     }
 }
 
-// What the frames play with. Three have boxes: told how far vertices went, not told, and the one that knows the
-// answers.
-struct Film {
-    const Scene &scene;
+// What the frames play with. Three have boxes: told how far vertices went, not told, and the one
+// that knows the answers.
+struct MovingSurface {
+    const ProbeScene &scene;
     const Wave wave;
     mw_prober *boxed[3];
     std::vector<double> fits = std::vector<double>(3);
     double own = 0; // seconds that the surface asks for
-    Device device;
-    Caster refit, rebuild;
+    EmbreeDevice device;
+    EmbreeCaster refit, rebuild;
 
-    Film(const Scene &s, const Options &options)
+    MovingSurface(const ProbeScene &s, const ProgramOptions &options)
         : scene(s), wave(s), device(options.threads), refit(device, s.model, filter_fronts, Moving::refit),
           rebuild(device, s.model, filter_fronts, Moving::rebuild)
     {
         for (mw_prober *&one : boxed) one = scene.prober(true);
     }
-    ~Film()
+    ~MovingSurface()
     {
         for (mw_prober *one : boxed) mw_prober_destroy(one);
     }
-    Film(const Film &) = delete;
-    Film &operator=(const Film &) = delete;
+    MovingSurface(const MovingSurface &) = delete;
+    MovingSurface &operator=(const MovingSurface &) = delete;
 
-    // The frame's coordinates, everywhere. What has to be done before the next query is timed; for Embree later.
+    // The frame's coordinates, everywhere. What has to be done before the next query is timed; for
+    // Embree later.
     void show(int frame, unsigned threads)
     {
         Stopwatch begin;
@@ -484,48 +506,54 @@ struct Film {
         refit.place(moved);
         rebuild.place(moved);
     }
-    std::vector<Follower> followers(uint64_t seed)
+    std::vector<SurfaceFollower> followers(uint64_t seed)
     {
-        auto update = [](Caster &caster) {
+        auto update = [](EmbreeCaster &caster) {
             return [&caster] {
                 Stopwatch watch;
                 caster.update();
                 return watch.seconds();
             };
         };
-        std::vector<Follower> all;
+        std::vector<SurfaceFollower> all;
         all.push_back(follower(
-            "published", [this] { return own; }, Prober(scene, scene.plain, false, seed)));
+            "published", [this] { return own; }, WalkProber(scene, scene.plain, false, seed)));
         all.push_back(follower(
-            "certain, known how far", [this] { return own + fits[0]; }, Prober(scene, boxed[0], true, seed)));
+            "certain, known how far", [this] { return own + fits[0]; }, WalkProber(scene, boxed[0], true, seed)));
         all.push_back(follower(
-            "certain, not known", [this] { return own + fits[1]; }, Prober(scene, boxed[1], true, seed)));
-        all.push_back(follower("Embree, refit", update(refit), Rays{refit, scene.reach()}));
-        all.push_back(follower("Embree, rebuilt", update(rebuild), Rays{rebuild, scene.reach()}));
+            "certain, not known", [this] { return own + fits[1]; }, WalkProber(scene, boxed[1], true, seed)));
+        all.push_back(follower("Embree, refit", update(refit), RayProber{refit, scene.reach()}));
+        all.push_back(follower("Embree, rebuilt", update(rebuild), RayProber{rebuild, scene.reach()}));
         return all;
     }
 };
 
-void measure_moving(const Scene &scene, const Options &options, Table &table)
+void measure_moving(const ProbeScene &scene, const ProgramOptions &options, TextTable &table)
 {
     Coordinates path = make_path(scene, hover_share * scene.diagonal, frames * frame_queries, options.seed);
-    Film film(scene, options);
-    std::vector<Follower> followers = film.followers(options.seed);
-    Prober oracle(scene, film.boxed[2], true, options.seed);
-    Answers exact(frame_queries);
-    for (int frame = 0; frame < frames; frame++) {
+    MovingSurface film(scene, options);
+    std::vector<SurfaceFollower> followers = film.followers(options.seed);
+    WalkProber oracle(scene, film.boxed[2], true, options.seed);
+    ProbeAnswers exact(frame_queries);
+    int frame = -1;
+    double *queries = nullptr;
+    Competitors competitors;
+    competitors.lead([&] { // each round is a frame
+        frame++;
         film.show(frame, options.threads);
-        double *queries = &path[6 * frame_queries * static_cast<size_t>(frame)];
+        queries = &path[6 * frame_queries * static_cast<size_t>(frame)];
         for (size_t i = 0; i < frame_queries; i++) {
             film.wave.move(queries + 6 * i, frame, queries + 6 * i); // the probe goes with the surface
             exact[i] = oracle(queries + 6 * i);
         }
-        for (size_t i = 0; i < followers.size(); i++) {
-            Follower &f = followers[(i + static_cast<size_t>(frame)) % followers.size()];
-            f.play(queries);
-            f.verdict.add(f.answers, exact, tolerance(scene));
-        }
-    }
+    });
+    for (SurfaceFollower &one : followers)
+        competitors.enter([&, f = &one] {
+            f->play(queries);
+            f->verdict.add(f->answers, exact, tolerance(scene));
+            return f->updates.back();
+        });
+    competitors.measure(frames, 0);
     print_followers(scene, followers, table);
 }
 
@@ -533,25 +561,25 @@ void measure_moving(const Scene &scene, const Options &options, Table &table)
 
 int main(int argc, char **argv)
 {
-    Options defaults;
+    ProgramOptions defaults;
     defaults.data = {"bumps:250000"};
     defaults.queries = 20000;
     defaults.rounds = 5;
-    Options options = parse(argc, argv, defaults, "probes of surfaces beside Embree");
-    print_machine(options.tsv, caster_version());
-    Table builds({"data", "triangles", "built", "ms", "MB", "bytes/triangle"});
-    Table still({"data", "triangles", "probe", "who", "mean us", "99.9 %", "worst", "worst seen", "budget ms", "late",
-                 "hits", "same", "other", "missed", "invented"});
-    Table moving({"data", "triangles", "who", "update ms", "(worst)", "ns/vertex", "probe us", "99.9 %", "frame ms",
-                  "hits", "same", "other", "missed", "invented"});
+    ProgramOptions options = parse_options(argc, argv, defaults, "probes of surfaces beside Embree");
+    print_machine(options.tsv, embree_version());
+    TextTable builds({"data", "triangles", "built", "ms", "MB", "bytes/triangle"});
+    TextTable still({"data", "triangles", "probe", "who", "mean us", "99.9 %", "worst", "worst seen", "budget ms",
+                     "late", "hits", "same", "other", "missed", "invented"});
+    TextTable moving({"data", "triangles", "who", "update ms", "(worst)", "ns/vertex", "probe us", "99.9 %", "frame ms",
+                      "hits", "same", "other", "missed", "invented"});
     for (const auto &name : options.data) {
-        Scene scene(name, options);
+        ProbeScene scene(name, options);
         measure_builds(scene, options, builds);
         measure_still(scene, options, true, still);
         measure_still(scene, options, false, still);
         measure_moving(scene, options, moving);
     }
-    for (const Table *table : {&builds, &still, &moving}) {
+    for (const TextTable *table : {&builds, &still, &moving}) {
         table->print(options.tsv);
         std::printf("\n");
     }

@@ -1,7 +1,9 @@
-// bench_star - which facet of a star-shaped polyhedron a ray from its centre meets: walks from several first facets,
-// beside Embree's ray caster. What both build, in time and memory; the time of a query; and how often Embree is wrong,
-// which computes in single precision: rays that meet no facet, and facets that the exact answer does not touch.
-#include "bench/programs/caster.h"
+// bench_star - which facet of a star-shaped polyhedron a ray from its centre meets: walks from
+// several first facets, beside Embree's ray caster. What both build, in time and memory; the time
+// of a query; and how often Embree is wrong, which computes in single precision: rays that meet no
+// facet, and facets that the exact answer does not touch.
+#include "bench/programs/embree_caster.h"
+#include "bench/programs/program.h"
 
 #include <cmath>
 #include <memory>
@@ -11,7 +13,7 @@ namespace
 
 using namespace bench;
 
-using Found = std::vector<mw_location>;
+using StarLocations = std::vector<mw_location>;
 using Facets = std::vector<uint32_t>; // by Embree; MW_NONE: it found none
 
 const mw_star_start_kind indexed[] = {MW_STAR_START_GRID, MW_STAR_START_NONUNIFORM_GRID, MW_STAR_START_OCTAHEDRON};
@@ -70,25 +72,27 @@ Model centred(Model model)
 
 // --- building
 
-struct Built {
+struct StarBuild {
     std::string what;
     size_t competitor, bytes;
 };
 
-void print_builds(const Model &model, const std::vector<Built> &builds, const Contest &contest, Table &table)
+void print_builds(const Model &model, const std::vector<StarBuild> &builds, const Competitors &competitors,
+                  TextTable &table)
 {
-    for (const Built &one : builds) {
+    for (const StarBuild &one : builds) {
         double bytes = static_cast<double>(one.bytes);
         table.row({model.name, std::to_string(model.triangle_count()), one.what,
-                   number(1e3 * contest.median(one.competitor), 1), number(1e3 * contest.least(one.competitor), 1),
-                   number(bytes / 1e6, 2), number(bytes / static_cast<double>(model.triangle_count()), 1)});
+                   number(1e3 * competitors.median(one.competitor), 1),
+                   number(1e3 * competitors.least(one.competitor), 1), number(bytes / 1e6, 2),
+                   number(bytes / static_cast<double>(model.triangle_count()), 1)});
     }
 }
 
-void measure_builds(const Model &model, const Options &options, Table &table)
+void measure_builds(const Model &model, const ProgramOptions &options, TextTable &table)
 {
-    Contest contest;
-    std::vector<Built> builds;
+    Competitors competitors;
+    std::vector<StarBuild> builds;
     Polyhedron kept;
     mw_star_info info;
     mw_error error;
@@ -96,7 +100,7 @@ void measure_builds(const Model &model, const Options &options, Table &table)
     mw_star_describe(kept.star, &info);
     for (bool angles : {false, true}) {
         size_t bytes = mw_surface_bytes(kept.surface) + info.bytes - (angles ? 0 : info.angle_bytes);
-        size_t competitor = contest.enter([=, &model] {
+        size_t competitor = competitors.enter([=, &model] {
             Polyhedron made;
             mw_error why;
             Stopwatch watch;
@@ -107,7 +111,7 @@ void measure_builds(const Model &model, const Options &options, Table &table)
     }
     for (mw_star_start_kind start : indexed) {
         kept.add_index(start);
-        size_t competitor = contest.enter([=, &kept] {
+        size_t competitor = competitors.enter([=, &kept] {
             mw_star_index_destroy(kept.index[start]);
             Stopwatch watch;
             kept.add_index(start);
@@ -115,19 +119,19 @@ void measure_builds(const Model &model, const Options &options, Table &table)
         });
         builds.push_back({std::string("index: ") + mw_star_start_name(start), competitor, kept.index_bytes(start)});
     }
-    Device device(options.threads);
+    EmbreeDevice device(options.threads);
     size_t before = device.bytes();
-    std::unique_ptr<Caster> caster = std::make_unique<Caster>(device, model);
+    std::unique_ptr<EmbreeCaster> caster = std::make_unique<EmbreeCaster>(device, model);
     size_t bytes = device.bytes() - before;
-    size_t competitor = contest.enter([&] {
+    size_t competitor = competitors.enter([&] {
         caster.reset();
         Stopwatch watch;
-        caster = std::make_unique<Caster>(device, model);
+        caster = std::make_unique<EmbreeCaster>(device, model);
         return watch.seconds();
     });
     builds.push_back({"Embree", competitor, bytes});
-    contest.hold(options);
-    print_builds(model, builds, contest, table);
+    competitors.measure(options);
+    print_builds(model, builds, competitors, table);
 }
 
 // --- queries
@@ -143,8 +147,8 @@ mw_star_query_options how(const Polyhedron &p, mw_star_walk_kind walk, mw_star_s
     return options;
 }
 
-double run_single(const Polyhedron &p, const Coordinates &rays, const mw_star_query_options &options, Found &found,
-                  mw_counters *counters = nullptr)
+double rays_singly(const Polyhedron &p, const Coordinates &rays, const mw_star_query_options &options,
+                   StarLocations &found, mw_counters *counters = nullptr)
 {
     mw_star_cursor cursor;
     mw_error error;
@@ -156,8 +160,8 @@ double run_single(const Polyhedron &p, const Coordinates &rays, const mw_star_qu
     return seconds;
 }
 
-double run_batch(const Polyhedron &p, const Coordinates &rays, const mw_star_query_options &options, Found &found,
-                 mw_counters *counters = nullptr)
+double rays_in_batch(const Polyhedron &p, const Coordinates &rays, const mw_star_query_options &options,
+                     StarLocations &found, mw_counters *counters = nullptr)
 {
     mw_error error;
     Stopwatch watch;
@@ -168,7 +172,7 @@ double run_batch(const Polyhedron &p, const Coordinates &rays, const mw_star_que
 
 const double origin[3] = {};
 
-double cast_single(const Caster &caster, const Coordinates &rays, Facets &facets)
+double cast_single(const EmbreeCaster &caster, const Coordinates &rays, Facets &facets)
 {
     Stopwatch watch;
     for (size_t i = 0; i < facets.size(); i++) {
@@ -181,7 +185,7 @@ double cast_single(const Caster &caster, const Coordinates &rays, Facets &facets
     return watch.seconds();
 }
 
-double cast_packets(const Caster &caster, const Coordinates &rays, RTCIntersectContextFlags flags, Facets &facets)
+double cast_packets(const EmbreeCaster &caster, const Coordinates &rays, RTCIntersectContextFlags flags, Facets &facets)
 {
     Stopwatch watch;
     for (size_t i = 0; i < facets.size(); i += 8) {
@@ -206,20 +210,20 @@ double cast_packets(const Caster &caster, const Coordinates &rays, RTCIntersectC
     return watch.seconds();
 }
 
-struct Line {
+struct StarLine {
     std::string walk, start, way, order;
     size_t competitor;
     mw_counters counters;
 };
 
-class Race
+class StarQueries
 {
     const Polyhedron &p;
     const Coordinates &mixed, sorted;
-    Found found, expected;
+    StarLocations found, expected;
     Facets facets;
-    Contest contest;
-    std::vector<Line> lines;
+    Competitors competitors;
+    std::vector<StarLine> lines;
 
     const Coordinates &rays(bool in_order) const { return in_order ? sorted : mixed; }
     static const char *order(bool in_order) { return in_order ? "sorted" : "random"; }
@@ -233,8 +237,8 @@ class Race
     }
 
   public:
-    Race(const Polyhedron &polyhedron, const Coordinates &queries)
-        : p(polyhedron), mixed(queries), sorted(in_spatial_order(queries)), found(queries.size() / 3),
+    StarQueries(const Polyhedron &polyhedron, const Coordinates &queries)
+        : p(polyhedron), mixed(queries), sorted(in_morton_order(queries)), found(queries.size() / 3),
           facets(queries.size() / 3)
     {
     }
@@ -242,72 +246,72 @@ class Race
     {
         auto run = [=](bool count, mw_counters *counters) {
             mw_star_query_options options = how(p, walk, start, count);
-            return batch ? run_batch(p, rays(in_order), options, found, counters)
-                         : run_single(p, rays(in_order), options, found, counters);
+            return batch ? rays_in_batch(p, rays(in_order), options, found, counters)
+                         : rays_singly(p, rays(in_order), options, found, counters);
         };
-        Line line = {mw_star_walk_name(walk),
-                     mw_star_start_name(start),
-                     batch ? "batch" : "single",
-                     order(in_order),
-                     contest.enter([=] { return run(false, nullptr); }),
-                     {}};
+        StarLine line = {mw_star_walk_name(walk),
+                         mw_star_start_name(start),
+                         batch ? "batch" : "single",
+                         order(in_order),
+                         competitors.enter([=] { return run(false, nullptr); }),
+                         {}};
         run(true, &line.counters);
         if (expected.empty()) expected = found;
         if (!in_order) compare(line.walk + " from " + line.start);
         lines.push_back(line);
     }
-    void enter(const Caster &caster, bool packets, bool in_order)
+    void enter(const EmbreeCaster &caster, bool packets, bool in_order)
     {
         auto flags = in_order ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-        size_t competitor = contest.enter([=, &caster] {
+        size_t competitor = competitors.enter([=, &caster] {
             return packets ? cast_packets(caster, rays(in_order), flags, facets)
                            : cast_single(caster, rays(in_order), facets);
         });
         lines.push_back({"Embree", "-", packets ? "packets of 8" : "single", order(in_order), competitor, {}});
     }
-    void hold(const Model &model, const Options &options, Table &table)
+    void measure(const Model &model, const ProgramOptions &options, TextTable &table)
     {
-        contest.hold(options);
+        competitors.measure(options);
         double queries = static_cast<double>(found.size()), base = 0;
-        for (const Line &line : lines)
-            if (base == 0 && line.walk == "Embree") base = contest.median(line.competitor);
-        for (const Line &line : lines) {
-            double median = contest.median(line.competitor);
+        for (const StarLine &line : lines)
+            if (base == 0 && line.walk == "Embree") base = competitors.median(line.competitor);
+        for (const StarLine &line : lines) {
+            double median = competitors.median(line.competitor);
             auto each = [&](uint64_t count) {
                 return line.walk == "Embree" ? std::string("-") : number(double(count) / queries, 2);
             };
             table.row({model.name, std::to_string(model.triangle_count()), line.walk, line.start, line.way, line.order,
-                       number(1e9 * median / queries, 1), number(1e9 * contest.least(line.competitor) / queries, 1),
+                       number(1e9 * median / queries, 1), number(1e9 * competitors.least(line.competitor) / queries, 1),
                        number(median / base, 3), each(line.counters.triangles_visited),
                        each(line.counters.orient_init + line.counters.orient + line.counters.orient_final)});
         }
     }
 };
 
-void measure_queries(const Model &model, const Options &options, Table &table)
+void measure_queries(const Model &model, const ProgramOptions &options, TextTable &table)
 {
     Polyhedron p;
     mw_error error;
     p.prepare(model, true, &error);
     for (mw_star_start_kind start : indexed) p.add_index(start);
-    Device device(options.threads);
-    Caster caster(device, model);
+    EmbreeDevice device(options.threads);
+    EmbreeCaster caster(device, model);
     Coordinates rays = make_directions(options.queries, options.seed);
-    Race race(p, rays);
-    race.enter(caster, false, false);
-    race.enter(caster, true, false);
-    race.enter(caster, false, true);
-    race.enter(caster, true, true);
+    StarQueries star_queries(p, rays);
+    star_queries.enter(caster, false, false);
+    star_queries.enter(caster, true, false);
+    star_queries.enter(caster, false, true);
+    star_queries.enter(caster, true, true);
     for (const std::string &name : options.walks) {
         mw_star_walk_kind walk = mw_star_walk_by_name(name.c_str());
         if (walk == MW_STAR_WALK_COUNT) fail("no such walk: " + name);
         for (mw_star_start_kind start : {MW_STAR_START_LAST, MW_STAR_START_SAMPLE, MW_STAR_START_GRID,
                                          MW_STAR_START_NONUNIFORM_GRID, MW_STAR_START_OCTAHEDRON})
-            race.enter(walk, start, false, false);
-        race.enter(walk, MW_STAR_START_LAST, false, true);
+            star_queries.enter(walk, start, false, false);
+        star_queries.enter(walk, MW_STAR_START_LAST, false, true);
     }
-    race.enter(MW_STAR_WALK_AUTO, MW_STAR_START_AUTO, true, false);
-    race.hold(model, options, table);
+    star_queries.enter(MW_STAR_WALK_AUTO, MW_STAR_START_AUTO, true, false);
+    star_queries.measure(model, options, table);
 }
 
 // --- wrong answers
@@ -326,7 +330,8 @@ Coordinates rays_at(const Model &model, bool vertices, size_t n)
     return rays;
 }
 
-// Coordinates that are multiples of 2^-22 of about their extent: single precision holds them, and the sum of two.
+// Coordinates that are multiples of 2^-22 of about their extent: single precision holds them, and
+// the sum of two.
 void shorten(Coordinates &points)
 {
     double most = 0;
@@ -346,20 +351,20 @@ bool touches(const mw_surface *surface, const mw_location &place, uint32_t facet
            (place.where == MW_ON_EDGE && shared(place.local) && shared(place.local + 1u));
 }
 
-void count_wrong(const Model &model, const std::string &given, const Options &options, Table &table)
+void count_wrong(const Model &model, const std::string &given, const ProgramOptions &options, TextTable &table)
 {
     Polyhedron p;
     mw_error error;
     if (!p.prepare(model, false, &error)) return; // shortened, it need not be star-shaped
-    Device device(options.threads);
-    Caster caster(device, model);
+    EmbreeDevice device(options.threads);
+    EmbreeCaster caster(device, model);
     for (std::string through : {"anything", "edges", "vertices"}) {
         Coordinates rays = through == "anything" ? make_directions(options.queries, options.seed)
                                                  : rays_at(model, through == "vertices", options.queries);
         if (given == "short" && through == "anything") shorten(rays);
-        Found found(rays.size() / 3);
+        StarLocations found(rays.size() / 3);
         Facets facets(found.size());
-        run_batch(p, rays, how(p, MW_STAR_WALK_AUTO, MW_STAR_START_AUTO, false), found);
+        rays_in_batch(p, rays, how(p, MW_STAR_WALK_AUTO, MW_STAR_START_AUTO, false), found);
         cast_single(caster, rays, facets);
         size_t lost = 0, wrong = 0, ties = 0;
         for (size_t i = 0; i < facets.size(); i++) {
@@ -376,16 +381,18 @@ void count_wrong(const Model &model, const std::string &given, const Options &op
 
 int main(int argc, char **argv)
 {
-    Options defaults;
+    ProgramOptions defaults;
     defaults.data = {"icosahedron:163842", "star:100000"};
     defaults.queries = 50000;
     defaults.walks = {"stochastic", "orthogonal"};
-    Options options = parse(argc, argv, defaults, "rays from the centre of star-shaped polyhedra beside Embree");
-    print_machine(options.tsv, caster_version());
-    Table builds({"data", "facets", "built", "ms", "(least)", "MB", "bytes/facet"});
-    Table queries({"data", "facets", "walk", "start", "way", "order", "ns/query", "(least)", "ratio", "facets/query",
-                   "tests/query"});
-    Table wrong({"data", "facets", "given", "rays through", "rays", "on edge or vertex", "Embree: none", "another"});
+    ProgramOptions options =
+        parse_options(argc, argv, defaults, "rays from the centre of star-shaped polyhedra beside Embree");
+    print_machine(options.tsv, embree_version());
+    TextTable builds({"data", "facets", "built", "ms", "(least)", "MB", "bytes/facet"});
+    TextTable queries({"data", "facets", "walk", "start", "way", "order", "ns/query", "(least)", "ratio",
+                       "facets/query", "tests/query"});
+    TextTable wrong(
+        {"data", "facets", "given", "rays through", "rays", "on edge or vertex", "Embree: none", "another"});
     for (const auto &name : options.data) {
         Model model = centred(make_model(name, options.seed));
         measure_builds(model, options, builds);
@@ -394,7 +401,7 @@ int main(int argc, char **argv)
         shorten(model.points);
         count_wrong(model, "short", options, wrong);
     }
-    for (const Table *table : {&builds, &queries, &wrong}) {
+    for (const TextTable *table : {&builds, &queries, &wrong}) {
         table->print(options.tsv);
         std::printf("\n");
     }

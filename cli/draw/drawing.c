@@ -40,7 +40,7 @@ static void shade(const scene *s, uint32_t visit, double rgb[3])
     mix(light[hue], dark[hue], s->part[visit], rgb);
 }
 
-static void colour_of(const scene *s, const piece *p, double rgb[3])
+static void colour_of(const scene *s, const painted_triangle *p, double rgb[3])
 {
     const drawing *d = s->d;
     if (p->triangle == d->path[d->path_count - 1])
@@ -57,7 +57,7 @@ static void colour_of(const scene *s, const piece *p, double rgb[3])
 /* Points of a unit. */
 static double scale_of(const scene *s)
 {
-    return PAGE_SIDE / box_side(&s->shown);
+    return PAGE_SIDE / page_box_side(&s->shown);
 }
 
 static double page_x(const scene *s, double x)
@@ -75,8 +75,8 @@ static double line_width(const scene *s)
 {
     double sum = 0;
     for (size_t i = 0; i < s->count; i++) {
-        box b = scene_box(s, s->pieces[i].triangle);
-        sum += box_side(&b);
+        page_box b = scene_box(s, s->painted[i].triangle);
+        sum += page_box_side(&b);
     }
     double mean = s->count ? sum / (double)s->count * scale_of(s) : 10;
     return fmin(0.6, fmax(0.08, 0.05 * mean));
@@ -85,13 +85,13 @@ static double line_width(const scene *s)
 static void trace(cairo_t *c, const scene *s, uint32_t triangle)
 {
     for (size_t k = 0; k < 3; k++) {
-        const spot *at = scene_corner(s, triangle, k);
+        const page_point *at = scene_corner(s, triangle, k);
         cairo_line_to(c, page_x(s, at->x), page_y(s, at->y));
     }
     cairo_close_path(c);
 }
 
-static void paint(cairo_t *c, const scene *s, const piece *p, double width)
+static void paint(cairo_t *c, const scene *s, const painted_triangle *p, double width)
 {
     bool walk = s->visit[p->triangle] != UINT32_MAX;
     double rgb[3];
@@ -113,7 +113,7 @@ static void paint(cairo_t *c, const scene *s, const piece *p, double width)
 /* A triangle that is too small or thin to show its colour gets a ring of it. */
 static void ring(cairo_t *c, const scene *s, uint32_t triangle, const double rgb[3])
 {
-    box b = scene_box(s, triangle);
+    page_box b = scene_box(s, triangle);
     if (!scene_is_finite(s, triangle) || fmin(b.high[0] - b.low[0], b.high[1] - b.low[1]) * scale_of(s) > 1.5 * RING)
         return;
     cairo_new_sub_path(c);
@@ -129,8 +129,8 @@ static void paint_line(cairo_t *c, const scene *s)
     const double *line = s->d->line;
     cairo_set_line_width(c, 1.1);
     for (size_t i = 0; i + 1 < s->d->line_count; i++) {
-        spot a = projection_at(&s->projection, line + 3 * i), b = projection_at(&s->projection, line + 3 * i + 3);
-        if (!spot_is_finite(&a) || !spot_is_finite(&b)) continue;
+        page_point a = projection_at(&s->projection, line + 3 * i), b = projection_at(&s->projection, line + 3 * i + 3);
+        if (!page_point_is_finite(&a) || !page_point_is_finite(&b)) continue;
         bool seen =
             projection_shows(&s->projection, line + 3 * i) && projection_shows(&s->projection, line + 3 * i + 3);
         double grey = seen ? 0 : 0.6;
@@ -144,8 +144,8 @@ static void paint_line(cairo_t *c, const scene *s)
 /* The beginning of the line is a ring, its end a disc. */
 static void paint_end(cairo_t *c, const scene *s, const double *point, bool last)
 {
-    spot at = projection_at(&s->projection, point);
-    if (!spot_is_finite(&at)) return;
+    page_point at = projection_at(&s->projection, point);
+    if (!page_point_is_finite(&at)) return;
     double grey = projection_shows(&s->projection, point) ? 0 : 0.6, paper = last ? grey : 1;
     cairo_new_sub_path(c);
     cairo_arc(c, page_x(s, at.x), page_y(s, at.y), 2.5, 0, 2 * acos(-1));
@@ -204,7 +204,7 @@ static void draw(cairo_t *c, const void *self)
     cairo_rectangle(c, 0, 0, page_width(s), page_height(s) - CAPTION + 4);
     cairo_clip(c);
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
-    for (size_t i = 0; i < s->count; i++) paint(c, s, &s->pieces[i], width);
+    for (size_t i = 0; i < s->count; i++) paint(c, s, &s->painted[i], width);
     paint_line(c, s);
     if (s->d->path_count) {
         ring(c, s, s->d->path[0], green);

@@ -156,12 +156,12 @@ projection projection_make(const drawing *d)
 
 /* --- what the eye sees -------------------------------------------------------------------------------------------- */
 
-spot projection_at(const projection *p, const double *point)
+page_point projection_at(const projection *p, const double *point)
 {
     double cube[3];
     place(p, point, cube);
-    if (p->d->view == VIEW_PLANE) return (spot){cube[0], cube[1], 0};
-    return (spot){inner(p->axis[0], cube), inner(p->axis[1], cube), inner(p->axis[2], cube)};
+    if (p->d->view == VIEW_PLANE) return (page_point){cube[0], cube[1], 0};
+    return (page_point){inner(p->axis[0], cube), inner(p->axis[1], cube), inner(p->axis[2], cube)};
 }
 
 bool projection_turns_back(const projection *p, uint32_t triangle)

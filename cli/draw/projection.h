@@ -1,8 +1,10 @@
 /* projection.h - an orthographic projection of a mesh onto the page, seen from where the walk shows best. */
-#ifndef CLI_PROJECTION_H
-#define CLI_PROJECTION_H
+#ifndef MW_CLI_DRAW_PROJECTION_H
+#define MW_CLI_DRAW_PROJECTION_H
 
-#include "cli/draw/drawing.h"
+#include "cli/draw/drawing_content.h"
+
+#include <stdbool.h>
 
 typedef struct projection {
     const drawing *d;
@@ -11,14 +13,14 @@ typedef struct projection {
 } projection;
 
 /* A point on the page: to the right, up, and towards the eye. */
-typedef struct spot {
+typedef struct page_point {
     double x, y, z;
-} spot;
+} page_point;
 
 projection projection_make(const drawing *d);
 
 /* Where a point is on the page; perhaps not finite. */
-spot projection_at(const projection *p, const double *point);
+page_point projection_at(const projection *p, const double *point);
 
 /* Does a triangle turn its back to the eye? */
 bool projection_turns_back(const projection *p, uint32_t triangle);

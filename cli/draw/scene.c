@@ -11,40 +11,40 @@
 
 /* --- what is shown ------------------------------------------------------------------------------------------------ */
 
-static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+static const page_box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
-bool spot_is_finite(const spot *at)
+bool page_point_is_finite(const page_point *at)
 {
     return isfinite(at->x) && isfinite(at->y);
 }
 
-static void grow(box *b, const spot *at)
+static void grow(page_box *b, const page_point *at)
 {
-    if (!spot_is_finite(at)) return;
+    if (!page_point_is_finite(at)) return;
     b->low[0] = fmin(b->low[0], at->x);
     b->low[1] = fmin(b->low[1], at->y);
     b->high[0] = fmax(b->high[0], at->x);
     b->high[1] = fmax(b->high[1], at->y);
 }
 
-const spot *scene_corner(const scene *s, uint32_t triangle, size_t k)
+const page_point *scene_corner(const scene *s, uint32_t triangle, size_t k)
 {
     return &s->at[s->d->triangles[3 * (size_t)triangle + k]];
 }
 
-box scene_box(const scene *s, uint32_t triangle)
+page_box scene_box(const scene *s, uint32_t triangle)
 {
-    box b = nothing;
+    page_box b = nothing;
     for (size_t k = 0; k < 3; k++) grow(&b, scene_corner(s, triangle, k));
     return b;
 }
 
-double box_side(const box *b)
+double page_box_side(const page_box *b)
 {
     return fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]);
 }
 
-static box widen(box b, double margin)
+static page_box widen(page_box b, double margin)
 {
     for (int k = 0; k < 2; k++) {
         b.low[k] -= margin;
@@ -53,7 +53,7 @@ static box widen(box b, double margin)
     return b;
 }
 
-static box join(box a, box b)
+static page_box join(page_box a, page_box b)
 {
     for (int k = 0; k < 2; k++) {
         a.low[k] = fmin(a.low[k], b.low[k]);
@@ -62,7 +62,7 @@ static box join(box a, box b)
     return a;
 }
 
-static box meet(box a, box b)
+static page_box meet(page_box a, page_box b)
 {
     for (int k = 0; k < 2; k++) {
         a.low[k] = fmax(a.low[k], b.low[k]);
@@ -74,8 +74,8 @@ static box meet(box a, box b)
 /* An end of the line should be seen, unless it lies far away: from a mesh in the plane, or from the walk of a probe. */
 static void grow_to_end(scene *s, const double *point)
 {
-    spot at = projection_at(&s->projection, point);
-    box near = s->d->view == VIEW_PLANE ? widen(s->all, 2) : widen(s->shown, box_side(&s->shown));
+    page_point at = projection_at(&s->projection, point);
+    page_box near = s->d->view == VIEW_PLANE ? widen(s->all, 2) : widen(s->shown, page_box_side(&s->shown));
     if (at.x >= near.low[0] && at.x <= near.high[0] && at.y >= near.low[1] && at.y <= near.high[1])
         grow(&s->shown, &at);
 }
@@ -88,22 +88,22 @@ static void choose_box(scene *s)
     s->all = s->shown = nothing;
     for (size_t i = 0; i < 3 * d->triangle_count; i++) grow(&s->all, &s->at[d->triangles[i]]);
     for (size_t i = 0; i < d->path_count; i++) {
-        box b = scene_box(s, d->path[i]);
-        sides += box_side(&b);
+        page_box b = scene_box(s, d->path[i]);
+        sides += page_box_side(&b);
         for (size_t k = 0; k < 3; k++) grow(&s->shown, scene_corner(s, d->path[i], k));
     }
     for (size_t i = 0; i < d->line_count; i += d->line_count - 1) grow_to_end(s, d->line + 3 * i);
-    double side = box_side(&s->shown), mean = d->path_count ? sides / (double)d->path_count : 0;
-    box near = widen(s->shown, fmax(0.12 * side, 1.5 * mean)), most = join(s->shown, s->all);
-    bool whole = !d->path_count || box_side(&near) > 0.6 * box_side(&s->all);
+    double side = page_box_side(&s->shown), mean = d->path_count ? sides / (double)d->path_count : 0;
+    page_box near = widen(s->shown, fmax(0.12 * side, 1.5 * mean)), most = join(s->shown, s->all);
+    bool whole = !d->path_count || page_box_side(&near) > 0.6 * page_box_side(&s->all);
     s->shown = whole ? most : meet(near, most);
-    s->shown = widen(s->shown, 0.02 * box_side(&s->shown));
-    if (!(box_side(&s->shown) > 0)) s->shown = (box){{-1, -1}, {1, 1}};
+    s->shown = widen(s->shown, 0.02 * page_box_side(&s->shown));
+    if (!(page_box_side(&s->shown) > 0)) s->shown = (page_box){{-1, -1}, {1, 1}};
 }
 
 /* --- what is painted ---------------------------------------------------------------------------------------------- */
 
-static bool is_in_sight(const scene *s, const box *b)
+static bool is_in_sight(const scene *s, const page_box *b)
 {
     return b->low[0] <= s->shown.high[0] && b->high[0] >= s->shown.low[0] && b->low[1] <= s->shown.high[1] &&
            b->high[1] >= s->shown.low[1];
@@ -111,8 +111,8 @@ static bool is_in_sight(const scene *s, const box *b)
 
 bool scene_is_finite(const scene *s, uint32_t triangle)
 {
-    return spot_is_finite(scene_corner(s, triangle, 0)) && spot_is_finite(scene_corner(s, triangle, 1)) &&
-           spot_is_finite(scene_corner(s, triangle, 2));
+    return page_point_is_finite(scene_corner(s, triangle, 0)) && page_point_is_finite(scene_corner(s, triangle, 1)) &&
+           page_point_is_finite(scene_corner(s, triangle, 2));
 }
 
 static double depth_of(const scene *s, uint32_t triangle)
@@ -121,21 +121,21 @@ static double depth_of(const scene *s, uint32_t triangle)
 }
 
 /* In the plane the walk lies on the mesh; in space what is nearer hides what is farther away. Depths are within 2. */
-static void add_piece(scene *s, uint32_t triangle)
+static void scene_add_triangle(scene *s, uint32_t triangle)
 {
-    box b = scene_box(s, triangle);
+    page_box b = scene_box(s, triangle);
     bool walk = s->visit[triangle] != UINT32_MAX;
     if (!scene_is_finite(s, triangle) || !is_in_sight(s, &b)) return;
     bool back = projection_turns_back(&s->projection, triangle);
     if (back && !walk) return;
     double key =
         s->d->view == VIEW_PLANE ? (walk ? s->visit[triangle] : -1.0) : depth_of(s, triangle) - (back ? 10 : 0);
-    s->pieces[s->count++] = (piece){key, triangle, back};
+    s->painted[s->count++] = (painted_triangle){key, triangle, back};
 }
 
 static int by_key(const void *a, const void *b)
 {
-    const piece *p = a, *q = b;
+    const painted_triangle *p = a, *q = b;
     if (p->key != q->key) return p->key < q->key ? -1 : 1;
     return p->triangle < q->triangle ? -1 : 1;
 }
@@ -155,10 +155,10 @@ static int cell(double x, double low, double high)
 
 static void mark_walk(const scene *s, nearness *near)
 {
-    const box *v = &s->shown;
+    const page_box *v = &s->shown;
     for (size_t i = 0; i < s->d->path_count; i++) {
         if (!scene_is_finite(s, s->d->path[i])) continue;
-        box b = scene_box(s, s->d->path[i]);
+        page_box b = scene_box(s, s->d->path[i]);
         int right = cell(b.high[0], v->low[0], v->high[0]), top = cell(b.high[1], v->low[1], v->high[1]);
         for (int y = cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
             for (int x = cell(b.low[0], v->low[0], v->high[0]); x <= right; x++) near->cells[y][x] = 0;
@@ -189,8 +189,8 @@ static void spread(nearness *near)
 
 static uint32_t steps_away(const scene *s, const nearness *near, uint32_t triangle)
 {
-    const box *v = &s->shown;
-    box b = scene_box(s, triangle);
+    const page_box *v = &s->shown;
+    page_box b = scene_box(s, triangle);
     return near->cells[cell((b.low[1] + b.high[1]) / 2, v->low[1], v->high[1])]
                       [cell((b.low[0] + b.high[0]) / 2, v->low[0], v->high[0])];
 }
@@ -208,24 +208,24 @@ static bool keep_near(scene *s)
     mark_walk(s, near);
     spread(near);
     for (size_t i = 0; i < s->count; i++) {
-        uint32_t away = steps_away(s, near, s->pieces[i].triangle);
+        uint32_t away = steps_away(s, near, s->painted[i].triangle);
         if (away <= CELLS) counts[away]++;
     }
     while (most < CELLS && sum + counts[most] <= MOST_TRIANGLES) sum += counts[most++];
     for (size_t i = 0; i < s->count; i++) {
-        uint32_t t = s->pieces[i].triangle;
-        if (s->visit[t] != UINT32_MAX || steps_away(s, near, t) < most) s->pieces[kept++] = s->pieces[i];
+        uint32_t t = s->painted[i].triangle;
+        if (s->visit[t] != UINT32_MAX || steps_away(s, near, t) < most) s->painted[kept++] = s->painted[i];
     }
     s->count = kept;
     free(near);
     return true;
 }
 
-static bool choose_pieces(scene *s)
+static bool scene_choose_triangles(scene *s)
 {
-    for (size_t t = 0; t < s->d->triangle_count; t++) add_piece(s, (uint32_t)t);
+    for (size_t t = 0; t < s->d->triangle_count; t++) scene_add_triangle(s, (uint32_t)t);
     if (!keep_near(s)) return false;
-    qsort(s->pieces, s->count, sizeof *s->pieces, by_key);
+    qsort(s->painted, s->count, sizeof *s->painted, by_key);
     return true;
 }
 
@@ -237,8 +237,8 @@ static bool make_room(scene *s)
     s->at = malloc((d->point_count + 1) * sizeof *s->at);
     s->visit = malloc((d->triangle_count + 1) * sizeof *s->visit);
     s->part = malloc((d->path_count + 1) * sizeof *s->part);
-    s->pieces = malloc((d->triangle_count + 1) * sizeof *s->pieces);
-    return s->at && s->visit && s->part && s->pieces;
+    s->painted = malloc((d->triangle_count + 1) * sizeof *s->painted);
+    return s->at && s->visit && s->part && s->painted;
 }
 
 static void number_visits(scene *s)
@@ -260,7 +260,7 @@ bool scene_make(scene *s, const drawing *d)
     for (size_t v = 0; v < s->d->point_count; v++) s->at[v] = projection_at(&s->projection, s->d->points + 3 * v);
     number_visits(s);
     choose_box(s);
-    return choose_pieces(s);
+    return scene_choose_triangles(s);
 }
 
 void scene_release(scene *s)
@@ -268,5 +268,5 @@ void scene_release(scene *s)
     free(s->at);
     free(s->visit);
     free(s->part);
-    free(s->pieces);
+    free(s->painted);
 }

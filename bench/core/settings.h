@@ -1,0 +1,18 @@
+/* settings.h - what the options of 'meshwalk bench' say: every measurement gets it. */
+#ifndef MW_BENCH_CORE_SETTINGS_H
+#define MW_BENCH_CORE_SETTINGS_H
+
+#include "cli/frame/options.h"
+
+enum { ENCLOSE_AUTO, ENCLOSE_YES, ENCLOSE_NO };
+enum { FORMAT_TABLE, FORMAT_TSV, FORMAT_JSON };
+
+typedef struct bench_settings {
+    common_settings common;
+    const char *sizes, *data, *plot, *engines, *tasks; /* lists and a file; NULL: not given */
+    uint32_t queries, rounds;                          /* 0: the default of the measurement */
+    int enclose, format;
+    bool no_times;
+} bench_settings;
+
+#endif
