@@ -88,11 +88,6 @@ double rounds_minimum(const rounds_results *results, size_t entry, size_t figure
     return results->minima[rounds_column(&results->plan, entry, figure)];
 }
 
-const double *rounds_values(const rounds_results *results, size_t entry, size_t figure)
-{
-    return results->values + rounds_column(&results->plan, entry, figure) * results->plan.rounds;
-}
-
 void rounds_release(rounds_results *results)
 {
     free(results->values);

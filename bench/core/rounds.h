@@ -35,7 +35,7 @@ typedef int rounds_run(void *self, size_t entry, size_t round, double *figures);
 typedef struct rounds_results {
     rounds_plan plan;
     double *values;  /* by entry, then by figure, then by round */
-    double *medians; /* by entry, then by figure                */
+    double *medians; /* by entry, then by figure */
     double *minima;
 } rounds_results;
 
@@ -46,8 +46,6 @@ int rounds_measure(const rounds_plan *plan, rounds_run *run, void *self, rounds_
 
 double rounds_median(const rounds_results *results, size_t entry, size_t figure);
 double rounds_minimum(const rounds_results *results, size_t entry, size_t figure);
-/* rounds_plan.rounds numbers, in the order of the rounds. */
-const double *rounds_values(const rounds_results *results, size_t entry, size_t figure);
 
 void rounds_release(rounds_results *results);
 
