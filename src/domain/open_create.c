@@ -1,4 +1,6 @@
-/* open_create.c - loops of the border, and pieces of the mesh. O(n + b log b) for b border edges. */
+/* open_create.c - loops of the border, and pieces of the mesh.
+ *
+ * O(n + b log b) for b border edges. */
 #include "domain/open_create.h"
 
 #include "base/hilbert.h"

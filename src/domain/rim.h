@@ -1,4 +1,5 @@
-/* rim.h - the border of the tiles, in the order in which it runs round what lies beyond it. Private. */
+/* rim.h - the border of the tiles, in the order in which it runs round what lies beyond it.
+ * Private. */
 #ifndef MW_SRC_DOMAIN_RIM_H
 #define MW_SRC_DOMAIN_RIM_H
 

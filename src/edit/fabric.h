@@ -4,8 +4,8 @@
  * tile of the user's has a number (tri[t].user), and tiling->tile_of finds the tile of a number. Ghosts have none. Vertices have a number
  * and a place too; a place that is free is taken again by the next vertex, its number is not.
  *
- * An edit is bracketed (journal.h): mw__fabric_begin, operations, mw__fabric_commit or mw__fabric_rollback. Before a tile that was there gets other corners,
- * or goes, its record is put into the journal, once an edit. Links of tiles round about are not: they follow from those of the tiles put back.
+ * An edit is bracketed (journal.h): mw__fabric_begin, operations, mw__fabric_commit or
+ * mw__fabric_rollback. Before a tile that was there gets other corners, or goes, its record is put into the journal, once an edit. Links of tiles round about are not: they follow from those of the tiles put back.
  * The journal of an edit, with the places at the end of the array that it has taken, tells what it changed; exchanged with the tiles as they
  * are, it takes it back. An insertion about which nobody will ask, and which cannot fail once it has begun to change tiles, needs no bracket. */
 #ifndef MW_SRC_FABRIC_H
@@ -41,7 +41,7 @@ typedef struct mw_step {
     bool delaunay;
 } mw_step;
 
-/* --- lists that an edit works in, kept so that it seldom has to ask for memory ------------------------------------- */
+/* --- lists that an edit works in, kept so that it seldom has to ask for memory ---------------- */
 
 /* A step of the boundary of tiles that are to be replaced, which lie to its left. */
 typedef struct mw_rim_step {
@@ -59,7 +59,7 @@ typedef struct mw_step_ahead {
     bool fixed;
 } mw_step_ahead;
 
-/* --- the fabric ----------------------------------------------------------------------------------------------------- */
+/* --- the fabric -------------------------------------------------------------------------------- */
 
 typedef struct mw_fabric {
     mw_tiling *tiling;       /* its arrays belong to the fabric as long as it lives; with tile_of */

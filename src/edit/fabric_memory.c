@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- tiles and vertices ----------------------------------------------------------------------------------------- */
+/* --- tiles and vertices ------------------------------------------------------------------------ */
 
 /* Twice as much, so that n additions copy O(n) in all; what is not used yet takes addresses, no memory. */
 static size_t enlarged(size_t room)
@@ -110,7 +110,7 @@ bool mw__free_place_room(mw_fabric *f)
     return true;
 }
 
-/* --- the journal, and scratch ----------------------------------------------------------------------------------- */
+/* --- the journal, and scratch ------------------------------------------------------------------ */
 
 bool mw__stack_room(mw_fabric *f, size_t more)
 {
@@ -181,7 +181,7 @@ size_t mw__rim_bytes(const mw_fabric *f)
     return f->rim_room * (sizeof *f->rim + sizeof *f->pool + sizeof *f->ahead + 2 * sizeof *f->sight);
 }
 
-/* --- from a tiling ------------------------------------------------------------------------------------------------ */
+/* --- from a tiling ----------------------------------------------------------------------------- */
 
 /* The tiling's arrays, or copies of the mesh's where it has borrowed them, with room for more. */
 static bool own_arrays(mw_fabric *f)

@@ -1,7 +1,7 @@
 /* fabric_memory.h - a fabric is made from a tiling, grows, and is released. Private.
  *
- * Arrays grow to twice their size, so that n additions copy O(n) in all. Functions that ask for room return false when
- * there is none; then what was there is as it was. */
+ * Arrays grow to twice their size, so that n additions copy O(n) in all. Functions that ask for room
+ * return false when there is none; then what was there is as it was. */
 #ifndef MW_SRC_FABRIC_MEMORY_H
 #define MW_SRC_FABRIC_MEMORY_H
 

@@ -4,7 +4,8 @@
 
 #include "edit/fabric.h"
 
-/* False when out of memory. `recorded`: in the journal, unless nobody will ask and nothing can fail (insert_points.c). */
+/* False when out of memory. `recorded`: in the journal, unless nobody will ask and nothing can fail
+ * (insert_points.c). */
 bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded);
 
 /* After the operations. Between this and mw__fabric_forget the journal of the last step can be read. */

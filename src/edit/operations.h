@@ -1,15 +1,15 @@
 /* operations.h - what an edit can do to a fabric, each operation in its file. Private.
  *
- * They return MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY; then the edit is to be rolled back. Vertices are
- * places. */
+ * They return MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY; then the edit is to be rolled back.
+ * Vertices are places. */
 #ifndef MW_SRC_OPERATIONS_H
 #define MW_SRC_OPERATIONS_H
 
 #include "edit/fabric.h"
 
-/* *vertex MW_NONE: a new one, else one that is in no tile. *vertex is set to the vertex at q, which may be another
- * one. `t`: where to begin to look for q (insert.c). There may be no edit under way, if nobody will ask: one begins where this may fail after
- * it has changed something. */
+/* *vertex MW_NONE: a new one, else one that is in no tile. *vertex is set to the vertex at q, which may
+ * be another one. `t`: where to begin to look for q (insert.c). There may be no edit under way, if
+ * nobody will ask: one begins where this may fail after it has changed something. */
 mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
 mw_status mw__fabric_remove(mw_fabric *f, uint32_t vertex, mw_error *error);
 /* `t`: where to begin to look for q if the vertex cannot stay in its star; MW_NONE: there. */

@@ -1,4 +1,5 @@
-/* mesh_writers.h - the writers of meshes, each in the file of its format, and what they share. Private. */
+/* mesh_writers.h - the writers of meshes, each in the file of its format, and what they share.
+ * Private. */
 #ifndef MW_SRC_IO_MESH_WRITERS_H
 #define MW_SRC_IO_MESH_WRITERS_H
 

@@ -25,7 +25,8 @@ static MW_INLINE double mw__star_turn(const double a[3], const double b[3], cons
     return -mw__orient3d_exact(a, b, q, c);
 }
 
-/* Does the ray through q lie strictly beyond edge e of a facet? Where floats are not sure, which is rare: walk.c. */
+/* Does the ray through q lie strictly beyond edge e of a facet? Where floats are not sure, which is
+ * rare. */
 bool mw__star_beyond(const mw_star *star, const mw_star_facet *facet, uint32_t e, const double q[3]);
 
 static MW_INLINE const double *star_vertex(const mw_star_walk *w, uint32_t v)
