@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include "domain/tiling_create.h"
+#include "tiling/tiling_create.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* editor.c - making an editor, and carrying out edits. */
 #include "edit/editor.h"
 
-#include "domain/tiling_create.h"
+#include "tiling/tiling_create.h"
 #include "edit/fabric_memory.h"
 #include "walk/fetch.h"
 #include "edit/flip.h"
@@ -22,9 +22,9 @@ void mw__editor_look(mw_editor *editor)
     mw_mesh *view = &editor->view;
     view->point = tiling->point;
     view->tri = tiling->tri;
-    view->triangle_place = tiling->tile_of;
-    view->vertex_place = f->vertex_place;
-    view->users_vertex = f->vertex_number;
+    view->triangle_slot = tiling->tile_of;
+    view->vertex_slot = f->vertex_slot;
+    view->vertex_number = f->vertex_number;
     view->point_count = tiling->point_count;
     view->tri_count = tiling->tri_count;
 }
@@ -218,7 +218,7 @@ static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t v)
 
 static mw_status refuse_vertex(const mw_fabric *f, uint32_t number, mw_error *error)
 {
-    bool gone = number >= f->vertex_count || f->vertex_place[number] == MW_NONE;
+    bool gone = number >= f->vertex_count || f->vertex_slot[number] == MW_NONE;
     return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
 }
 
@@ -319,7 +319,7 @@ static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *
 {
     const mw_fabric *f = &editor->fabric;
     if (edit->field >= editor->view.field_count) return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
-    if (edit->vertex >= f->vertex_count || f->vertex_place[edit->vertex] == MW_NONE)
+    if (edit->vertex >= f->vertex_count || f->vertex_slot[edit->vertex] == MW_NONE)
         return refuse_vertex(f, edit->vertex, error);
     f->step[f->step_count - 1].value = editor->view.field[edit->field].values[edit->vertex];
     return MW_OK; /* it is written when nothing can fail any more */
@@ -399,7 +399,7 @@ static mw_status insert_unasked(mw_editor *editor, const mw_edit *edit, mw_error
     }
     mw__editor_look(editor);
     editor->edits++;
-    mw__upkeep_insertion(&editor->upkeep, f->vertex_count > before ? f->vertex_place[vertex] : MW_NONE);
+    mw__upkeep_insertion(&editor->upkeep, f->vertex_count > before ? f->vertex_slot[vertex] : MW_NONE);
     return MW_OK;
 }
 

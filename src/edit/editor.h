@@ -55,7 +55,7 @@ mw_status mw__fix_edges(mw_fabric *fabric, const uint32_t *ends, size_t count, m
 /* The place of a vertex that some triangle has, MW_NONE if there is none of that number. */
 static MW_INLINE uint32_t mw__vertex_there(const mw_fabric *f, uint32_t number)
 {
-    uint32_t place = number < f->vertex_count ? f->vertex_place[number] : MW_NONE;
+    uint32_t place = number < f->vertex_count ? f->vertex_slot[number] : MW_NONE;
     return place != MW_NONE && f->tiling->tile_at[place] != MW_NONE ? place : MW_NONE;
 }
 

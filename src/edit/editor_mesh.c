@@ -1,7 +1,7 @@
 /* editor_mesh.c - what is there now as a mesh of its own, and beginning anew from that. */
 #include "edit/editor.h"
 
-#include "domain/tiling_create.h"
+#include "tiling/tiling_create.h"
 #include "edit/fabric_memory.h"
 
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static bool renumber(const mw_fabric *f, renumbering *r)
                        .triangle = mw__alloc(tiling->number_count, sizeof *r->triangle)};
     if (!r->vertex || !r->triangle) return false;
     for (uint32_t v = 0; v < f->vertex_count; v++)
-        r->vertex[v] = f->vertex_place[v] == MW_NONE ? MW_NONE : r->vertices++;
+        r->vertex[v] = f->vertex_slot[v] == MW_NONE ? MW_NONE : r->vertices++;
     for (uint32_t t = 0; t < tiling->number_count; t++)
         r->triangle[t] = tiling->tile_of[t] & MW_GONE ? MW_NONE : r->triangles++;
     return true;
@@ -42,7 +42,7 @@ static mw_status make_mesh(const mw_editor *editor, const renumbering *r, mw_mes
     mw_status status = MW_OK;
     if (point && triangle) {
         for (uint32_t v = 0; v < f->vertex_count; v++)
-            if (r->vertex[v] != MW_NONE) point[r->vertex[v]] = f->tiling->point[f->vertex_place[v]];
+            if (r->vertex[v] != MW_NONE) point[r->vertex[v]] = f->tiling->point[f->vertex_slot[v]];
         for (uint32_t t = 0; t < f->tiling->number_count; t++) {
             if (r->triangle[t] == MW_NONE) continue;
             uint32_t *v = triangle[r->triangle[t]];

@@ -53,8 +53,8 @@ int mw_editor_triangle(const mw_editor *editor, uint32_t triangle, uint32_t vert
 int mw_editor_vertex(const mw_editor *editor, uint32_t vertex, double point[2])
 {
     const mw_fabric *f = &editor->fabric;
-    if (vertex >= f->vertex_count || f->vertex_place[vertex] == MW_NONE) return 0;
-    mw_point p = f->tiling->point[f->vertex_place[vertex]];
+    if (vertex >= f->vertex_count || f->vertex_slot[vertex] == MW_NONE) return 0;
+    mw_point p = f->tiling->point[f->vertex_slot[vertex]];
     point[0] = p.x;
     point[1] = p.y;
     return 1;
@@ -64,7 +64,7 @@ uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex)
 {
     uint32_t v = mw__vertex_there(&editor->fabric, vertex);
     const mw_tiling *tiling = editor->fabric.tiling;
-    return v == MW_NONE ? MW_NONE : mw__lowest_round(tiling, tiling->tile_at[v], v);
+    return v == MW_NONE ? MW_NONE : mw__lowest_around_vertex(tiling, tiling->tile_at[v], v);
 }
 
 /* Edges of ghosts alone are none of the mesh. */
@@ -123,7 +123,7 @@ uint32_t mw_editor_field_by_name(const mw_editor *editor, const char *name)
 double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex)
 {
     const mw_fabric *f = &editor->fabric;
-    bool there = field < editor->view.field_count && vertex < f->vertex_count && f->vertex_place[vertex] != MW_NONE;
+    bool there = field < editor->view.field_count && vertex < f->vertex_count && f->vertex_slot[vertex] != MW_NONE;
     return there ? editor->view.field[field].values[vertex] : NAN;
 }
 

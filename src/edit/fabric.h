@@ -11,7 +11,7 @@
 #ifndef MW_SRC_FABRIC_H
 #define MW_SRC_FABRIC_H
 
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 #include "walk/lifted.h"
 
 #include <meshwalk/edit.h>
@@ -64,7 +64,7 @@ typedef struct mw_step_ahead {
 typedef struct mw_fabric {
     mw_tiling *tiling;       /* its arrays belong to the fabric as long as it lives; with tile_of */
     uint8_t *mark;           /* per tile */
-    uint32_t *vertex_place;  /* per number of a vertex: its place, MW_NONE if it is gone */
+    uint32_t *vertex_slot;   /* per number of a vertex: its place, MW_NONE if it is gone */
     uint32_t *vertex_number; /* per place */
     uint32_t *free_place;    /* places of vertices that are gone, a stack */
     uint32_t vertex_count, free_count, fixed_count; /* numbers of vertices; edges fixed but for the border */
@@ -123,7 +123,7 @@ static MW_INLINE bool mw__is_users(const mw_fabric *f, uint32_t tile)
 /* The numbers of a tile's vertices, in the user's order. */
 static MW_INLINE void mw__fabric_corners(const mw_fabric *f, const mw_triangle *tile, uint32_t vertices[3])
 {
-    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(tile->user, k)] = f->vertex_number[tile->v[k]];
+    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_local_vertex(tile->user, k)] = f->vertex_number[tile->v[k]];
 }
 
 #endif

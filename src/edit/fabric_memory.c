@@ -84,9 +84,9 @@ bool mw__more_tiles(mw_fabric *f, size_t n, bool users)
 static bool more_vertices(mw_fabric *f, size_t least)
 {
     uint32_t room = enlarged_to(f->vertex_room, least, MW_NONE);
-    uint32_t *place = mw__realloc(f->vertex_place, room, sizeof *place);
+    uint32_t *place = mw__realloc(f->vertex_slot, room, sizeof *place);
     if (!place) return false;
-    f->vertex_place = place;
+    f->vertex_slot = place;
     f->vertex_room = room;
     return true;
 }
@@ -207,16 +207,16 @@ static mw_status check(const mw_tiling *tiling, const mw_mesh *mesh, mw_error *e
     if (mesh->flat_count > 0) {
         uint32_t t = 0;
         while (mw__has_area(mesh->point, &mesh->tri[t])) t++;
-        return mw__fail_at(error, mw__users_triangle(mesh, t), -1, "triangle %" PRIu32 " has no area",
-                           mw__users_triangle(mesh, t));
+        return mw__fail_at(error, mw__triangle_number(mesh, t), -1, "triangle %" PRIu32 " has no area",
+                           mw__triangle_number(mesh, t));
     }
     for (uint32_t t = 0; t < tiling->tri_count; t++) {
         const mw_triangle *tile = &tiling->tri[t];
         if (tile->user & MW_GHOST) continue;
-        const mw_triangle *own = &mesh->tri[mw__triangle_place(mesh, tile->user & MW_USER_MASK)];
+        const mw_triangle *own = &mesh->tri[mw__triangle_slot(mesh, tile->user & MW_USER_MASK)];
         for (int k = 0; k < 3; k++)
             if (own->v[k] != tile->v[k]) {
-                uint32_t v = mw__users_vertex(mesh, own->v[k]), other = mw__users_vertex(mesh, tile->v[k]);
+                uint32_t v = mw__vertex_number(mesh, own->v[k]), other = mw__vertex_number(mesh, tile->v[k]);
                 return mw__fail_at(error, tile->user & MW_USER_MASK, v,
                                    "vertices %" PRIu32 " and %" PRIu32 " lie at one place", other, v);
             }
@@ -229,15 +229,15 @@ static bool make_numbers(mw_fabric *f, const mw_mesh *mesh)
     mw_tiling *tiling = f->tiling;
     f->number_room = mesh->tri_count;
     f->vertex_room = tiling->point_count;
-    f->vertex_place = mw__alloc(f->vertex_room, sizeof *f->vertex_place);
-    if (!f->vertex_place || !more_numbers(f, 0)) return false;
+    f->vertex_slot = mw__alloc(f->vertex_room, sizeof *f->vertex_slot);
+    if (!f->vertex_slot || !more_numbers(f, 0)) return false;
     tiling->number_count = mesh->tri_count;
     f->vertex_count = tiling->point_count;
     for (uint32_t t = 0; t < tiling->tri_count; t++)
         if (!(tiling->tri[t].user & MW_GHOST)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
     for (uint32_t v = 0; v < f->vertex_count; v++) {
-        f->vertex_number[v] = mw__users_vertex(mesh, v);
-        f->vertex_place[f->vertex_number[v]] = v;
+        f->vertex_number[v] = mw__vertex_number(mesh, v);
+        f->vertex_slot[f->vertex_number[v]] = v;
     }
     return true;
 }
@@ -277,7 +277,7 @@ mw_status mw__fabric_create(mw_fabric *f, mw_tiling *tiling, const mw_mesh *mesh
 void mw__fabric_release(mw_fabric *f)
 {
     free(f->mark);
-    free(f->vertex_place);
+    free(f->vertex_slot);
     free(f->vertex_number);
     free(f->free_place);
     free(f->before);
@@ -290,7 +290,7 @@ void mw__fabric_release(mw_fabric *f)
 size_t mw__fabric_bytes(const mw_fabric *f)
 {
     const mw_tiling *t = f->tiling;
-    return t->tri_count * sizeof *f->mark + f->vertex_count * sizeof *f->vertex_place +
+    return t->tri_count * sizeof *f->mark + f->vertex_count * sizeof *f->vertex_slot +
            t->point_count * sizeof *f->vertex_number + f->free_room * sizeof *f->free_place +
            f->before_room * sizeof *f->before + f->step_room * sizeof *f->step + f->stack_room * sizeof *f->stack +
            mw__rim_bytes(f);

@@ -74,7 +74,7 @@ static mw_status fill(mw_fabric *f, const mw_hole *h, uint32_t *vertex, uint32_t
     for (const uint32_t *at = pool, *end = pool + h->steps; at < end; at++, step++) {
         const uint32_t t = at[0], after = at[1], from = step[0].vertex, to = step[1].vertex, beyond = step->beyond;
         tri[t] = (mw_triangle){
-            {from, to, v, from}, {beyond, mw__link(after, 2), mw__link(before, 1)}, tri[t].user & ~MW_FLIPPED};
+            {from, to, v, from}, {beyond, mw__link(after, 2), mw__link(before, 1)}, tri[t].user & ~MW_REVERSED};
         if (beyond != MW_NONE) tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = mw__link(t, 0);
         if (!plain) mw__set_fixed(f, t, step->fixed);
         tile_at[from] = before = t;
@@ -108,8 +108,8 @@ static uint32_t lower_side(const mw_fabric *f, uint32_t half)
 {
     uint32_t other = mw__beyond(f, half);
     if (other == MW_NONE) return half;
-    uint32_t one = f->tiling->tri[mw__link_triangle(half)].user & ~MW_FLIPPED;
-    uint32_t two = f->tiling->tri[mw__link_triangle(other)].user & ~MW_FLIPPED;
+    uint32_t one = f->tiling->tri[mw__link_triangle(half)].user & ~MW_REVERSED;
+    uint32_t two = f->tiling->tri[mw__link_triangle(other)].user & ~MW_REVERSED;
     return one <= two ? half : other;
 }
 

@@ -5,7 +5,7 @@
 #include "edit/hole.h"
 #include "edit/journal.h"
 
-#include "mesh/curve.h"
+#include "mesh/point_order.h"
 #include "walk/fetch.h"
 #include "walk/remembering_fast.h"
 
@@ -47,7 +47,7 @@ static bool choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t
     *order = NULL;
     if (come_along(p, n)) return true;
     *order = mw__alloc(n, sizeof **order);
-    return *order && mw__curve_order(p, (uint32_t)n, threads, *order);
+    return *order && mw__points_order(p, (uint32_t)n, threads, *order);
 }
 
 /* --- looking ahead ------------------------------------------------------------------------------------------------------- */

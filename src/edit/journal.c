@@ -92,7 +92,7 @@ static void restore_vertices(mw_fabric *f, const mw_step *step)
 {
     mw_tiling *tiling = f->tiling;
     while (f->vertex_count > step->vertices) { /* the last one made first */
-        uint32_t v = f->vertex_place[--f->vertex_count];
+        uint32_t v = f->vertex_slot[--f->vertex_count];
         tiling->tile_at[v] = MW_NONE;
         if (v < step->points) f->free_place[f->free_count++] = v;
     }
@@ -100,7 +100,7 @@ static void restore_vertices(mw_fabric *f, const mw_step *step)
     if (f->free_count > step->free_places) {
         uint32_t v = f->free_place[--f->free_count];
         f->vertex_number[v] = step->number;
-        f->vertex_place[step->number] = v;
+        f->vertex_slot[step->number] = v;
         tiling->point[v] = step->point;
     }
     if (step->edit.kind == MW_EDIT_MOVE && step->vertex != MW_NONE) tiling->point[step->vertex] = step->point;

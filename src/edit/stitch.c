@@ -65,7 +65,7 @@ bool mw__free_vertex(mw_fabric *f, uint32_t v)
 {
     if (!mw__free_place_room(f)) return false;
     f->free_place[f->free_count++] = v;
-    f->vertex_place[f->vertex_number[v]] = MW_NONE;
+    f->vertex_slot[f->vertex_number[v]] = MW_NONE;
     f->tiling->tile_at[v] = MW_NONE;
     return true;
 }

@@ -55,7 +55,7 @@ static MW_INLINE uint32_t mw__add_vertex(mw_fabric *f, mw_point q)
     tiling->point[v] = q;
     tiling->tile_at[v] = MW_NONE;
     f->vertex_number[v] = f->vertex_count;
-    f->vertex_place[f->vertex_count++] = v;
+    f->vertex_slot[f->vertex_count++] = v;
     return v;
 }
 
@@ -77,7 +77,7 @@ static MW_INLINE void mw__set_corners(mw_fabric *f, uint32_t t, uint32_t a, uint
     tile->v[0] = tile->v[3] = a;
     tile->v[1] = b;
     tile->v[2] = c;
-    tile->user &= ~MW_FLIPPED;
+    tile->user &= ~MW_REVERSED;
     tile_at[a] = tile_at[b] = tile_at[c] = t;
 }
 

@@ -262,7 +262,7 @@ static bool follow(mw_upkeep *u, const mw_step *step, uint32_t v)
 static void follow_vertices(mw_upkeep *u, const mw_step *step)
 {
     bool made = step->edit.kind == MW_EDIT_INSERT;
-    const uint32_t *vertices = made ? u->fabric->vertex_place + step->vertices : &step->vertex;
+    const uint32_t *vertices = made ? u->fabric->vertex_slot + step->vertices : &step->vertex;
     const uint32_t n = made ? step->made : step->vertex != MW_NONE;
     note_places(u, vertices, n);
     if (!u->live.layers) return;

@@ -30,7 +30,7 @@ static bool go_round(mw_fabric *f, uint32_t first, mw_star *star, size_t *lowest
     f->stack_count = 0;
     do {
         const mw_triangle *tile = &tri[mw__link_triangle(at)];
-        uint32_t number = tile->user & ~MW_FLIPPED;
+        uint32_t number = tile->user & ~MW_REVERSED;
         *lowest = number < best ? f->stack_count : *lowest;
         best = number < best ? number : best;
         if (!mw__push(f, at)) return false;

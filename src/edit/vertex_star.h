@@ -8,7 +8,7 @@
  * what happened before: edits have to come out the same when they are replayed. */
 static MW_INLINE uint32_t mw__fabric_tile(const mw_fabric *f, uint32_t vertex)
 {
-    return f->tiling->tile_of[mw__lowest_round(f->tiling, f->tiling->tile_at[vertex], vertex)];
+    return f->tiling->tile_of[mw__lowest_around_vertex(f->tiling, f->tiling->tile_at[vertex], vertex)];
 }
 
 /* The edge that begins at v, as a half-edge of the lowest of its triangles or, where v is on the hull (*open), of the first, from which all

@@ -5,7 +5,7 @@
 #include "locate/border.h"
 
 #include "base/hilbert.h"
-#include "mesh/order.h"
+#include "mesh/mesh_order.h"
 
 #include <stdlib.h>
 
@@ -19,14 +19,14 @@ static bool covered(const mw_tiling *tiling, uint32_t link)
 /* The user's edge that edge k of a tile is, or, where the tile is a piece of a cut triangle, is a part of. */
 static uint32_t users_edge(const mw_mesh *mesh, const mw_tiling *tiling, const mw_triangle *tile, uint32_t k)
 {
-    if (!tiling->cut) return mw__user_edge(tile->user, k);
-    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, tile->user & MW_USER_MASK)];
+    if (!tiling->cut) return mw__user_local_edge(tile->user, k);
+    const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, tile->user & MW_USER_MASK)];
     mw_point a = tiling->point[tile->v[k]], b = tiling->point[tile->v[k + 1]];
     for (uint32_t e = 0; e < 2; e++) {
         mw_point from = mesh->point[t->v[e]], to = mesh->point[t->v[e + 1]];
-        if (mw__orient2d(from, to, a) == 0 && mw__orient2d(from, to, b) == 0) return mw__user_edge(t->user, e);
+        if (mw__orient2d(from, to, a) == 0 && mw__orient2d(from, to, b) == 0) return mw__user_local_edge(t->user, e);
     }
-    return mw__user_edge(t->user, 2);
+    return mw__user_local_edge(t->user, 2);
 }
 
 /* Call once to count, and once more to store. */
@@ -54,7 +54,7 @@ static bool sort_edges(mw_border *border, const mw_tiling *tiling)
     mw_border_edge *sorted = mw__alloc(n, sizeof *sorted);
     if (key && sorted) {
         double low[2], high[2];
-        mw__extent(tiling->point, tiling->tri, tiling->tri_count, low, high);
+        mw__triangles_extent(tiling->point, tiling->tri, tiling->tri_count, low, high);
         mw_hilbert hilbert = mw__hilbert(low, high);
         for (uint32_t i = 0; i < n; i++) {
             const mw_border_edge *e = &border->edge[i];
@@ -83,19 +83,19 @@ bool mw__border_create(mw_border *border, const mw_mesh *mesh, const mw_tiling *
     border->edge = mw__alloc(border->edge_count, sizeof *border->edge);
     if (!border->edge) return false;
     collect(mesh, tiling, border->edge);
-    return sort_edges(border, tiling) && mw__boxes_create(&border->tree, border->edge_count, edge_box, border->edge);
+    return sort_edges(border, tiling) && mw__box_tree_create(&border->tree, border->edge_count, edge_box, border->edge);
 }
 
 void mw__border_release(mw_border *border)
 {
     free(border->edge);
-    mw__boxes_release(&border->tree);
+    mw__box_tree_release(&border->tree);
     *border = (mw_border){0};
 }
 
 size_t mw__border_bytes(const mw_border *border)
 {
-    return border->edge_count * sizeof *border->edge + mw__boxes_bytes(&border->tree);
+    return border->edge_count * sizeof *border->edge + mw__box_tree_bytes(&border->tree);
 }
 
 /* --- searching --------------------------------------------------------------------------------------------------- */
@@ -236,15 +236,16 @@ static double box_distance(const mw_box *box, mw_point q)
 static void descend(search *s, uint32_t level, uint32_t index)
 {
     const mw_border *border = s->border;
-    const mw_boxes *tree = &border->tree;
+    const mw_box_tree *tree = &border->tree;
     uint32_t below = level ? tree->level_boxes[level - 1] : border->edge_count;
-    uint32_t first = index * MW_BOXES_FAN, n = below - first < MW_BOXES_FAN ? below - first : MW_BOXES_FAN;
+    uint32_t first = index * MW_BOX_TREE_FANOUT,
+             n = below - first < MW_BOX_TREE_FANOUT ? below - first : MW_BOX_TREE_FANOUT;
     if (level == 0) {
         for (uint32_t i = 0; i < n; i++) consider(s, &border->edge[first + i]);
         return;
     }
-    uint32_t child[MW_BOXES_FAN];
-    double least[MW_BOXES_FAN];
+    uint32_t child[MW_BOX_TREE_FANOUT];
+    double least[MW_BOX_TREE_FANOUT];
     for (uint32_t i = 0; i < n; i++) { /* nearest first */
         double d = box_distance(&tree->box[tree->first[level - 1] + first + i], s->q);
         uint32_t k = i;
@@ -296,8 +297,8 @@ static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point 
 {
     uint32_t v[3], next = mw__next(e->edge);
     mw_mesh_triangle(mesh, e->triangle, v);
-    mw_border_edge whole = {mesh->point[mw__vertex_place(mesh, v[e->edge])],
-                            mesh->point[mw__vertex_place(mesh, v[next])], e->triangle, e->edge};
+    mw_border_edge whole = {mesh->point[mw__vertex_slot(mesh, v[e->edge])], mesh->point[mw__vertex_slot(mesh, v[next])],
+                            e->triangle, e->edge};
     double one = share(&whole, e->a), two = share(&whole, e->b);
     double s = fmin(fmax(share(&whole, q), fmin(one, two)), fmax(one, two));
     weight[e->edge] = 1 - s;

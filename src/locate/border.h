@@ -3,8 +3,8 @@
 #ifndef MW_SRC_BORDER_H
 #define MW_SRC_BORDER_H
 
-#include "domain/boxes.h"
-#include "domain/tiling.h"
+#include "tiling/box_tree.h"
+#include "tiling/tiling.h"
 
 #include <meshwalk/locate.h>
 
@@ -17,7 +17,7 @@ typedef struct mw_border_edge {
 /* Edges in Hilbert order, and a tree of boxes over them. */
 typedef struct mw_border {
     mw_border_edge *edge;
-    mw_boxes tree;
+    mw_box_tree tree;
     uint32_t edge_count;
 } mw_border;
 

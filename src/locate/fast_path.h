@@ -18,7 +18,7 @@
 static MW_INLINE bool mw__has_fast_path(const mw_tiling *tiling, const mw_query_options *options)
 {
     return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && !options->counters &&
-           options->arithmetic == MW_EXACT && !tiling->open && !tiling->cut;
+           options->arithmetic == MW_EXACT && !tiling->border_loops && !tiling->cut;
 }
 
 /* Write the answer of a fast walk that has ended in no triangle of the user's: inside the ghost `tile`

@@ -105,7 +105,7 @@ uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point
 {
     const uint32_t name = first_name(index, q);
     if (index->start == MW_START_CURVE) return within(tiling, name);
-    if (tiling->at_home && mw__is_at_home(tiling, name)) return name;
+    if (tiling->slots_are_numbers && mw__slot_is_number(tiling, name)) return name;
     return mw__tile_named(tiling, name);
 }
 

@@ -47,7 +47,7 @@ mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, doubl
     mw_location location = {.triangle = user & MW_USER_MASK, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
     uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        location.weight[mw__user_vertex(user, k)] = area[k] / sum;
+        location.weight[mw__user_local_vertex(user, k)] = area[k] / sum;
         if (area[k] != 0) {
             at = k;
         } else {
@@ -57,17 +57,17 @@ mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, doubl
     }
     if (zeros == 1) {
         location.where = MW_ON_EDGE;
-        location.local = (uint8_t)mw__user_edge(user, on);
+        location.local = (uint8_t)mw__user_local_edge(user, on);
     } else if (zeros == 2) {
         location.where = MW_ON_VERTEX;
-        location.local = (uint8_t)mw__user_vertex(user, at);
+        location.local = (uint8_t)mw__user_local_vertex(user, at);
     }
     return location;
 }
 
 mw_location mw__place_in(const mw_mesh *mesh, uint32_t triangle, mw_point q)
 {
-    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, triangle)];
+    const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, triangle)];
     mw_point corner[3] = {mesh->point[t->v[0]], mesh->point[t->v[1]], mesh->point[t->v[2]]};
     double area[3];
     mw__areas(corner, q, area);

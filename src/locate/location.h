@@ -29,7 +29,7 @@ static MW_INLINE void mw__put_location(mw_location *location, double a, double b
 /* A location inside a triangle; weights of the corners as stored. */
 static MW_INLINE void mw__put_inside(mw_location *location, uint32_t user, double a, double b, double c)
 {
-    bool flipped = user & MW_FLIPPED;
+    bool flipped = user & MW_REVERSED;
     mw__put_location(location, a, flipped ? c : b, flipped ? b : c, user & MW_USER_MASK, MW_NONE, MW_INSIDE);
 }
 

@@ -2,8 +2,8 @@
 #include "locate/locator.h"
 
 #include "base/clock.h"
-#include "domain/tiling_create.h"
-#include "mesh/order.h"
+#include "tiling/tiling_create.h"
+#include "mesh/mesh_order.h"
 #include "start/start.h"
 
 #include <stdio.h>
@@ -36,7 +36,7 @@ static void choose_walks(mw_locator *locator)
         }
     locator->auto_walk = failing * FEW > edges ? MW_WALK_CELESTIAL : MW_WALK_REMEMBERING;
     locator->finish = failing == 0 ? MW_WALK_REMEMBERING : MW_WALK_STOCHASTIC;
-    if (tiling->open) locator->auto_walk = MW_WALK_BORDER;
+    if (tiling->border_loops) locator->auto_walk = MW_WALK_BORDER;
 }
 
 /* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean length 32 / (9 pi)
@@ -60,7 +60,7 @@ static bool wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
 static mw_status make_tiling(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
     mw_tiling_options how = {
-        .any = options->any, .open = !wants_ghosts(locator->mesh, options), .threads = options->threads};
+        .any = options->any, .without_ghosts = !wants_ghosts(locator->mesh, options), .threads = options->threads};
     return mw__tiling_create_with(locator->mesh, how, &locator->tiling, error);
 }
 
@@ -107,7 +107,7 @@ bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
     enum { STRIDE = 2, UNEVEN = 32, SPARSE = 3 };
     const mw_tiling *tiling = &locator->tiling;
     *guide = (mw_index){0};
-    if (tiling->open || !tiling->embedding) return true;
+    if (tiling->border_loops || !tiling->embedding) return true;
     uint32_t cells = count_cells(tiling);
     mw_grid_plan plan = {.tiling = tiling, .stride = STRIDE};
     guide->start = MW_START_GRID;
@@ -120,11 +120,11 @@ bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
     return true;
 }
 
-static bool are_at_home(const mw_tiling *tiling)
+static bool are_slots_numbers(const mw_tiling *tiling)
 {
     enum { PROBES = 64 };
     uint32_t home = 0, stride = tiling->tri_count / PROBES + 1, probes = 0;
-    for (uint32_t t = 0; t < tiling->tri_count; t += stride, probes++) home += mw__is_at_home(tiling, t);
+    for (uint32_t t = 0; t < tiling->tri_count; t += stride, probes++) home += mw__slot_is_number(tiling, t);
     return home > probes / 2;
 }
 
@@ -134,7 +134,7 @@ void mw__locator_survey(mw_locator *locator)
     const mw_tiling *tiling = &locator->tiling;
     mw__tiling_extent(tiling, origin, axis, locator->low, locator->high);
     choose_walks(locator);
-    locator->tiling.at_home = tiling->tile_of && are_at_home(tiling);
+    locator->tiling.slots_are_numbers = tiling->tile_of && are_slots_numbers(tiling);
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
@@ -229,10 +229,10 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
         .fill_bytes = tiling->ghost_count ? mw__tiling_copy_bytes(tiling) : 0,
         .ghost_triangles = tiling->ghost_count,
         .holes = tiling->hole_count,
-        .components = tiling->open ? tiling->open->piece_count : 1,
+        .components = tiling->border_loops ? tiling->border_loops->component_count : 1,
         .copied = !tiling->borrowed,
         .embedding = tiling->embedding,
-        .unfilled = tiling->open != NULL,
+        .unfilled = tiling->border_loops != NULL,
     };
 }
 

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_LOCATOR_H
 #define MW_SRC_LOCATOR_H
 
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 #include "locate/border.h"
 #include "locate/index.h"
 #include "start/start.h"

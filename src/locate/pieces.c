@@ -11,24 +11,24 @@ static bool is_in_extent(const mw_locator *locator, mw_point q)
 }
 
 /* The first piece from number i on whose box holds q. */
-static uint32_t next_piece(const mw_open *open, uint32_t i, mw_point q)
+static uint32_t next_piece(const mw_border_loops *loops, uint32_t i, mw_point q)
 {
-    i = mw__boxes_next(&open->boxes, i, q);
-    while (i < open->piece_count && !mw__box_contains(&open->piece[i].box, q))
-        i = mw__boxes_next(&open->boxes, i + 1, q);
+    i = mw__box_tree_next(&loops->tree, i, q);
+    while (i < loops->component_count && !mw__box_contains(&loops->component[i].box, q))
+        i = mw__box_tree_next(&loops->tree, i + 1, q);
     return i;
 }
 
 void mw__pieces_begin(const mw_locator *locator, mw_walk *walk)
 {
-    const mw_open *open = walk->tiling->open;
+    const mw_border_loops *loops = walk->tiling->border_loops;
     bool near = is_in_extent(locator, walk->q);
-    if (near && open->piece_of) {
-        uint32_t here = open->piece_of[walk->tri[walk->t].v[0]];
-        if (mw__box_contains(&open->piece[here].box, walk->q)) return;
-        uint32_t i = next_piece(open, 0, walk->q);
-        near = i < open->piece_count;
-        if (near) walk->t = open->piece[i].first;
+    if (near && loops->component_of) {
+        uint32_t here = loops->component_of[walk->tri[walk->t].v[0]];
+        if (mw__box_contains(&loops->component[here].box, walk->q)) return;
+        uint32_t i = next_piece(loops, 0, walk->q);
+        near = i < loops->component_count;
+        if (near) walk->t = loops->component[i].first;
     }
     if (near) return;
     walk->phase = MW_PHASE_AWAY;
@@ -50,13 +50,13 @@ static bool is_inside(const mw_box *box, const mw_box *other)
 }
 
 /* q lies beyond the border round which the walk went last. Pieces of which a face holds q lie in one another. */
-static void note_face(face *f, const mw_open *open, uint32_t lowest, mw_box box)
+static void note_face(face *f, const mw_border_loops *loops, uint32_t lowest, mw_box box)
 {
-    uint32_t hole = mw__open_hole(open, lowest);
+    uint32_t hole = mw__border_loops_hole(loops, lowest);
     if (hole != MW_NONE && (f->hole == MW_NONE || is_inside(&box, &f->box))) *f = (face){hole, box};
 }
 
-static mw_verdict walk_in(const mw_tiling *tiling, const mw_part *piece, mw_walk *walk, bool counted)
+static mw_verdict walk_in(const mw_tiling *tiling, const mw_component *piece, mw_walk *walk, bool counted)
 {
     uint32_t fuel = mw__walk_fuel(MW_WALK_BORDER, MW_EXACT, tiling);
     mw_work *work = counted ? walk->work : NULL;
@@ -70,17 +70,17 @@ static mw_verdict walk_in(const mw_tiling *tiling, const mw_part *piece, mw_walk
 
 mw_verdict mw__pieces_search(const mw_tiling *tiling, mw_walk *walk, bool counted, uint32_t *hole)
 {
-    const mw_open *open = tiling->open;
-    *hole = mw__open_hole(open, walk->lowest);
-    if (!open->piece_of || walk->phase == MW_PHASE_AWAY) return MW_LEFT;
-    uint32_t here = open->piece_of[tiling->tri[walk->t].v[0]];
+    const mw_border_loops *loops = tiling->border_loops;
+    *hole = mw__border_loops_hole(loops, walk->lowest);
+    if (!loops->component_of || walk->phase == MW_PHASE_AWAY) return MW_LEFT;
+    uint32_t here = loops->component_of[tiling->tri[walk->t].v[0]];
     face f = {.hole = MW_NONE};
-    note_face(&f, open, walk->lowest, open->piece[here].box);
+    note_face(&f, loops, walk->lowest, loops->component[here].box);
     mw_verdict verdict = MW_LEFT;
-    for (uint32_t i = 0; (i = next_piece(open, i, walk->q)) < open->piece_count && verdict != MW_FOUND; i++) {
+    for (uint32_t i = 0; (i = next_piece(loops, i, walk->q)) < loops->component_count && verdict != MW_FOUND; i++) {
         if (i == here) continue;
-        verdict = walk_in(tiling, &open->piece[i], walk, counted);
-        if (verdict == MW_LEFT) note_face(&f, open, walk->lowest, open->piece[i].box);
+        verdict = walk_in(tiling, &loops->component[i], walk, counted);
+        if (verdict == MW_LEFT) note_face(&f, loops, walk->lowest, loops->component[i].box);
     }
     *hole = f.hole;
     return verdict;

@@ -22,7 +22,7 @@ static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const d
         } else {
             at = k;
         }
-    if (zeros == 2) return mw__lowest_at(tiling, (uint32_t)(tile - tiling->tri), tile->v[at]);
+    if (zeros == 2) return mw__lowest_at_vertex(tiling, (uint32_t)(tile - tiling->tri), tile->v[at]);
     if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is no embedding */
     uint32_t best = tile->user & MW_GHOST ? MW_NONE : tile->user & MW_USER_MASK;
     if (tile->link[on] == MW_NONE) return best;
@@ -91,7 +91,7 @@ static void count(mw_counters *counters, const mw_work *work, bool cycle, bool h
 /* A walk in doubles says that q lies beyond a hull edge of its last tile: does it? */
 static bool has_left(const mw_tiling *tiling, const mw_walk *walk)
 {
-    if (tiling->open) return walk->phase == MW_PHASE_AWAY; /* beyond a border there may be more tiles */
+    if (tiling->border_loops) return walk->phase == MW_PHASE_AWAY; /* beyond a border there may be more tiles */
     const mw_triangle *tile = &tiling->tri[walk->t];
     for (int k = 0; k < 3; k++)
         if (tile->link[k] == MW_NONE &&
@@ -117,11 +117,12 @@ static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict b
     mw_work more = {.trace = counted ? walk->work->trace : NULL};
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
     mw_verdict verdict = mw__walk_surely(&end, counted);
-    bool round = tiling->open && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */
+    bool round =
+        tiling->border_loops && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */
     *changed = verdict != before || (end.t != walk->t && !round);
     if (*changed && counted) add_final(walk->work, &more);
     walk->t = end.t;
-    if (tiling->open) walk->lowest = end.lowest;
+    if (tiling->border_loops) walk->lowest = end.lowest;
     return verdict;
 }
 
@@ -136,7 +137,7 @@ mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_
     bool sure = exact || (verdict == MW_LEFT && has_left(tiling, walk));
     if (MW_UNLIKELY(dry || !sure)) verdict = hand_over(tiling, walk, verdict, cursor->count, &changed);
     uint32_t hole = MW_NONE;
-    if (tiling->open && verdict == MW_LEFT) verdict = mw__pieces_search(tiling, walk, cursor->count, &hole);
+    if (tiling->border_loops && verdict == MW_LEFT) verdict = mw__pieces_search(tiling, walk, cursor->count, &hole);
     if (cursor->count) count(counters, walk->work, dry, changed);
     if (MW_UNLIKELY(verdict != MW_FOUND))
         return outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q, cursor->tolerance);
@@ -191,7 +192,7 @@ static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_
     if (cursor->count) *work = (mw_work){0};
     uint32_t t = mw__first_tile(locator, cursor, last, q, random, work);
     mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
-    if (MW_UNLIKELY(tiling->open)) mw__pieces_begin(locator, &walk);
+    if (MW_UNLIKELY(tiling->border_loops)) mw__pieces_begin(locator, &walk);
     return walk;
 }
 
@@ -260,7 +261,7 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
     if (options->tolerance > 0 && !locator->has_border)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a tolerance needs a locator with options.border");
     mw_walk_kind walk = options->walk ? options->walk : locator->auto_walk;
-    if (locator->tiling.open && walk != MW_WALK_BORDER)
+    if (locator->tiling.border_loops && walk != MW_WALK_BORDER)
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "where pockets and holes are not filled only the border walk finds its way, not %s",
                         mw_walk_name(walk));

@@ -1,9 +1,9 @@
-/* arrays.c - checks and copies what the caller's arrays hold. */
+/* arrays.c - checks and copies the caller's arrays. */
 #include "mesh/arrays.h"
 
 #include <inttypes.h>
 
-mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_error *error)
+mw_status mw__arrays_validate(const mw_arrays *arrays, size_t dimension, mw_error *error)
 {
     if (!arrays || (!arrays->points && arrays->point_count) || (!arrays->triangles && arrays->triangle_count))
         return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
@@ -20,7 +20,7 @@ mw_status mw__check_arguments(const mw_arrays *arrays, size_t dimension, mw_erro
     return MW_OK;
 }
 
-static bool is_finite(const mw_arrays *arrays, size_t dimension, uint32_t vertex)
+static bool array_vertex_is_finite(const mw_arrays *arrays, size_t dimension, uint32_t vertex)
 {
     const double *p = arrays->points + vertex * (arrays->point_stride ? arrays->point_stride : dimension);
     return isfinite(p[0]) && isfinite(p[1]) && (dimension < 3 || isfinite(p[2]));
@@ -34,7 +34,7 @@ mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tole
         if (v >= arrays->point_count)
             return mw__fail_at(error, t, -1, "triangle %" PRIu32 ": corner %zu is no vertex; there are %zu", t, k,
                                arrays->point_count);
-        if (!tolerant && !is_finite(arrays, dimension, v))
+        if (!tolerant && !array_vertex_is_finite(arrays, dimension, v))
             return mw__fail_at(error, t, v, "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);
         tri->v[k] = v;
         tri->link[k] = MW_NONE;

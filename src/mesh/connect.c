@@ -1,45 +1,49 @@
-/* connect.c - neighbours of triangles in O(n), whatever their order: half-edges are parted by their lower vertices, where the halves of an
- * edge find each other by the upper one. Of large meshes by ranges of these; then each range is linked, in cache (link.c), by any
- * thread. Meshes that are laid out are linked on the way (parts.c). */
+/* connect.c - finds the neighbours of triangles in O(n), in any order of the arrays. Half-edges are
+ * sorted into groups by their lower vertices; in a group, the two halves of an edge have the same
+ * upper vertex. Large meshes are divided into partitions by ranges of lower vertices. Any thread
+ * links a partition, in cache (partition_links.c). Meshes that are laid out are linked while they
+ * are sorted (partitions.c). */
 #include "mesh/connect.h"
 
 #include "base/threads.h"
-#include "mesh/link.h"
+#include "mesh/partition_links.h"
 
 #include <stdlib.h>
 
-static MW_INLINE uint32_t lower(const mw_triangle *t, uint32_t e)
+static MW_INLINE uint32_t edge_lower_vertex(const mw_triangle *t, uint32_t e)
 {
     return t->v[e] < t->v[e + 1] ? t->v[e] : t->v[e + 1];
 }
 
-static MW_INLINE uint32_t upper(const mw_triangle *t, uint32_t e)
+static MW_INLINE uint32_t edge_upper_vertex(const mw_triangle *t, uint32_t e)
 {
     return t->v[e] < t->v[e + 1] ? t->v[e + 1] : t->v[e];
 }
 
 /* --- a mesh that fits the cache --- */
 
-/* The half-edges of lower vertex i are half[first[i]] to before half[first[i + 1]]. */
-static void gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *first, mw_half_edge *half)
+/* The half-edges of lower vertex i: half[first[i]] up to, not including, half[first[i + 1]]. */
+static void half_edges_gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *first,
+                              mw_half_edge *half)
 {
     uint32_t sum = 0;
     for (uint32_t t = 0; t < n; t++)
-        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++) first[lower(&tri[t], e)]++;
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++) first[edge_lower_vertex(&tri[t], e)]++;
     for (uint32_t i = 0; i <= vertex_count; i++) first[i] = sum += first[i];
     for (uint32_t t = 0; t < n; t++)
         for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++)
-            half[--first[lower(&tri[t], e)]] = (mw_half_edge){upper(&tri[t], e), mw__link(t, e)};
+            half[--first[edge_lower_vertex(&tri[t], e)]] =
+                (mw_half_edge){edge_upper_vertex(&tri[t], e), mw__link(t, e)};
 }
 
-static bool connect_few(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_links *links)
+static bool connect_in_cache(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_links *links)
 {
     uint32_t *first = mw__calloc((size_t)vertex_count + 1, sizeof *first);
     mw_half_edge *half = mw__alloc(3 * (size_t)n, sizeof *half);
     bool done = first && half;
-    if (done) gather(tri, n, vertex_count, first, half);
+    if (done) half_edges_gather(tri, n, vertex_count, first, half);
     for (uint32_t i = 0; i < vertex_count && done; i++)
-        done = mw__match(tri, half + first[i], first[i + 1] - first[i], links);
+        done = mw__half_edges_match(tri, half + first[i], first[i + 1] - first[i], links);
     free(first);
     free(half);
     return done;
@@ -48,140 +52,145 @@ static bool connect_few(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_
 /* --- any mesh --- */
 
 enum {
-    WORTHWHILE = 1 << 14, /* triangles for a thread to be worth it          */
-    PART_SHIFT = 12,      /* at least so many vertices, as a power of two, make a part */
-    MOST_PARTS = 1 << 12  /* written to at the same time                    */
+    WORTHWHILE = 1 << 14,     /* triangles that make a thread worthwhile */
+    PARTITION_SHIFT = 12,     /* a partition has at least 2^12 vertices */
+    MOST_PARTITIONS = 1 << 12 /* so that the caches can hold the ends of all */
 };
 
-/* Of one thread: its share of the triangles is piled up by parts, then it links parts as they come. */
-typedef struct bench {
-    uint32_t *next; /* per part: how many half-edges of the share it gets; then where the next one goes */
-    mw_link_room room;
+/* The state of a thread. It distributes its share of the half-edges to partitions, then links
+ * partitions as they become free. */
+typedef struct connect_worker {
+    /* Per partition: the number of half-edges in the share; then where the next one goes. */
+    uint32_t *next;
+    mw_link_workspace workspace;
     mw_links links;
     bool done;
-    char apart[64]; /* from the next bench: threads write to these */
-} bench;
+    char apart[64]; /* keeps the next worker, which another thread writes, on other cache lines */
+} connect_worker;
 
-typedef struct work {
+typedef struct connect_work {
     mw_triangle *tri;
-    uint32_t n, vertex_count, shift, parts;
-    uint32_t *half;  /* half-edges by the parts of their lower vertices */
-    uint32_t *first; /* of each part */
+    uint32_t n, vertex_count, shift, partitions;
+    uint32_t *half;  /* half-edges by the partitions of their lower vertices */
+    uint32_t *first; /* of each partition */
     int team;
-    bench *bench;
-} work;
+    connect_worker *worker;
+} connect_work;
 
-static uint32_t share_begin(const work *w, int share)
+static uint32_t connect_share_begin(const connect_work *w, int share)
 {
     return (uint32_t)((uint64_t)w->n * (uint32_t)share / (uint32_t)w->team);
 }
 
-static void count_share(const work *w, int share)
+static void connect_count_share(const connect_work *w, int share)
 {
-    uint32_t *next = w->bench[share].next;
-    for (uint32_t t = share_begin(w, share), end = share_begin(w, share + 1); t < end; t++)
-        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&w->tri[t]); e++) next[lower(&w->tri[t], e) >> w->shift]++;
+    uint32_t *next = w->worker[share].next;
+    for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1); t < end; t++)
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&w->tri[t]); e++)
+            next[edge_lower_vertex(&w->tri[t], e) >> w->shift]++;
 }
 
-static void add_up(const work *w)
+static void connect_sum_counts(const connect_work *w)
 {
     uint32_t sum = 0;
-    for (uint32_t p = 0; p < w->parts; p++) {
+    for (uint32_t p = 0; p < w->partitions; p++) {
         w->first[p] = sum;
         for (int i = 0; i < w->team; i++) {
-            uint32_t here = w->bench[i].next[p];
-            w->bench[i].next[p] = sum;
+            uint32_t here = w->worker[i].next[p];
+            w->worker[i].next[p] = sum;
             sum += here;
         }
     }
-    w->first[w->parts] = sum;
+    w->first[w->partitions] = sum;
 }
 
-static void pile_share(const work *w, int share)
+static void connect_fill_share(const connect_work *w, int share)
 {
-    uint32_t *next = w->bench[share].next;
-    for (uint32_t t = share_begin(w, share), end = share_begin(w, share + 1); t < end; t++)
+    uint32_t *next = w->worker[share].next;
+    for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1); t < end; t++)
         for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&w->tri[t]); e++)
-            w->half[next[lower(&w->tri[t], e) >> w->shift]++] = mw__link(t, e);
+            w->half[next[edge_lower_vertex(&w->tri[t], e) >> w->shift]++] = mw__link(t, e);
 }
 
-static void link_part(const work *w, bench *b, uint32_t p)
+static void connect_link_partition(const connect_work *w, connect_worker *worker, uint32_t p)
 {
     uint64_t base = (uint64_t)p << w->shift, size = UINT64_C(1) << w->shift;
     if (base + size > w->vertex_count) size = w->vertex_count - base;
-    mw_part part = {(uint32_t)base, (uint32_t)size, 0, 0};
+    mw_partition partition = {(uint32_t)base, (uint32_t)size, 0, 0};
     mw_strays all = {w->half + w->first[p], w->first[p + 1] - w->first[p]};
-    b->done = b->done && mw__link_part(w->tri, part, all, &b->room, &b->links);
+    worker->done = worker->done && mw__partition_link(w->tri, partition, all, &worker->workspace, &worker->links);
 }
 
-/* What one thread does. */
-static void work_on(const work *w, bench *b)
+/* The work of one thread. */
+static void connect_work_on(const connect_work *w, connect_worker *worker)
 {
 #ifdef _OPENMP
 #pragma omp for schedule(static)
 #endif
-    for (int i = 0; i < w->team; i++) count_share(w, i);
+    for (int i = 0; i < w->team; i++) connect_count_share(w, i);
 #ifdef _OPENMP
 #pragma omp single
 #endif
-    add_up(w);
+    connect_sum_counts(w);
 #ifdef _OPENMP
 #pragma omp for schedule(static)
 #endif
-    for (int i = 0; i < w->team; i++) pile_share(w, i);
+    for (int i = 0; i < w->team; i++) connect_fill_share(w, i);
 #ifdef _OPENMP
 #pragma omp for schedule(dynamic)
 #endif
-    for (uint32_t p = 0; p < w->parts; p++) link_part(w, b, p);
+    for (uint32_t p = 0; p < w->partitions; p++) connect_link_partition(w, worker, p);
 }
 
-static void work_together(const work *w)
+static void connect_run_team(const connect_work *w)
 {
 #ifdef _OPENMP
 #pragma omp parallel num_threads(w->team) if (w->team > 1)
-    work_on(w, &w->bench[omp_get_thread_num()]);
+    connect_work_on(w, &w->worker[omp_get_thread_num()]);
 #else
-    work_on(w, &w->bench[0]);
+    connect_work_on(w, &w->worker[0]);
 #endif
 }
 
-static bool open_work(work *w)
+static bool connect_work_create(connect_work *w)
 {
-    while (w->vertex_count >> w->shift >= MOST_PARTS) w->shift++;
-    w->parts = (w->vertex_count >> w->shift) + 1;
+    while (w->vertex_count >> w->shift >= MOST_PARTITIONS) w->shift++;
+    w->partitions = (w->vertex_count >> w->shift) + 1;
     w->half = mw__alloc_lines(3 * (size_t)w->n, sizeof *w->half);
-    w->first = mw__alloc((size_t)w->parts + 1, sizeof *w->first);
-    w->bench = mw__calloc((size_t)w->team, sizeof *w->bench);
-    bool done = w->half && w->first && w->bench;
+    w->first = mw__alloc((size_t)w->partitions + 1, sizeof *w->first);
+    w->worker = mw__calloc((size_t)w->team, sizeof *w->worker);
+    bool done = w->half && w->first && w->worker;
     for (int i = 0; i < w->team && done; i++) {
-        w->bench[i] = (bench){.next = mw__calloc(w->parts, sizeof(uint32_t)), .links = mw__no_links(), .done = true};
-        done = w->bench[i].next;
+        w->worker[i] = (connect_worker){
+            .next = mw__calloc(w->partitions, sizeof(uint32_t)), .links = mw__no_links(), .done = true};
+        done = w->worker[i].next;
     }
     return done;
 }
 
-static void close_work(work *w)
+static void connect_work_release(connect_work *w)
 {
-    for (int i = 0; i < w->team && w->bench; i++) {
-        free(w->bench[i].next);
-        mw__link_room_release(&w->bench[i].room);
+    for (int i = 0; i < w->team && w->worker; i++) {
+        free(w->worker[i].next);
+        mw__link_workspace_release(&w->worker[i].workspace);
     }
-    free(w->bench);
+    free(w->worker);
     free(w->first);
     free(w->half);
 }
 
-static bool connect_many(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links)
+static bool connect_by_partitions(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads,
+                                  mw_links *links)
 {
-    work w = {.tri = tri, .n = n, .vertex_count = vertex_count, .shift = PART_SHIFT};
+    connect_work w = {.tri = tri, .n = n, .vertex_count = vertex_count, .shift = PARTITION_SHIFT};
     w.team = mw__team(threads, n / WORTHWHILE + 1);
-    bool done = open_work(&w);
-    if (done) work_together(&w);
+    bool done = connect_work_create(&w);
+    if (done) connect_run_team(&w);
     for (int i = 0; i < w.team && done; i++) {
-        done = w.bench[i].done;
-        mw__links_add(tri, &w.bench[i].links, links);
+        done = w.worker[i].done;
+        mw__links_add(tri, &w.worker[i].links, links);
     }
-    close_work(&w);
+    connect_work_release(&w);
     return done;
 }
 
@@ -189,7 +198,8 @@ bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t t
 {
     mw_links found = mw__no_links();
     bool few = n < WORTHWHILE && vertex_count < WORTHWHILE;
-    bool done = few ? connect_few(tri, n, vertex_count, &found) : connect_many(tri, n, vertex_count, threads, &found);
+    bool done = few ? connect_in_cache(tri, n, vertex_count, &found)
+                    : connect_by_partitions(tri, n, vertex_count, threads, &found);
     if (links) *links = found;
     return done;
 }

@@ -4,9 +4,10 @@
 
 #include "mesh/match.h"
 
-/* Link the triangles tri[0..n) of vertices below vertex_count along their edges, in O(n). *links may be NULL.
- * An edge of more than two triangles links the first two. Links two triangles whatever their orientation, but none that
- * names a vertex twice. They have no links before. threads: 0 = as OpenMP gives. Returns false when out of memory. */
+/* Link the triangles tri[0..n), whose vertices are below vertex_count, along their edges, in O(n).
+ * They have no links before. Of an edge with more than two triangles, the first two are linked. The
+ * orientation does not matter. A triangle that names a vertex twice gets no link. `links` may be
+ * NULL. threads: 0 = OpenMP's choice. Returns false when out of memory. */
 bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links);
 
 #endif

@@ -29,7 +29,7 @@ static int compare_numbers(uint32_t a, uint32_t b)
     return (a > b) - (a < b);
 }
 
-static int compare(const void *left, const void *right)
+static int compare_defects(const void *left, const void *right)
 {
     const mw_defect *a = left, *b = right;
     int order = compare_numbers(a->kind, b->kind);
@@ -42,7 +42,7 @@ static int compare(const void *left, const void *right)
 
 void mw__defects_sort(mw_defects *defects)
 {
-    if (defects->count > 1) qsort(defects->list, defects->count, sizeof *defects->list, compare);
+    if (defects->count > 1) qsort(defects->list, defects->count, sizeof *defects->list, compare_defects);
 }
 
 void mw__defects_release(mw_defects *defects)
@@ -74,7 +74,7 @@ const char *mw_defect_text(mw_defect_kind kind)
     return "unknown defect";
 }
 
-static void describe_overlap(const mw_defect *d, char *text, size_t size)
+static void defect_describe_overlap(const mw_defect *d, char *text, size_t size)
 {
     if (d->other == MW_NONE)
         snprintf(text, size, "triangle %" PRIu32 ": other triangles cover it too, beside its edge %u", d->triangle,
@@ -86,7 +86,7 @@ static void describe_overlap(const mw_defect *d, char *text, size_t size)
 }
 
 /* Defects of surfaces and star-shaped polyhedra. */
-static void describe_in_space(const mw_defect *d, char *text, size_t size)
+static void defect_describe_in_space(const mw_defect *d, char *text, size_t size)
 {
     uint32_t t = d->triangle;
     unsigned e = d->edge;
@@ -152,13 +152,13 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
     case MW_DEFECT_VERTEX_IN_EDGE:
         snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " lies inside edge %u", t, v, e);
         return;
-    case MW_DEFECT_OVERLAP: describe_overlap(d, text, size); return;
+    case MW_DEFECT_OVERLAP: defect_describe_overlap(d, text, size); return;
     case MW_DEFECT_FLAT: snprintf(text, size, "triangle %" PRIu32 ": has no area", t); return;
     case MW_DEFECT_CLASHING:
     case MW_DEFECT_OPEN_EDGE:
     case MW_DEFECT_THROUGH_CENTRE:
     case MW_DEFECT_BACK_FACING:
-    case MW_DEFECT_COVERED: describe_in_space(d, text, size); return;
+    case MW_DEFECT_COVERED: defect_describe_in_space(d, text, size); return;
     case MW_DEFECT_COUNT: break;
     }
     snprintf(text, size, "triangle %" PRIu32 ": unknown defect", t);

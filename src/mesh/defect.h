@@ -11,7 +11,7 @@ typedef struct mw_defects {
     size_t count, capacity;
 } mw_defects;
 
-/* A defect whose other fields do not apply. */
+/* A defect of a triangle. All other fields do not apply. */
 mw_defect mw__defect(mw_defect_kind kind, uint32_t triangle);
 
 /* Returns false when out of memory. */

@@ -1,31 +1,27 @@
-/* match.c - the half-edges of one lower vertex are joined by their upper vertices. */
+/* match.c - joins the half-edges of one lower vertex by their upper vertices. */
 #include "mesh/match.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
-static MW_INLINE uint32_t *link_of(mw_triangle *tri, uint32_t half)
-{
-    return &tri[mw__link_triangle(half)].link[mw__link_edge(half)];
-}
-
-static MW_INLINE uint32_t from(const mw_triangle *tri, uint32_t half)
+static MW_INLINE uint32_t half_edge_from(const mw_triangle *tri, uint32_t half)
 {
     return tri[mw__link_triangle(half)].v[mw__link_edge(half)];
 }
 
-static MW_INLINE void join(mw_triangle *tri, uint32_t a, uint32_t b, mw_links *links)
+static MW_INLINE void half_edges_join(mw_triangle *tri, uint32_t a, uint32_t b, mw_links *links)
 {
-    *link_of(tri, a) = b;
-    *link_of(tri, b) = a;
+    *mw__half_edge_link(tri, a) = b;
+    *mw__half_edge_link(tri, b) = a;
     links->linked += 2;
-    links->opposite &= from(tri, a) != from(tri, b);
+    links->opposite &= half_edge_from(tri, a) != half_edge_from(tri, b);
 }
 
-enum { FEW = 32 }; /* half-edges at a vertex that are compared each with each */
+enum { FEW = 32 }; /* so many half-edges at a vertex are compared pair by pair */
 
-/* Join the halves of one lower vertex by comparing all. False, and nothing done, where an edge has more than two. */
-static MW_INLINE bool match_few(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
+/* Join the half-edges of one lower vertex by comparing all pairs. Returns false and changes nothing
+ * where an edge has more than two halves. */
+static MW_INLINE bool half_edges_match_few(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
 {
     uint32_t mate[FEW];
     for (uint32_t i = 0; i < count; i++) {
@@ -38,65 +34,69 @@ static MW_INLINE bool match_few(mw_triangle *tri, const mw_half_edge *half, uint
         }
     }
     for (uint32_t i = 0; i < count; i++)
-        if (mate[i] < i) join(tri, half[i].half, half[mate[i]].half, links);
+        if (mate[i] < i) half_edges_join(tri, half[i].half, half[mate[i]].half, links);
     return true;
 }
 
-typedef struct keyed_half {
+typedef struct ranked_half_edge {
     uint64_t rank; /* by the user's numbers */
     uint32_t to, half;
-} keyed_half;
+} ranked_half_edge;
 
-static int compare_halves(const void *left, const void *right)
+static int compare_ranked_half_edges(const void *left, const void *right)
 {
-    const keyed_half *a = left, *b = right;
+    const ranked_half_edge *a = left, *b = right;
     if (a->to != b->to) return a->to < b->to ? -1 : 1;
     return a->rank < b->rank ? -1 : a->rank > b->rank;
 }
 
-static uint64_t rank_of(const mw_triangle *tri, uint32_t half)
+static uint64_t half_edge_rank(const mw_triangle *tri, uint32_t half)
 {
     return (uint64_t)(tri[mw__link_triangle(half)].user & MW_USER_MASK) << 2 | mw__link_edge(half);
 }
 
-void mw__note_extra(const mw_triangle *tri, uint32_t half, uint32_t *extra)
+void mw__links_note_extra(const mw_triangle *tri, uint32_t half, uint32_t *extra)
 {
-    if (*extra == MW_NONE || rank_of(tri, half) < rank_of(tri, *extra)) *extra = half;
+    if (*extra == MW_NONE || half_edge_rank(tri, half) < half_edge_rank(tri, *extra)) *extra = half;
 }
 
-/* The same for many, or for edges that more than two share: the first two in the user's order are joined. */
-static bool match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
+/* The same for many half-edges, or for an edge with more than two: joins the first two in the
+ * user's order. */
+static bool half_edges_match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
 {
-    keyed_half *keyed = mw__alloc(count, sizeof *keyed);
-    if (!keyed) return false;
-    for (uint32_t i = 0; i < count; i++) keyed[i] = (keyed_half){rank_of(tri, half[i].half), half[i].to, half[i].half};
-    qsort(keyed, count, sizeof *keyed, compare_halves);
+    ranked_half_edge *ranked = mw__alloc(count, sizeof *ranked);
+    if (!ranked) return false;
+    for (uint32_t i = 0; i < count; i++)
+        ranked[i] = (ranked_half_edge){half_edge_rank(tri, half[i].half), half[i].to, half[i].half};
+    qsort(ranked, count, sizeof *ranked, compare_ranked_half_edges);
     for (uint32_t i = 0, next; i < count; i = next) {
-        for (next = i + 1; next < count && keyed[next].to == keyed[i].to;) next++;
-        if (next - i > 1) join(tri, keyed[i].half, keyed[i + 1].half, links);
-        for (uint32_t j = i + 2; j < next; j++) mw__note_extra(tri, keyed[j].half, &links->extra);
+        for (next = i + 1; next < count && ranked[next].to == ranked[i].to;) next++;
+        if (next - i > 1) half_edges_join(tri, ranked[i].half, ranked[i + 1].half, links);
+        for (uint32_t j = i + 2; j < next; j++) mw__links_note_extra(tri, ranked[j].half, &links->extra);
     }
-    free(keyed);
+    free(ranked);
     return true;
 }
 
-bool mw__match(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
+bool mw__half_edges_match(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
 {
-    return (count <= FEW && match_few(tri, half, count, links)) || match_many(tri, half, count, links);
+    return (count <= FEW && half_edges_match_few(tri, half, count, links)) ||
+           half_edges_match_many(tri, half, count, links);
 }
 
 void mw__links_add(const mw_triangle *tri, const mw_links *more, mw_links *links)
 {
     links->linked += more->linked;
     links->opposite = links->opposite && more->opposite;
-    if (more->extra != MW_NONE) mw__note_extra(tri, more->extra, &links->extra);
+    if (more->extra != MW_NONE) mw__links_note_extra(tri, more->extra, &links->extra);
 }
 
-mw_status mw__fail_shared(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to, mw_error *error)
+mw_status mw__fail_non_manifold_edge(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to,
+                                     mw_error *error)
 {
     uint32_t user = tri[mw__link_triangle(extra)].user;
     return mw__fail_at(error, user & MW_USER_MASK, from,
                        "triangle %" PRIu32 ": two others share its edge %" PRIu32 ", from vertex %" PRIu32
                        " to %" PRIu32,
-                       user & MW_USER_MASK, mw__user_edge(user, mw__link_edge(extra)), from, to);
+                       user & MW_USER_MASK, mw__user_local_edge(user, mw__link_edge(extra)), from, to);
 }

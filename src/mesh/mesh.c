@@ -13,9 +13,9 @@ void mw_mesh_destroy(mw_mesh *mesh)
     }
     free(mesh->field);
     free(mesh->tri);
-    free(mesh->triangle_place);
-    free(mesh->vertex_place);
-    free(mesh->users_vertex);
+    free(mesh->triangle_slot);
+    free(mesh->vertex_slot);
+    free(mesh->vertex_number);
     free(mesh->point);
     free(mesh);
 }
@@ -32,32 +32,33 @@ uint32_t mw_mesh_triangle_count(const mw_mesh *mesh)
 
 void mw_mesh_vertex(const mw_mesh *mesh, uint32_t vertex, double point[2])
 {
-    mw_point p = mesh->point[mw__vertex_place(mesh, vertex)];
+    mw_point p = mesh->point[mw__vertex_slot(mesh, vertex)];
     point[0] = p.x;
     point[1] = p.y;
 }
 
 void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t vertices[3])
 {
-    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, triangle)];
-    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_vertex(t->user, k)] = mw__users_vertex(mesh, t->v[k]);
+    const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, triangle)];
+    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_local_vertex(t->user, k)] = mw__vertex_number(mesh, t->v[k]);
 }
 
 uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge, unsigned *edge)
 {
-    const mw_triangle *t = &mesh->tri[mw__triangle_place(mesh, triangle)];
-    uint32_t link = t->link[mw__user_edge(t->user, local_edge)]; /* the exchange is its own inverse */
+    const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, triangle)];
+    /* The exchange is its own inverse. */
+    uint32_t link = t->link[mw__user_local_edge(t->user, local_edge)];
     if (link == MW_NONE) return MW_NONE;
     uint32_t user = mesh->tri[mw__link_triangle(link)].user;
-    if (edge) *edge = mw__user_edge(user, mw__link_edge(link));
+    if (edge) *edge = mw__user_local_edge(user, mw__link_edge(link));
     return user & MW_USER_MASK;
 }
 
 size_t mw_mesh_bytes(const mw_mesh *mesh)
 {
     size_t vertex = sizeof *mesh->point + mesh->field_count * sizeof(double), triangle = sizeof *mesh->tri;
-    if (mesh->vertex_place) vertex += sizeof *mesh->vertex_place + sizeof *mesh->users_vertex;
-    if (mesh->triangle_place) triangle += sizeof *mesh->triangle_place;
+    if (mesh->vertex_slot) vertex += sizeof *mesh->vertex_slot + sizeof *mesh->vertex_number;
+    if (mesh->triangle_slot) triangle += sizeof *mesh->triangle_slot;
     return sizeof *mesh + mesh->point_count * vertex + mesh->tri_count * triangle +
            mesh->field_count * sizeof *mesh->field;
 }

@@ -46,7 +46,8 @@ static bool incircle_on_grid(const row p[3], double *det)
     }
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        incircle_wide lift = (incircle_wide)x[i] * x[i] + (incircle_wide)y[i] * y[i], minor = (incircle_wide)x[j] * y[k] - (incircle_wide)x[k] * y[j];
+        incircle_wide lift = (incircle_wide)x[i] * x[i] + (incircle_wide)y[i] * y[i],
+                      minor = (incircle_wide)x[j] * y[k] - (incircle_wide)x[k] * y[j];
         high += (lift >> 42) * minor;
         low += (lift & LOW_BITS) * minor;
     }

@@ -1,100 +1,115 @@
-/* star.h - what a star-shaped polyhedron holds, and its walks. Private.
+/* star.h - the records of a star-shaped polyhedron, and its walks. Private.
  *
- * Facets are stored counter-clockwise as seen from outside, whatever the user's orientation, so the cone of a facet
- * over the centre c has the ray through q inside where det(v[k] - c, v[k+1] - c, q - c) > 0 for its three edges.
- * `beyond` an edge: that determinant is negative. Everything planar walks ask of an edge is asked of it in the same
- * way; the great circle through an edge takes the place of its line. */
+ * Facets are stored counter-clockwise as seen from outside, whatever the user's orientation. So the
+ * ray through q lies in the cone of a facet over the centre c if det(v[k] - c, v[k+1] - c, q - c) >
+ * 0 for its three edges. It lies beyond an edge if that determinant is negative. Walks ask the same
+ * questions of an edge as planar walks do; the great circle through an edge stands for its line. */
 #ifndef MW_SRC_STAR_H
 #define MW_SRC_STAR_H
 
-#include "mesh/surface.h"
+#include "surface/surface.h"
 
 #include <meshwalk/star.h>
 
-/* In `user` of a facet: the orthogonal walk ends here. Its vertices lie on both sides of the seam at longitude 180, or
- * it holds a pole: in the plane of longitude and polar angle it does not turn counter-clockwise as seen from
- * outside. */
+/* Mark in `user` of a facet: the orthogonal walk ends here. The facet lies across the seam at
+ * longitude 180, or contains a pole. So in the plane of longitude and polar angle it is not
+ * oriented as seen from outside. */
 #define MW_SEAM MW_GHOST
 
-/* In `user` of a facet: its vertices are not those of the user's facet of that number, or in another order. */
-#define MW_RECAST (UINT32_C(1) << 31)
+/* Mark in `user` of a facet: its vertices differ, in themselves or in order, from those of the
+ * user's facet with this number. */
+#define MW_FACET_ALTERED (UINT32_C(1) << 31)
 
-/* A facet as walks read it: one line of a cache. Links as in mesh.h. */
+/* A facet as walks read it: one cache line. Links as in mesh.h. */
 typedef struct mw_star_facet {
-    float normal[3][3]; /* of the plane through edge k and the centre, to the inside of the cone: see MW_STAR_SURE */
+    /* Of the plane through edge k and the centre, into the cone: see MW_STAR_SURE. */
+    float normal[3][3];
     uint32_t v[3], link[3];
-    uint32_t user; /* the user's number, and marks; where flat facets were flipped away, several have the same */
+    /* The user's number, and marks; after flips several facets may have one number. */
+    uint32_t user;
 } mw_star_facet;
 
-/* With n a normal above and f the direction of a ray, both of length 1 and rounded to floats, |n . f| beyond this is
- * sure of its sign. n is off by 2^-26, as layout.c sees to, and f by 2^-50, both by 2^-24 for the rounding; so n . f by
- * 2.3 2^-24, and its evaluation, the sum of |n_k f_k| being 1 at most, by 3.1 2^-24. */
+/* Let n be a normal above and f the direction of a ray, both of length 1 and rounded to floats. If
+ * |n . f| is larger than this, its sign is certain. n is off by 2^-26 (star_layout.c) and f by
+ * 2^-50, both by 2^-24 more for rounding. So n . f is off by 2.3 2^-24, and its evaluation by 3.1
+ * 2^-24, as the sum of |n_k f_k| is at most 1. */
 #define MW_STAR_SURE 0x1p-21f
 
 struct mw_star {
     const mw_surface *surface;
-    mw_triangle *tri;     /* while it is prepared: the facets in the user's order, oriented; else NULL */
-    mw_star_facet *facet; /* in the order of layout.c */
-    uint32_t *guide;      /* for the upper bits of a key of the curve, a facet about there; see mw__star_by_curve */
+    mw_triangle *tri;     /* while preparing: the facets in the user's order, oriented; else NULL */
+    mw_star_facet *facet; /* in the order of star_layout.c */
+    /* For the upper bits of a curve key, a facet near there; see mw__star_guide_facet. */
+    uint32_t *guide;
     uint32_t guide_bits;
-    const uint32_t *place; /* per vertex the lowest at its place: the surface's, or its own; NULL: no two are at one */
-    uint32_t *own_place;
-    uint32_t *owner; /* per vertex the lowest facet that the ray through it meets; MW_NONE: of no facet */
-    double *angle;   /* NULL, or longitude phi (-pi to pi) and polar angle theta (0 to pi) of each vertex */
+    /* Per vertex: its representative, from the surface or own; NULL: no two coincide. */
+    const uint32_t *coincident;
+    uint32_t *own_coincident;
+    uint32_t *owner; /* per vertex: the lowest facet that the ray through it meets, or MW_NONE */
+    /* NULL, or longitude phi (-pi to pi) and polar angle theta (0 to pi) of each vertex. */
+    double *angle;
     double centre[3];
-    double reach; /* the largest difference of a coordinate from the centre's, about */
+    double reach; /* about the largest coordinate relative to the centre */
     uint32_t tri_count, point_count;
-    uint32_t area_count; /* facets of the user's with an area */
+    uint32_t area_count; /* facets of the user with an area */
     uint32_t front;      /* the facet at phi = 0, theta = pi/2 */
-    uint32_t fuel;       /* steps of a walk that need not end */
-    uint64_t version;    /* of the surface that all this holds for */
-    bool ready;          /* it is star-shaped, as far as known */
+    uint32_t fuel;       /* step limit of walks that may not end */
+    uint64_t version;    /* version of the surface that all this is valid for */
+    bool ready;          /* the last check found it star-shaped */
 };
 
-/* A facet that is linked to nothing, because two of its corners are at one place, counts for nothing. */
+/* Corner k of a facet with vertices v. */
+static MW_INLINE const double *mw__star_corner_point(const mw_star *star, const uint32_t *v, uint32_t k)
+{
+    return mw__surface_point(star->surface, v[k]);
+}
+
+/* A void facet has no links, as two of its corners coincide. It does not count. */
 static MW_INLINE bool mw__star_is_void(const mw_triangle *facet)
 {
     return (facet->link[0] & facet->link[1] & facet->link[2]) == MW_NONE;
 }
 
 typedef enum mw_star_verdict {
-    MW_STAR_GO,    /* crossed into another facet                                      */
-    MW_STAR_FOUND, /* the ray meets facet t                                           */
-    MW_STAR_CLOSE, /* a cheap walk ended in facet t: an exact one goes on from there  */
-    MW_STAR_DRY    /* out of fuel                                                     */
+    MW_STAR_GO,    /* crossed into another facet */
+    MW_STAR_FOUND, /* the ray meets facet t */
+    MW_STAR_CLOSE, /* a cheap walk ended in facet t; an exact one continues there */
+    MW_STAR_DRY    /* out of fuel */
 } mw_star_verdict;
 
 #define MW_STAR_NO_EDGE 3u
 
-/* The stages of a search, counted apart: choice of the first facet by an octahedron, walk, final location. */
+/* The stages of a search, which are counted separately: an octahedron chooses the first facet,
+ * walk, final location. */
 enum { MW_STAR_STAGE_INIT, MW_STAR_STAGE_WALK, MW_STAR_STAGE_FINAL, MW_STAR_STAGES };
 
 typedef struct mw_star_work {
-    uint64_t visited; /* facets entered, the first one included */
+    uint64_t visited; /* facets entered, including the first */
     uint64_t triangles[MW_STAR_STAGES], orient[MW_STAR_STAGES];
     uint64_t comparisons;
 } mw_star_work;
 
-/* Everything one walk remembers. */
+/* The state of a walk. */
 typedef struct mw_star_walk {
     const mw_star *star;
     const double *point;
     const mw_star_facet *facet;
-    double c[3], q[3], d[3]; /* centre, the point looked for, and q - c as rounded                             */
-    float f[3];              /* d made 1 long, as floats; 0 where that is out of their range                   */
-    uint32_t t, e;           /* current facet, and its edge by which it was entered; MW_STAR_NO_EDGE at first  */
-    uint32_t p;              /* straight: the vertex where the great circle to q begins                        */
-    uint32_t phase;          /* of the walks that have some; 0 at first                                        */
-    uint32_t fuel;           /* steps left                                                                     */
-    uint32_t stage;          /* that counts                                                                    */
+    double c[3], q[3], d[3]; /* centre, query point, and q - c, rounded */
+    float f[3];              /* d scaled to length 1, as floats; 0 if out of their range */
+    uint32_t t, e;           /* current facet, and its entry edge; MW_STAR_NO_EDGE at first */
+    uint32_t p;              /* straight: the vertex where the great circle to q starts */
+    uint32_t phase;          /* of walks with phases; 0 at first */
+    uint32_t fuel;           /* steps left */
+    uint32_t stage;          /* stage for the counters */
     uint64_t random;
-    double phi, theta;  /* orthogonal: of q                                                               */
-    double height;      /* orthogonal: theta of the parallel that the first leg follows                  */
-    mw_star_work *work; /* of counting kernels; else NULL                                                 */
+    double phi, theta;  /* orthogonal: angles of q */
+    double height;      /* orthogonal: theta of the parallel that the first leg follows */
+    mw_star_work *work; /* counters; NULL: none */
 } mw_star_walk;
 
-/* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict MW_STAR_GO: there is
- * none yet) and puts the next one in its place; false: no more for this lane. */
+/* Gives walks to the lanes of a ring. `deliver` takes the finished walk of a lane (verdict
+ * MW_STAR_GO: none yet) and replaces it with the next one. Returns false if there is no more for
+ * this lane. */
 typedef struct mw_star_feed {
     bool (*deliver)(struct mw_star_feed *feed, uint32_t lane, mw_star_walk *walk, mw_star_verdict verdict);
 } mw_star_feed;
@@ -103,17 +118,18 @@ typedef struct mw_star_feed {
 
 /* The kernels of a walk. */
 typedef struct mw_star_kernels {
-    mw_star_verdict (*run[2])(mw_star_walk *walk);         /* by [count]: one walk, from its t to its end */
-    void (*ring)(mw_star_feed *feed, uint32_t lane_count); /* up to MW_STAR_LANES walks in turn           */
-    mw_star_verdict (*step)(mw_star_walk *walk);           /* one step, counting: for those who look at each facet */
+    mw_star_verdict (*run[2])(mw_star_walk *walk);         /* by [count]: one walk, to its end */
+    void (*ring)(mw_star_feed *feed, uint32_t lane_count); /* up to MW_STAR_LANES walks in turn */
+    mw_star_verdict (*step)(mw_star_walk *walk);           /* one counted step, for traces */
 } mw_star_kernels;
 
 #define MW_STAR_WALK_ENTRY(id, symbol, name, source, help) extern const mw_star_kernels mw__star_##symbol;
 #include <meshwalk/star_walks.def>
 
-/* --- layout.c ----------------------------------------------------------------------------------------------------- */
+/* --- star_layout.c --- */
 
-/* The direction d, not zero, on the regular octahedron, whose lower half is folded out: a square from -1 to 1. */
+/* The direction d, not zero, projected to the regular octahedron. Unfolding its lower half gives a
+ * square from -1 to 1. */
 static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
 {
     double sum = fabs(d[0]) + fabs(d[1]) + fabs(d[2]), u = d[0] / sum, v = d[1] / sum;
@@ -125,7 +141,7 @@ static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
 /* Fill in star->facet and star->guide from star->tri. Returns false when out of memory. */
 bool mw__star_lay_out(mw_star *star);
 
-/* Bits of the guide of so many facets: an entry for 2 to 4 of them. */
+/* The number of bits of the guide: an entry for 2 to 4 facets. */
 static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
 {
     uint32_t bits = 1;
@@ -133,30 +149,30 @@ static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
     return bits;
 }
 
-/* A facet about where a key of the curve over the sphere is. */
-static MW_INLINE uint32_t mw__star_by_curve(const mw_star *star, uint32_t key)
+/* A facet near a key of the curve over the sphere. */
+static MW_INLINE uint32_t mw__star_guide_facet(const mw_star *star, uint32_t key)
 {
     return star->guide[key >> (32 - star->guide_bits)];
 }
 
-/* --- start.c, grid.c, octahedron.c -------------------------------------------------------------------------------- */
+/* --- star_start.c, star_grid.c, star_octahedron.c --- */
 
-/* The first facet of a walk by the cursor's start; `last` is where the query before it ended, or MW_NONE. Touches the
- * walk's q, d, random, work. The walk's t is not set yet. */
+/* Choose the first facet of a walk by the cursor's start. `last`: where the previous query ended,
+ * or MW_NONE. Uses q, d, random and work of the walk. The walk's t is not set yet. */
 uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last, mw_star_walk *walk);
 
-/* --- angles.c ----------------------------------------------------------------------------------------------------- */
+/* --- star_angles.c --- */
 
-/* Longitude and polar angle of d (not zero), as eq. 3: rounded; phi of a pole is 0. */
+/* Longitude and polar angle of d, not zero, by eq. 3, rounded. phi of a pole is 0. */
 void mw__star_angles(const double d[3], double *phi, double *theta);
 
-/* Fill in star->angle and mark the seam. */
+/* Fill in star->angle and mark the facets of the seam. */
 void mw__star_fill_angles(mw_star *star);
 
-/* --- locate.c ----------------------------------------------------------------------------------------------------- */
+/* --- star_locate.c --- */
 
-/* The facet (as stored) that the ray from the centre along d, rounded, meets, exactly for some ray about there: walks
- * from facet t. For those who build guides. */
-uint32_t mw__star_facet(const mw_star *star, const double d[3], uint32_t t);
+/* The stored facet that the ray from the centre along d, rounded, meets; exact for some ray close
+ * to d. Walks from facet t. Serves to build indices. */
+uint32_t mw__star_facet_along(const mw_star *star, const double d[3], uint32_t t);
 
 #endif

@@ -1,12 +1,12 @@
 /* star_check.c - what keeps arrays from being a star-shaped polyhedron. */
-#include "star/kernel.h"
+#include "star/kernel_check.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The arrays make a surface: what keeps it from being star-shaped joins the defects. */
-static mw_status check_kernel(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_defects *defects,
-                              bool *sound, mw_error *error)
+/* The arrays make a surface. Add the defects that keep it from being star-shaped. */
+static mw_status star_check_kernel(const mw_arrays *arrays, int weld, const mw_star_options *options,
+                                   mw_defects *defects, bool *sound, mw_error *error)
 {
     mw_surface_options how = {.weld = weld};
     mw_surface *surface;
@@ -17,7 +17,7 @@ static mw_status check_kernel(const mw_arrays *arrays, int weld, const mw_star_o
     if (options) memcpy(star.centre, options->centre, sizeof star.centre);
     star.tri = mw__alloc_lines(star.tri_count, sizeof *star.tri);
     if (star.tri) memcpy(star.tri, surface->tri, star.tri_count * sizeof *star.tri);
-    if (!star.tri || !mw__star_kernel(&star, defects)) status = mw__fail_memory(error);
+    if (!star.tri || !mw__star_kernel_check(&star, defects)) status = mw__fail_memory(error);
     *sound = defects->count == before && star.area_count > 0;
     free(star.tri);
     mw_surface_destroy(surface);
@@ -41,7 +41,7 @@ mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_
         if (kind != MW_DEFECT_CLASHING && !mw__defects_add(&defects, check->defects[i]))
             status = mw__fail_memory(error);
     }
-    if (status == MW_OK && usable) status = check_kernel(arrays, weld, options, &defects, &sound, error);
+    if (status == MW_OK && usable) status = star_check_kernel(arrays, weld, options, &defects, &sound, error);
     mw_check_release(check);
     if (status) {
         mw__defects_release(&defects);

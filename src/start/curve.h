@@ -3,7 +3,7 @@
 #define MW_SRC_CURVE_START_H
 
 #include "base/hilbert.h"
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 #include "start/grid.h"
 
 typedef struct mw_curve {

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_LATTICE_H
 #define MW_SRC_LATTICE_H
 
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 
 /* Column and row of p: along[k] . (p - middle) + half[k], half[k] being half the number of columns or rows. */
 typedef struct mw_lattice {

@@ -4,7 +4,7 @@
 #define MW_SRC_START_H
 
 #include "base/hilbert.h"
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 
 #include <meshwalk/locate.h>
 

@@ -7,7 +7,7 @@ uint32_t *mw__tile_of_vertices(const mw_tiling *tiling)
     if (!tile) return NULL;
     for (uint32_t v = 0; v < tiling->point_count; v++) {
         bool known = tiling->tile_at && tiling->tile_at[v] != MW_NONE;
-        tile[v] = known ? mw__lowest_round(tiling, tiling->tile_at[v], v) : MW_NONE;
+        tile[v] = known ? mw__lowest_around_vertex(tiling, tiling->tile_at[v], v) : MW_NONE;
     }
     if (tiling->tile_at) return tile;
     for (uint32_t t = tiling->tri_count; t-- > 0;)

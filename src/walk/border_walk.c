@@ -41,8 +41,9 @@ static MW_INLINE void begin_run(mw_walk *w, uint32_t phase, uint32_t stage, mw_p
 /* From border edge e on along the border: to the edge that begins at its end, or to a tile beyond a turn. */
 static MW_INLINE mw_verdict turn_corner(mw_walk *w, uint32_t e, mw_policy P)
 {
-    const mw_open *open = w->tiling->open;
-    uint32_t turn = open && MW_UNLIKELY(open->turn_count > 0) ? mw__open_turn(open, mw__link(w->t, e)) : MW_NONE;
+    const mw_border_loops *loops = w->tiling->border_loops;
+    uint32_t turn =
+        loops && MW_UNLIKELY(loops->jump_count > 0) ? mw__border_loops_jump(loops, mw__link(w->t, e)) : MW_NONE;
     w->e = mw__next(e);
     if (MW_LIKELY(turn == MW_NONE)) return MW_GO;
     w->t = mw__link_triangle(turn);
@@ -58,7 +59,7 @@ static MW_INLINE mw_verdict turn_corner(mw_walk *w, uint32_t e, mw_policy P)
 static MW_INLINE mw_verdict border_go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (MW_LIKELY(w->tri[w->t].link[e] != MW_NONE)) return cross(w, e, P);
-    if (!w->tiling->open && w->tiling->embedding) return MW_LEFT;
+    if (!w->tiling->border_loops && w->tiling->embedding) return MW_LEFT;
     w->exit = w->lowest = mw__link(w->t, e);
     w->farthest = MW_NONE;
     begin_run(w, ROUND_LEFT, MW_STAGE_BORDER, P);

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_FETCH_H
 #define MW_SRC_FETCH_H
 
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 
 /* The tile beyond an edge, if there is one. */
 static MW_INLINE void mw__fetch_tile(const mw_tiling *tiling, uint32_t link)

@@ -4,7 +4,7 @@
 #ifndef MW_SRC_WALK_LIFTED_H
 #define MW_SRC_WALK_LIFTED_H
 
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 #include "predicates/predicates.h"
 
 /* A vertex seen from a point: the way there, and its square. */

@@ -41,7 +41,7 @@ static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw
     const mw_triangle *tri = tiling->tri;
     uint32_t fuel = MW_CORNER_STEPS, e = 0, exit = MW_NONE;
     mw_lifted_vertex a = mw__lift_vertex(tiling, tri[t].v[0], q), b = mw__lift_vertex(tiling, tri[t].v[1], q),
-             c = mw__lift_vertex(tiling, tri[t].v[2], q);
+                     c = mw__lift_vertex(tiling, tri[t].v[2], q);
     double ab = mw__lifted_side(tiling, &a, &b, q), bc = mw__lifted_side(tiling, &b, &c, q),
            ca = mw__lifted_side(tiling, &c, &a, q);
     if (ab < 0) {

@@ -65,7 +65,7 @@ uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_til
 {
     double tiles = tiling->tri_count, steps = 4096 + 45 * sqrt(tiles);
     if (kernels[kind]->ends && arithmetic == MW_EXACT && tiling->embedding) steps = tiles + 1;
-    if (kind == MW_WALK_BORDER) steps += tiling->open ? 4.0 * tiling->open->edge_count : tiles;
+    if (kind == MW_WALK_BORDER) steps += tiling->border_loops ? 4.0 * tiling->border_loops->edge_count : tiles;
     return steps < UINT32_MAX ? (uint32_t)steps : UINT32_MAX;
 }
 
@@ -73,7 +73,7 @@ mw_verdict mw__walk_surely(mw_walk *walk, bool count)
 {
     const mw_tiling *tiling = walk->tiling;
     mw_verdict verdict = MW_DRY;
-    if (!tiling->open) {
+    if (!tiling->border_loops) {
         walk->fuel = mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling);
         return mw__walk_run(walk, &mw__celestial, true, count);
     }

@@ -6,7 +6,7 @@
 #ifndef MW_SRC_WALK_H
 #define MW_SRC_WALK_H
 
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 
 #include <meshwalk/locate.h>
 

@@ -6,7 +6,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "domain/tiling_create.h"
+#include "tiling/tiling_create.h"
 #include "base/random.h"
 #include "start/layers.h"
 #include "support/allocations.h"

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "domain/tiling_create.h"
+#include "tiling/tiling_create.h"
 #include "support/allocations.h"
 #include "support/meshes.h"
 

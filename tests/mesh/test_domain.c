@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "domain/tiling_create.h"
+#include "tiling/tiling_create.h"
 #include "base/random.h"
-#include "domain/survey.h"
+#include "tiling/embedding_check.h"
 #include "oracle/domain_oracle.h"
 #include "support/meshes.h"
 
@@ -181,7 +181,7 @@ static const char *fault_of_refusal(const mw_mesh *mesh, const arrays *a)
     for (uint32_t t = 0; t < a->triangle_count && !fault; t++)
         for (int k = 0; k < 3; k++)
             if (domain_oracle_corners(a, t, c) &&
-                tiling.owner[mw__vertex_place(mesh, a->triangles[3 * t + (uint32_t)k])] > t)
+                tiling.owner[mw__vertex_slot(mesh, a->triangles[3 * t + (uint32_t)k])] > t)
                 fault = "a vertex has no owner";
     mw__tiling_release(&tiling);
     return fault;
@@ -335,12 +335,12 @@ static void add_bundle(arrays *a)
     for (int i = 0; i < SLIVERS; i++) sliver(a, i, 0, i + 0.5, 0, SLIVERS - i, SLIVERS);
 }
 
-static mw_survey survey_of(const arrays *a, mw_mesh **mesh)
+static mw_embedding_check survey_of(const arrays *a, mw_mesh **mesh)
 {
     mw_arrays view = arrays_view(a);
-    mw_survey survey;
+    mw_embedding_check survey;
     assert_int_equal(mw_mesh_create(&view, NULL, mesh, NULL), MW_OK);
-    assert_int_equal(mw__survey_create(&survey, *mesh, NULL), MW_OK);
+    assert_int_equal(mw__embedding_check_create(&survey, *mesh, NULL), MW_OK);
     return survey;
 }
 
@@ -353,11 +353,11 @@ static void test_slivers(void **state)
         arrays a = arrays_make(3 * SLIVERS, SLIVERS);
         adds[i](&a);
         mw_mesh *mesh;
-        mw_survey survey = survey_of(&a, &mesh);
+        mw_embedding_check survey = survey_of(&a, &mesh);
         assert_true(survey.embedding && !survey.convex && survey.defects.count == 0);
         assert_int_equal(survey.regions.hole_count, 0);
-        assert_int_equal(survey.cover.net.wasted, 0);
-        mw__survey_release(&survey);
+        assert_int_equal(survey.coverage.net.wasted, 0);
+        mw__embedding_check_release(&survey);
         mw_mesh_destroy(mesh);
         arrays_free(&a);
     }
@@ -372,7 +372,7 @@ static void test_bundle(void **state)
     sliver(&a, -80, 5, -70, 5, -75, 15); /* inside that one */
     add_bundle(&a);
     mw_mesh *mesh;
-    mw_survey survey = survey_of(&a, &mesh);
+    mw_embedding_check survey = survey_of(&a, &mesh);
     assert_false(survey.embedding);
     size_t count = survey.defects.count, crossings = 0;
     for (size_t i = 0; i < count; i++) {
@@ -385,9 +385,9 @@ static void test_bundle(void **state)
     assert_int_equal(crossings, count - 1);
     assert_int_equal(survey.defects.list[count - 1].kind, MW_DEFECT_OVERLAP);
     assert_int_equal(survey.defects.list[count - 1].triangle, 1);
-    size_t cells = survey.cover.cell_count, edges = survey.outline.half_count;
-    assert_true(survey.cover.net.wasted <= 65 * cells + 64 * edges);
-    mw__survey_release(&survey);
+    size_t cells = survey.coverage.cell_count, edges = survey.outline.half_count;
+    assert_true(survey.coverage.net.wasted <= 65 * cells + 64 * edges);
+    mw__embedding_check_release(&survey);
     mw_mesh_destroy(mesh);
     arrays_free(&a);
 }

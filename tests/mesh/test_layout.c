@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "mesh/curve.h"
+#include "mesh/point_order.h"
 #include "mesh/mesh.h"
 #include "support/meshes.h"
 
@@ -96,7 +96,7 @@ static void expect_same(const mw_mesh *a, const mw_mesh *b)
         }
     }
     assert_int_equal(a->flat_count, b->flat_count);
-    assert_int_equal(a->flipped_count, b->flipped_count);
+    assert_int_equal(a->reversed_count, b->reversed_count);
 }
 
 /* What the mesh tells of its edges is so. */
@@ -134,11 +134,11 @@ static void test_same_mesh_threads(void **state)
     layout_scene s = make_scene(300, 1);
     mw_mesh *kept, *laid;
     assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
-    assert_null(kept->vertex_place);
+    assert_null(kept->vertex_slot);
     for (uint32_t threads = 0; threads < 8; threads++)
         for (mw_mesh_layout layout = MW_LAYOUT_AUTO; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
             assert_int_equal(create(&s, layout, threads, &laid, NULL), MW_OK);
-            assert_true((laid->vertex_place != NULL) == (layout != MW_LAYOUT_AS_GIVEN));
+            assert_true((laid->vertex_slot != NULL) == (layout != MW_LAYOUT_AS_GIVEN));
             expect_same(kept, laid);
             if (layout != MW_LAYOUT_AS_GIVEN) expect_local(laid);
             assert_true(laid->opposite);
@@ -318,8 +318,8 @@ static void test_curve(void **state)
     }
     p[17] = (mw_point){INFINITY, 0};
     p[18] = (mw_point){NAN, NAN};
-    assert_true(mw__curve_order(p, N, 1, order));
-    assert_true(mw__curve_order(p, N, 3, again));
+    assert_true(mw__points_order(p, N, 1, order));
+    assert_true(mw__points_order(p, N, 3, again));
     assert_memory_equal(order, again, N * sizeof *order);
     double way = 0;
     for (uint32_t i = 0; i < N; i++) {

@@ -140,7 +140,7 @@ static uint32_t check_vertices(const mw_mesh *mesh, const uint32_t *duplicate_of
     find_equal_points(points, n, first);
     free(points);
     for (uint32_t t = 0; t < mesh->tri_count; t++)
-        for (int k = 0; k < 3; k++) used[mw__users_vertex(mesh, mesh->tri[t].v[k])] = 1;
+        for (int k = 0; k < 3; k++) used[mw__vertex_number(mesh, mesh->tri[t].v[k])] = 1;
     for (uint32_t i = 0; i < n; i++) {
         assert_int_equal(duplicate_of[i], first[i] == i ? MW_NONE : first[i]);
         assert_int_equal(used[i], first[i] == i);

@@ -202,7 +202,7 @@ static const char *fault_of_users(const arrays *a, const mw_tiling *tiling)
                 if (!contains(c, d[k])) return "a tile leaves its triangle";
             const uint32_t *v = a->triangles + 3 * (size_t)t;
             int64_t turn = area2(spot_of(a->points, v[0]), spot_of(a->points, v[1]), spot_of(a->points, v[2]));
-            if ((turn < 0) != ((tri->user & MW_FLIPPED) != 0)) return "a tile's orientation is wrong";
+            if ((turn < 0) != ((tri->user & MW_REVERSED) != 0)) return "a tile's orientation is wrong";
         }
         if (area != 0) return "the tiles of a triangle do not have its area";
     }

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "domain/tiling.h"
+#include "tiling/tiling.h"
 #include "support/meshes.h"
 
 /* Set by the test that scales its meshes; 0 at first. */

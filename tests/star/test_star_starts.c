@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/random.h"
-#include "star/index.h"
+#include "star/star_index.h"
 #include "support/allocations.h"
 #include "support/meshes.h"
 #include "support/star_shapes.h"

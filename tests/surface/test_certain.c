@@ -18,7 +18,7 @@
 #include "support/meshes.h"
 #include "support/probers.h"
 #include "support/shapes.h"
-#include "surface/prober.h"
+#include "probe/prober.h"
 
 static uint64_t new_seed(const char *name)
 {
@@ -38,9 +38,10 @@ static uint32_t brute_force(const mw_surface *surface, const mw_line *line, doub
     uint32_t best = MW_NONE, found = 0;
     *some = MW_NONE;
     for (uint32_t t = 0; t < surface->tri_count; t++) {
-        if (!mw__touches(surface, line, t) || !mw__in_reach(surface, line, t, d > 0 ? d : INFINITY)) continue;
+        if (!mw__line_touches(surface, line, t) || !mw__touch_in_reach(surface, line, t, d > 0 ? d : INFINITY))
+            continue;
         if (mw__random_below(random, ++found) == 0) *some = t;
-        if (best == MW_NONE || mw__better(surface, line, t, best)) best = t;
+        if (best == MW_NONE || mw__touch_is_better(surface, line, t, best)) best = t;
     }
     return best;
 }
@@ -49,8 +50,8 @@ static uint32_t brute_force(const mw_surface *surface, const mw_line *line, doub
 static uint32_t check(const mw_prober *prober, const mw_line *line, double d, uint64_t *random)
 {
     uint32_t some, best = brute_force(prober->surface, line, d, &some, random);
-    assert_int_equal(mw__certain(prober, line, d, MW_NONE, NULL), best);
-    if (some != MW_NONE) assert_int_equal(mw__certain(prober, line, d, some, NULL), best);
+    assert_int_equal(mw__probe_certain(prober, line, d, MW_NONE, NULL), best);
+    if (some != MW_NONE) assert_int_equal(mw__probe_certain(prober, line, d, some, NULL), best);
     return best;
 }
 
@@ -75,7 +76,7 @@ static void check_oracle(const mw_prober *prober, const shape *s, const double q
 {
     mw_line line = line_of(query);
     touch_oracle o = touch_oracle_make(s, query);
-    assert_int_equal(mw__certain(prober, &line, d, MW_NONE, NULL), touch_oracle_best(&o, d));
+    assert_int_equal(mw__probe_certain(prober, &line, d, MW_NONE, NULL), touch_oracle_best(&o, d));
     touch_oracle_free(&o);
 }
 
@@ -304,7 +305,8 @@ static void test_slack(void **state)
     assert_int_equal(prober->fits, 1);
     mw_line line = {{61.5, 58.25, rise}, {0, 0, -1}};
     assert_int_not_equal(check(prober, &line, rise / 1000, &random), MW_NONE);
-    assert_int_equal(mw__certain(prober, &line, 0, MW_NONE, NULL), mw__certain(prober, &line, 1, MW_NONE, NULL));
+    assert_int_equal(mw__probe_certain(prober, &line, 0, MW_NONE, NULL),
+                     mw__probe_certain(prober, &line, 1, MW_NONE, NULL));
     mw_prober_destroy(prober);
     mw_surface_destroy(surface);
     shape_free(&s);
@@ -369,7 +371,7 @@ static void test_order(void **state)
         if (shuffled) shape_shuffle(&s, &random);
         mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
         mw_prober *prober = prober_with_boxes(surface);
-        assert_true((prober->boxes.order != NULL) == shuffled);
+        assert_true((prober->bvh.order != NULL) == shuffled);
         mw_prober_info info;
         mw_prober_describe(prober, &info);
         assert_int_equal(info.fits, 1);
@@ -383,19 +385,19 @@ static void test_order(void **state)
             mw_line line = line_of(queries + 6 * i);
             check(prober, &line, 0, &random);
             check(prober, &line, 5, &random);
-            mw__certain(prober, &line, 5, MW_NONE, &counters);
+            mw__probe_certain(prober, &line, 5, MW_NONE, &counters);
         }
         assert_true(counters.boxes > 60);
         assert_true(counters.box_triangles >= counters.intersections);
         assert_true(counters.box_triangles < 60 * s.triangle_count / 100); /* most boxes are passed by */
 
-        mw_surface_box *boxes = malloc(info.box_bytes);
-        size_t count = prober->boxes.first[prober->boxes.level_count - 1] + 1, bytes = count * sizeof *boxes;
-        memcpy(boxes, prober->boxes.box, bytes);
+        mw_bvh_box *boxes = malloc(info.box_bytes);
+        size_t count = prober->bvh.first[prober->bvh.level_count - 1] + 1, bytes = count * sizeof *boxes;
+        memcpy(boxes, prober->bvh.box, bytes);
         for (uint32_t threads = 0; threads < 5; threads++) {
-            memset(prober->boxes.box, 0, bytes);
+            memset(prober->bvh.box, 0, bytes);
             mw_prober_update(prober, NAN, threads);
-            assert_memory_equal(prober->boxes.box, boxes, bytes);
+            assert_memory_equal(prober->bvh.box, boxes, bytes);
         }
         free(boxes);
         free(queries);

@@ -15,7 +15,7 @@
 #include "support/meshes.h"
 #include "support/probers.h"
 #include "support/shapes.h"
-#include "surface/prober.h"
+#include "probe/prober.h"
 
 static uint64_t new_seed(const char *name)
 {

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "mesh/surface.h"
+#include "surface/surface.h"
 #include "support/allocations.h"
 #include "support/files.h"
 #include "support/meshes.h"
@@ -517,7 +517,7 @@ static void test_weld(void **state)
             unsigned e = 7, f = 8;
             assert_int_equal(mw_surface_neighbour(one, t, k, &e), mw_surface_neighbour(other, t, k, &f));
             assert_int_equal(e, f);
-            assert_true(mw__surface_agrees(one, t, k) && mw__surface_agrees(other, t, k));
+            assert_true(mw__surface_orientations_agree(one, t, k) && mw__surface_orientations_agree(other, t, k));
         }
     mw_surface_info info;
     assert_int_equal(mw_surface_describe(other, &info, NULL), MW_OK);

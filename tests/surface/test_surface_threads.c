@@ -6,7 +6,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "mesh/surface.h"
+#include "surface/surface.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -29,7 +29,7 @@ static void *query(void *argument)
     surface_world *w = argument;
     double seen = 0;
     do {
-        mw__surface_enter(w->surface);
+        mw__surface_read_lock(w->surface);
         atomic_fetch_add(&w->inside, 1);
         double first[3];
         mw_surface_vertex(w->surface, 0, first);
@@ -42,7 +42,7 @@ static void *query(void *argument)
         if (torn) atomic_store(&w->torn, 1);
         atomic_fetch_add(&w->queries, 1);
         atomic_fetch_sub(&w->inside, 1);
-        mw__surface_leave(w->surface);
+        mw__surface_read_unlock(w->surface);
     } while (atomic_load(&w->updaters_left) > 0);
     return NULL;
 }
@@ -99,13 +99,13 @@ static void wait_for(meeting *m, int stage)
 static void *early_query(void *argument)
 {
     meeting *m = argument;
-    mw__surface_enter(m->surface);
+    mw__surface_read_lock(m->surface);
     atomic_store(&m->stage, 1);
     wait_for(m, 2);
     for (int i = 0; i < 100; i++) sched_yield(); /* it could begin now */
     m->too_soon = m->begun;
     atomic_store(&m->stage, 3);
-    mw__surface_leave(m->surface);
+    mw__surface_read_unlock(m->surface);
     return NULL;
 }
 

@@ -8,7 +8,7 @@
 
 #include "oracle/line_oracle.h"
 #include "support/predicate_cases.h"
-#include "surface/prober.h"
+#include "probe/prober.h"
 
 #include <float.h>
 #include <math.h>
@@ -490,7 +490,7 @@ static void check_answer(const lattice *l, uint32_t t)
 {
     int64_t normal[3];
     line_place at = place_of(l, t, normal);
-    mw_touch touch = mw__touch(l->surface, &l->line, t);
+    mw_touch touch = mw__touch_of(l->surface, &l->line, t);
     double distance = (double)at.n / (double)at.m * sqrt((double)dot(l->m, l->m)), sum = 0;
     assert_true(fabs(touch.distance - distance) <= 1e-12 * fabs(distance));
     assert_true(touch.triangle == t && touch.state == MW_TOUCH_HIT && touch.reserved == 0);
@@ -518,9 +518,9 @@ static long check_again(const lattice *l, uint32_t t, bool touched)
 {
     double d = (double)cases_below(12);
     mw_touch again;
-    if (!mw__touch_again(l->surface, &l->line, t, d, &again)) return 0;
-    mw_touch touch = mw__touch_lowest(l->surface, &l->line, t);
-    assert_true(touched && mw__in_reach(l->surface, &l->line, t, d));
+    if (!mw__touch_surely_inside(l->surface, &l->line, t, d, &again)) return 0;
+    mw_touch touch = mw__touch_of_lowest(l->surface, &l->line, t);
+    assert_true(touched && mw__touch_in_reach(l->surface, &l->line, t, d));
     assert_memory_equal(&again, &touch, sizeof touch);
     return 1;
 }
@@ -530,13 +530,13 @@ static void check_reach(const lattice *l, uint32_t t)
     int64_t normal[3], d = (int64_t)cases_below(12);
     line_place at = place_of(l, t, normal);
     bool reached = at.n * at.n * dot(l->m, l->m) <= d * d * at.m * at.m;
-    assert_int_equal(mw__in_reach(l->surface, &l->line, t, (double)d), reached);
-    assert_true(mw__in_reach(l->surface, &l->line, t, INFINITY));
+    assert_int_equal(mw__touch_in_reach(l->surface, &l->line, t, (double)d), reached);
+    assert_true(mw__touch_in_reach(l->surface, &l->line, t, INFINITY));
     for (uint32_t s = 0; s < l->count; s++) {
         if (brute_touch(l, s) >= 0) continue;
         line_place other = place_of(l, s, normal);
         int64_t nearer = llabs(at.n * other.m) - llabs(other.n * at.m);
-        assert_int_equal(mw__better(l->surface, &l->line, t, s), nearer < 0 || (nearer == 0 && t < s));
+        assert_int_equal(mw__touch_is_better(l->surface, &l->line, t, s), nearer < 0 || (nearer == 0 && t < s));
     }
 }
 
@@ -551,14 +551,14 @@ static void test_touches(void **unused)
             generate_line(&l);
             for (uint32_t t = 0; t < l.count; t++) {
                 int side = brute_touch(&l, t);
-                assert_int_equal(mw__touches(l.surface, &l.line, t), side < 0);
-                assert_int_equal(mw__meets(l.surface, &l.line, t), side != 0);
+                assert_int_equal(mw__line_touches(l.surface, &l.line, t), side < 0);
+                assert_int_equal(mw__line_meets(l.surface, &l.line, t), side != 0);
                 backs += side > 0;
                 again += check_again(&l, t, side < 0);
                 if (side >= 0) continue;
                 uint32_t lowest = brute_lowest(&l, t, true);
                 assert_int_equal(mw__lowest_touched(l.surface, &l.line, t), lowest);
-                assert_int_equal(mw__touch_lowest(l.surface, &l.line, t).triangle, lowest);
+                assert_int_equal(mw__touch_of_lowest(l.surface, &l.line, t).triangle, lowest);
                 check_answer(&l, t);
                 if (cases_below(4) == 0) check_reach(&l, t);
                 touched++;
@@ -595,7 +595,7 @@ static void test_large_fan(void **unused)
     mw_surface_points(surface)[3 * 500] = NAN; /* triangles 499 and 500 are in the way, not in the answer */
     for (uint32_t t = 0; t < N; t++) {
         bool whole = t != 499 && t != 500;
-        assert_int_equal(mw__touches(surface, &line, t), whole);
+        assert_int_equal(mw__line_touches(surface, &line, t), whole);
         if (whole) assert_int_equal(mw__lowest_touched(surface, &line, t), 0);
     }
     mw_surface_destroy(surface);
@@ -617,7 +617,7 @@ static void test_parted_weld(void **unused)
     mw_surface_begin_update(surface);
     for (int i = 0; i < 3; i++) mw_surface_points(surface)[3 * i + 2] = 1;
     mw_surface_end_update(surface);
-    assert_true(mw__touches(surface, &edge, 0) && mw__touches(surface, &edge, 1));
+    assert_true(mw__line_touches(surface, &edge, 0) && mw__line_touches(surface, &edge, 1));
     assert_int_equal(mw__lowest_touched(surface, &edge, 1), 1);
     assert_int_equal(mw__lowest_touched(surface, &vertex, 1), 1);
     mw_surface_destroy(surface);
@@ -626,7 +626,7 @@ static void test_parted_weld(void **unused)
 static void test_no_touch(void **unused)
 {
     (void)unused;
-    mw_touch touch = mw__no_touch(MW_TOUCH_LIMIT);
+    mw_touch touch = mw__touch_none(MW_TOUCH_LIMIT);
     assert_true(touch.state == MW_TOUCH_LIMIT && touch.triangle == MW_NONE && touch.where == MW_BAD);
     assert_true(touch.local == 255 && isnan(touch.distance) && isnan(touch.weight[0]) && isnan(touch.weight[2]));
 }

@@ -138,7 +138,7 @@ mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_
         return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
                         m->tri_count);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
-    if (mesh && give_mesh(m, report, edges, mesh) && mw__lay_out_vertices(mesh, m->threads)) {
+    if (mesh && give_mesh(m, report, edges, mesh) && mw__mesh_lay_out_vertices(mesh, m->threads)) {
         *out = mesh;
         return MW_OK;
     }

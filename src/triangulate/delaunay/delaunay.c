@@ -165,7 +165,7 @@ static bool delaunay_order_points(delaunay *d)
     mw_patch_arrays *g = &d->ground;
     _Static_assert(sizeof(mw_key) <= sizeof(mw_facet), "the facets have room for the keys");
     mw_key *keys = (mw_key *)g->facet, *scratch = keys + g->n;
-    if (!mw__curve_sort(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
+    if (!mw__points_sort(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
     delaunay_copy_points(d, keys);
     return mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
 }
@@ -259,9 +259,9 @@ static mw_status delaunay_make_mesh(const mw_point *given, mw_delaunay_setup set
                                     uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh *mesh, mw_error *error)
 {
     uint32_t *order = NULL, n = mesh->point_count;
-    if (laid_out && mw__are_scattered(given, n)) setup.order = &order;
+    if (laid_out && mw__points_are_scattered(given, n)) setup.order = &order;
     mw_status status = mw__delaunay_set_up(given, n, &setup, duplicate_of, report, &mesh->tri, &mesh->tri_count, error);
-    if (!status && !mw__give_points(mesh, given, order, setup.threads)) status = mw__fail_memory(error);
+    if (!status && !mw__mesh_set_points(mesh, given, order, setup.threads)) status = mw__fail_memory(error);
     return status;
 }
 

@@ -36,7 +36,7 @@ static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *
 {
     uint32_t n = patch->to - patch->from;
     if (n <= MW_LONG_RUN) return false;
-    mw__set_keys(points, keys + patch->from, n);
+    mw__points_set_keys(points, keys + patch->from, n);
     return keys[patch->from].key != keys[patch->to - 1].key;
 }
 

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_DELAUNAY_PATCHES_H
 #define MW_SRC_DELAUNAY_PATCHES_H
 
-#include "mesh/curve.h"
+#include "mesh/point_order.h"
 #include "triangulate/delaunay/delaunay_grow.h"
 #include "triangulate/delaunay/insertion_order.h"
 

@@ -1,6 +1,6 @@
 /* insertion_order.c - when each point is inserted.
  *
- * Points are numbered along a Hilbert curve (mesh/curve.h), so that what lies close in the plane lies close in memory. They are
+ * Points are numbered along a Hilbert curve (mesh/point_order.h), so that what lies close in the plane lies close in memory. They are
  * inserted in that order too, but in rounds ("biased randomized insertion order" [Amenta, Choi, Rote 2003]): each point
  * belongs to the last round with probability 7/8, to the one before with 7/64, and so on. Inserted along the curve
  * alone, n points on a parabola can destroy of the order of n^2 triangles; in random rounds the expected number is at

@@ -3,7 +3,7 @@
 
 #include "mesh/connect.h"
 #include "mesh/layout.h"
-#include "mesh/order.h"
+#include "mesh/mesh_order.h"
 #include "triangulate/delaunay/delaunay.h"
 
 #include <stdlib.h>
@@ -83,7 +83,7 @@ static bool triangulation_lay_out(mw_triangulation *t)
 {
     uint32_t *order = mw__alloc(t->tri_count, sizeof *order);
     mw_triangle *tri = mw__alloc_lines(t->tri_count, sizeof *tri);
-    bool done = order && tri && mw__order_triangles(t->point, t->tri, t->tri_count, order);
+    bool done = order && tri && mw__triangles_order(t->point, t->tri, t->tri_count, order);
     if (done) {
         for (uint32_t i = 0; i < t->tri_count; i++) {
             tri[i] = t->tri[order[i]];
@@ -126,7 +126,7 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
     mw_status status = mw__delaunay_mesh(options->threads, kind == MW_KIND_DELAUNAY, points, n, stride, duplicate_of,
                                          &made.delaunay, &mesh, error);
     if (status == MW_OK) status = kind_convert(kind, mesh, options, &made, error);
-    if (status == MW_OK && !mw__lay_out_vertices(mesh, options->threads)) status = mw__fail_memory(error);
+    if (status == MW_OK && !mw__mesh_lay_out_vertices(mesh, options->threads)) status = mw__fail_memory(error);
     if (status == MW_OK) {
         *out = mesh;
         if (report) *report = made;

@@ -1,0 +1,373 @@
+/* nearest_on_surface.c - finds the point of a surface nearest to a point, by branch and bound on
+ * the BVH.
+ *
+ * All computation uses the differences between q and the corners, not coordinates. So the distance
+ * loses no digits if the surface is far from the origin, or a triangle is much larger than its
+ * distance. A difference of two coordinates is exact, and a product of two differences nearly so
+ * (an `offset`). Only the rest after cancellation is rounded.
+ *
+ * Distances are rounded, but the answer does not depend on the boxes: the rounded distance of a
+ * triangle is at least that of its own box (distance_to_corners_box). So a box at a rounded
+ * distance from q has no triangle at a smaller one, except for the few roundings that REACH_ERROR
+ * covers. */
+#include "probe/prober.h"
+
+/* --- vectors --- */
+
+/* head + tail, where head is the rounded sum. A difference of two points has no error; a product
+ * with one has an error of 2^-100. */
+typedef struct offset {
+    double head[3], tail[3];
+} offset;
+
+static double vector_dot(const double u[3], const double v[3])
+{
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+/* Returns a + b, rounded. *tail becomes the rounding error [Knuth]. */
+static double offset_two_sum(double a, double b, double *tail)
+{
+    double sum = a + b, of_b = sum - a;
+    *tail = (a - (sum - of_b)) + (b - of_b);
+    return sum;
+}
+
+static double offset_two_product(double a, double b, double *tail)
+{
+    double product = a * b;
+    *tail = fma(a, b, -product);
+    return product;
+}
+
+/* (to - from) * scale; the scale is a power of two. */
+static offset offset_between(const double from[3], const double to[3], double scale)
+{
+    offset v;
+    for (int k = 0; k < 3; k++) {
+        v.head[k] = offset_two_sum(to[k], -from[k], &v.tail[k]) * scale;
+        v.tail[k] *= scale;
+    }
+    return v;
+}
+
+/* u x v, off by less than 2^-100 |u| |v|, however much cancels. v x u is exactly the opposite, so
+ * that both triangles at an edge find the same distance to it. */
+static offset offset_cross(const offset *u, const offset *v)
+{
+    offset r;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        double plus_tail, minus_tail, tail;
+        double plus = offset_two_product(u->head[i], v->head[j], &plus_tail);
+        double minus = offset_two_product(u->head[j], v->head[i], &minus_tail);
+        double sum = offset_two_sum(plus, -minus, &tail);
+        tail += plus_tail - minus_tail;
+        tail +=
+            (u->head[i] * v->tail[j] - u->tail[j] * v->head[i]) + (u->tail[i] * v->head[j] - u->head[j] * v->tail[i]);
+        r.head[k] = offset_two_sum(sum, tail, &r.tail[k]);
+    }
+    return r;
+}
+
+/* u . v, off by less than 2^-100 |u| |v| and 2^-52 of itself. */
+static double offset_dot(const offset *u, const offset *v)
+{
+    double sum = 0, tails = 0;
+    for (int k = 0; k < 3; k++) {
+        double of_product, of_sum, product = offset_two_product(u->head[k], v->head[k], &of_product);
+        sum = offset_two_sum(sum, product, &of_sum);
+        tails += of_sum + of_product + (u->head[k] * v->tail[k] + u->tail[k] * v->head[k]);
+    }
+    return sum + tails;
+}
+
+/* sqrt(x x + y y + z z), off by less than 2^-50 of itself. */
+static double vector_length(double x, double y, double z)
+{
+    double square = x * x + y * y + z * z;
+    return square > 0x1p-900 && square < 0x1p1000 ? sqrt(square) : hypot(hypot(x, y), z);
+}
+
+/* --- the nearest point of a triangle --- */
+
+/* A triangle as seen from q, in a unit of about its size: the distance of its farthest corner. An
+ * edge shorter than SHORT_EDGE counts as its ends, and a triangle with less height than
+ * LEAST_HEIGHT of its longest edge as its edges. This costs less than 2^-50 of the size. For all
+ * others the 2^-100 of products does not matter. */
+typedef struct triangle_view {
+    /* Lengths are scaled by both, powers of two; `before` keeps them in range. */
+    double before, after;
+    double q[3];               /* scaled by `before` */
+    offset corner[3], edge[3]; /* corners from q; edge k starts at corner k */
+    double square[3];          /* squared lengths of the edges */
+} triangle_view;
+
+#define SHORT_EDGE 0x1p-50
+#define LEAST_HEIGHT 0x1p-51
+/* Of the longest edge: the square of its square, and of an area, does not underflow. */
+#define LEAST_SQUARE 0x1p-450
+
+/* A point of the triangle: its weights, and its position from q in the unit of the view. */
+typedef struct nearest_candidate {
+    double weight[3], away[3];
+} nearest_candidate;
+
+static double larger_value(double x, double y)
+{
+    return x > y ? x : y;
+}
+
+static double largest_coordinate(const mw_corners corner, const double q[3])
+{
+    double largest = 0;
+    for (int k = 0; k < 3; k++) {
+        largest = larger_value(largest, fabs(q[k]));
+        for (int i = 0; i < 3; i++) largest = larger_value(largest, fabs(corner[i][k]));
+    }
+    return largest;
+}
+
+static void triangle_view_from(triangle_view *v, const double q[3], const mw_corners corner)
+{
+    double at[3][3], size = 0;
+    v->before = largest_coordinate(corner, q) < 0x1p920 ? 0x1p100 : 0x1p-4;
+    for (int k = 0; k < 3; k++) {
+        v->q[k] = q[k] * v->before;
+        for (int i = 0; i < 3; i++) {
+            at[i][k] = corner[i][k] * v->before;
+            size = larger_value(size, fabs(at[i][k] - v->q[k]));
+        }
+    }
+    v->after = size > 0 ? ldexp(1, -ilogb(size)) : 1;
+    for (int i = 0; i < 3; i++) {
+        v->corner[i] = offset_between(v->q, at[i], v->after);
+        v->edge[i] = offset_between(at[i], at[(i + 1) % 3], v->after);
+        v->square[i] = vector_dot(v->edge[i].head, v->edge[i].head);
+    }
+}
+
+static nearest_candidate nearest_on_corner(const triangle_view *v, int i)
+{
+    const double *p = v->corner[i].head;
+    nearest_candidate c = {.away = {p[0], p[1], p[2]}};
+    c.weight[i] = 1;
+    return c;
+}
+
+/* The position of the foot of the perpendicular on an edge from p, 0 to 1. An end if it lies
+ * beyond, or the edge is short. */
+static double foot_along_edge(const triangle_view *v, int i)
+{
+    double square = v->square[i], along = -vector_dot(v->corner[i].head, v->edge[i].head) / square;
+    if (square > SHORT_EDGE * SHORT_EDGE) return along > 0 ? along < 1 ? along : 1 : 0;
+    return along < 0.5 ? 0 : 1;
+}
+
+/* The foot: p without its part along e is e x (p x r) / |e|^2, where r is the other end. */
+static nearest_candidate nearest_on_edge(const triangle_view *v, int i, double along)
+{
+    int j = (i + 1) % 3;
+    if (along == 0 || along == 1) return nearest_on_corner(v, along == 0 ? i : j);
+    const double *e = v->edge[i].head;
+    offset m = offset_cross(&v->corner[i], &v->corner[j]);
+    nearest_candidate c = {.weight = {0}};
+    c.weight[i] = 1 - along;
+    c.weight[j] = along;
+    for (int k = 0; k < 3; k++) {
+        int x = (k + 1) % 3, y = (k + 2) % 3;
+        c.away[k] = (e[x] * m.head[y] - e[y] * m.head[x]) / v->square[i];
+    }
+    return c;
+}
+
+/* Rounded points decide which edge is nearest. An edge that is wrongly chosen is farther by a few
+ * roundings of the size. */
+static nearest_candidate nearest_on_edges(const triangle_view *v)
+{
+    double least = INFINITY, along = 0;
+    int nearest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *p = v->corner[i].head, *e = v->edge[i].head;
+        double t = foot_along_edge(v, i), away[3] = {p[0] + t * e[0], p[1] + t * e[1], p[2] + t * e[2]};
+        double square = vector_dot(away, away);
+        if (square >= least) continue;
+        least = square;
+        nearest = i;
+        along = t;
+    }
+    return nearest_on_edge(v, nearest, along);
+}
+
+/* The foot of the perpendicular on the plane, if it lies inside the triangle. It is found along the
+ * longest edge e, and along `up` = n x e, which is perpendicular to e and |e|^2 times as long as
+ * the height. In a thin triangle only n tells the direction of `up`, and n is as good as the
+ * coordinates allow. So the foot is off by a few roundings of the size, however thin the triangle
+ * is. */
+static bool nearest_on_face(const triangle_view *v, nearest_candidate *c)
+{
+    const double *square = v->square;
+    int i = square[0] >= square[1] ? square[0] >= square[2] ? 0 : 2 : square[1] >= square[2] ? 1 : 2;
+    int j = (i + 1) % 3, apex = (i + 2) % 3;
+    const double *e = v->edge[i].head, *back = v->edge[apex].head;
+    offset normal = offset_cross(&v->edge[apex], &v->edge[i]);
+    const double *n = normal.head, *p = v->corner[i].head;
+    double square_n = vector_dot(n, n), least = LEAST_HEIGHT * square[i];
+    if (!(square[i] > LEAST_SQUARE && square_n > least * least)) return false;
+    double up[3] = {n[1] * e[2] - n[2] * e[1], n[2] * e[0] - n[0] * e[2], n[0] * e[1] - n[1] * e[0]};
+    double height = -vector_dot(p, up) / square_n, slope = -vector_dot(back, e) / square[i];
+    double along = -vector_dot(p, e) / square[i] - slope * height;
+    if (!(height > 0 && along > 0 && height + along < 1)) return false;
+    double times = offset_dot(&normal, &v->corner[i]) / square_n;
+    *c = (nearest_candidate){.away = {n[0] * times, n[1] * times, n[2] * times}};
+    c->weight[i] = 1 - along - height;
+    c->weight[j] = along;
+    c->weight[apex] = height;
+    return true;
+}
+
+static void corners_box(const mw_corners corner, int k, double *low, double *high)
+{
+    double x = corner[0][k], y = corner[1][k], z = corner[2][k];
+    *low = x < y ? x : y;
+    *high = x < y ? y : x;
+    *low = z < *low ? z : *low;
+    *high = z > *high ? z : *high;
+}
+
+/* The distance of q from the box of a triangle. */
+static double distance_to_corners_box(const mw_corners corner, const double q[3])
+{
+    double away[3], low, high;
+    for (int k = 0; k < 3; k++) {
+        corners_box(corner, k, &low, &high);
+        away[k] = q[k] < low ? low - q[k] : q[k] > high ? q[k] - high : 0;
+    }
+    return vector_length(away[0], away[1], away[2]);
+}
+
+/* The point of a candidate: a corner exactly; else q and the vector from q, clamped to the box of
+ * the triangle. */
+static void candidate_point(double point[3], const nearest_candidate *c, const triangle_view *v,
+                            const mw_corners corner)
+{
+    for (int k = 0; k < 3; k++) {
+        double low, high, at = (v->q[k] + c->away[k] / v->after) / v->before;
+        corners_box(corner, k, &low, &high);
+        point[k] = at < low ? low : at > high ? high : at;
+        for (int i = 0; i < 3; i++)
+            if (c->weight[i] == 1) point[k] = corner[i][k];
+    }
+}
+
+/* `least` is the distance of the box of the triangle. */
+static mw_nearest_surface_point nearest_of_triangle(const mw_corners corner, const double q[3], double least)
+{
+    triangle_view v;
+    triangle_view_from(&v, q, corner);
+    nearest_candidate c;
+    if (!nearest_on_face(&v, &c)) c = nearest_on_edges(&v);
+    double distance = vector_length(c.away[0], c.away[1], c.away[2]) / v.after / v.before;
+    mw_nearest_surface_point hit = {.distance = larger_value(distance, least),
+                                    .weight = {c.weight[0], c.weight[1], c.weight[2]}};
+    candidate_point(hit.point, &c, &v, corner);
+    return hit;
+}
+
+/* --- the search --- */
+
+/* Bounds are in the frame of the BVH and rounded as for lines (probe_certain.c). The distance of a
+ * box of either kind is off by less than 2^-48 of itself. */
+#define REACH_ERROR (1 + 0x1p-40)
+
+typedef struct nearest_search {
+    const mw_prober *prober;
+    const double *point;
+    double q[3], width, reach; /* in the frame */
+    double max_distance;
+    mw_nearest_surface_point nearest;
+} nearest_search;
+
+static void nearest_set_reach(nearest_search *s, double distance)
+{
+    double scale = s->prober->bvh.scale;
+    s->reach = (distance + MW_BVH_TINY_LENGTH) * scale * REACH_ERROR + MW_BVH_LEAST_WIDTH;
+}
+
+/* A lower bound of the distance of q to everything in a box. */
+static double bvh_box_distance(const nearest_search *s, const mw_bvh_box *box)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        double below = (double)box->low[k] - s->q[k], above = s->q[k] - (double)box->high[k];
+        double away = (below > above ? below : above) - s->width;
+        if (away > 0) square += away * away;
+    }
+    return sqrt(square);
+}
+
+static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
+{
+    const mw_surface *surface = s->prober->surface;
+    if (!mw__corners_finite(surface, t)) return;
+    const mw_corners corner = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
+                               mw__surface_corner(surface, t, 2)};
+    double least = distance_to_corners_box(corner, s->point);
+    if (least > fmin(s->nearest.distance, s->max_distance)) return;
+    mw_nearest_surface_point hit = nearest_of_triangle(corner, s->point, least);
+    if (hit.distance > s->max_distance || hit.distance > s->nearest.distance) return;
+    if (hit.distance == s->nearest.distance && t >= s->nearest.triangle) return;
+    if (mw__collinear3(corner[0], corner[1], corner[2])) return;
+    s->nearest = hit;
+    s->nearest.triangle = t;
+    nearest_set_reach(s, hit.distance);
+}
+
+static void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, mw_bvh_visit visit)
+{
+    const mw_bvh *bvh = &s->prober->bvh;
+    uint32_t first, end = mw__bvh_children(bvh, visit.level, visit.box, &first), floor = stack->count;
+    if (visit.level == 0) {
+        for (uint32_t i = first; i < end; i++) nearest_look_at_triangle(s, mw__bvh_triangle(bvh, i));
+        return;
+    }
+    mw_bvh_visit below = {0, visit.level - 1, 0};
+    for (below.box = first; below.box < end; below.box++) {
+        below.near = bvh_box_distance(s, mw__bvh_box_at(bvh, below.level, below.box));
+        if (below.near <= s->reach) mw__bvh_push(stack, floor, below);
+    }
+}
+
+static void nearest_search_bvh(nearest_search *s)
+{
+    const mw_prober *prober = s->prober;
+    s->width = mw__bvh_aim(&prober->bvh, s->point, prober->slack, s->q);
+    nearest_set_reach(s, s->max_distance);
+    mw_bvh_stack stack = {.count = 1, .visit[0] = {0, prober->bvh.level_count - 1, 0}};
+    while (stack.count) {
+        mw_bvh_visit visit = stack.visit[--stack.count];
+        if (visit.near <= s->reach) nearest_look_into(s, &stack, visit);
+    }
+}
+
+mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
+                                mw_nearest_surface_point *hit, mw_error *error)
+{
+    if (!prober || !point || !hit) return mw__fail(error, MW_ERROR_ARGUMENT, "no prober, no point or no place for it");
+    *hit = (mw_nearest_surface_point){MW_NONE, NAN, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
+    if (!prober->has_bvh)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest point needs a prober with options.boxes");
+    if (!(max_distance >= 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
+    if (!mw__is_finite3(point)) return MW_OK;
+    nearest_search s = {.prober = prober,
+                        .point = point,
+                        .max_distance = max_distance,
+                        .nearest = {.triangle = MW_NONE, .distance = INFINITY}};
+    mw__surface_read_lock(prober->surface);
+    bool current = prober->version == prober->surface->version;
+    if (current) nearest_search_bvh(&s);
+    mw__surface_read_unlock(prober->surface);
+    if (!current) return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
+    if (s.nearest.triangle != MW_NONE) *hit = s.nearest;
+    return MW_OK;
+}

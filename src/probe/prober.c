@@ -1,0 +1,95 @@
+/* prober.c - a surface prepared for probes, and its BVH, which follows the surface when it moves.
+ *
+ * As long as the vertices are known to have moved little, the boxes stay as they are: if no vertex
+ * has moved farther than `slack` since they were fitted, boxes that are widened by `slack` on all
+ * sides still contain their triangles. */
+#include "probe/prober.h"
+
+#include "base/clock.h"
+
+#include <stdlib.h>
+
+/* Boxes widened by a quarter of their edges on both sides have 1.5 times the edges, and 2.25 times
+ * as many lines meet them. Beyond that, fitting them again pays after few queries. */
+#define SLACK_LIMIT 0.25
+
+static void prober_fit(mw_prober *prober, uint32_t threads)
+{
+    double start = mw__seconds();
+    mw__bvh_fit(&prober->bvh, prober->surface, threads);
+    prober->fit_seconds = mw__seconds() - start;
+    prober->fits++;
+    prober->slack = 0;
+    prober->slack_limit = SLACK_LIMIT * mw__bvh_leaf_size(&prober->bvh);
+}
+
+/* The spread of a sample of corners. It is only a guide: overflow, or a growing surface, makes
+ * choices worse, but not answers. */
+static double prober_measure_spread(const mw_surface *surface)
+{
+    enum { CORNERS = 256 };
+    uint32_t stride = surface->tri_count / CORNERS + 1, count = 0;
+    double sum[3] = {0, 0, 0}, squares = 0;
+    for (uint32_t t = 0; t < surface->tri_count; t += stride) {
+        const double *p = mw__surface_corner(surface, t, 0), *origin = mw__surface_corner(surface, 0, 0);
+        if (!mw__is_finite3(p) || !mw__is_finite3(origin)) continue;
+        for (int k = 0; k < 3; k++) {
+            double x = p[k] - origin[k];
+            sum[k] += x;
+            squares += x * x;
+        }
+        count++;
+    }
+    double mean2 = count ? (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count : 0;
+    return count ? (squares - mean2) / count : 0;
+}
+
+mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options, mw_prober **out,
+                           mw_error *error)
+{
+    static const mw_prober_options defaults;
+    if (!options) options = &defaults;
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the prober");
+    *out = NULL;
+    if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
+    if (surface->tri_count == 0) return mw__fail(error, MW_ERROR_INPUT, "the surface has no triangle");
+    mw_prober *prober = mw__calloc(1, sizeof *prober);
+    if (!prober) return mw__fail_memory(error);
+    prober->surface = surface;
+    prober->version = surface->version;
+    prober->has_bvh = options->boxes != 0;
+    prober->spread2 = prober_measure_spread(surface);
+    if (prober->has_bvh) {
+        if (!mw__bvh_create(&prober->bvh, surface)) {
+            mw_prober_destroy(prober);
+            return mw__fail_memory(error);
+        }
+        prober_fit(prober, 0);
+    }
+    *out = prober;
+    return MW_OK;
+}
+
+void mw_prober_destroy(mw_prober *prober)
+{
+    if (!prober) return;
+    mw__bvh_release(&prober->bvh);
+    free(prober);
+}
+
+void mw_prober_update(mw_prober *prober, double moved, uint32_t threads)
+{
+    /* if a version is missing, its movement is not known */
+    bool known = moved >= 0 && isfinite(moved) && prober->surface->version - prober->version <= 1;
+    prober->version = prober->surface->version;
+    if (!prober->has_bvh) return;
+    if (known && moved > 0) prober->slack = nextafter(prober->slack + moved, INFINITY);
+    if (!known || prober->slack > prober->slack_limit) prober_fit(prober, threads);
+}
+
+void mw_prober_describe(const mw_prober *prober, mw_prober_info *info)
+{
+    *info = (mw_prober_info){.bytes = sizeof *prober, .fits = prober->fits, .fit_seconds = prober->fit_seconds};
+    if (prober->has_bvh) info->box_bytes = mw__bvh_bytes(&prober->bvh);
+    info->bytes += info->box_bytes;
+}

@@ -1,0 +1,68 @@
+/* prober.h - the prober, and what the files of this room share. Private.
+ *
+ * probe_touch.c decides what a line touches. plane_walk.c and probe_race.c walk over the surface
+ * [thesis App. G]. probe_certain.c searches the BVH. probe.c is the query. */
+#ifndef MW_SRC_PROBER_H
+#define MW_SRC_PROBER_H
+
+#include "surface/surface.h"
+#include "predicates/line.h"
+#include "probe/bvh.h"
+
+#include <meshwalk/probe.h>
+
+struct mw_prober {
+    const mw_surface *surface;
+    mw_bvh bvh;
+    bool has_bvh;
+    /* About the mean squared distance of the vertices from their mean, when created. */
+    double spread2;
+    uint64_t version;   /* version of the surface that the BVH is valid for */
+    double slack;       /* boxes are widened by this */
+    double slack_limit; /* beyond this they are fitted again */
+    uint64_t fits;
+    double fit_seconds;
+};
+
+/* --- probe_touch.c --- */
+
+/* Does the line touch the triangle, at any distance: does it meet the triangle, and does m point at
+ * its front? Exact. False for a triangle with a vertex that is not finite. */
+bool mw__line_touches(const mw_surface *surface, const mw_line *line, uint32_t triangle);
+
+/* Does the line meet the triangle, from either side? */
+bool mw__line_meets(const mw_surface *surface, const mw_line *line, uint32_t triangle);
+
+/* Is the touch of a triangle at most d away? Exact. d may be infinite. */
+bool mw__touch_in_reach(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d);
+
+/* Of two triangles that are touched, is s the better answer: nearer, or equally near with the lower
+ * number? Exact. */
+bool mw__touch_is_better(const mw_surface *surface, const mw_line *line, uint32_t s, uint32_t t);
+
+/* The lowest-numbered of the triangles touched at the point where `triangle` is, among those linked
+ * there. */
+uint32_t mw__lowest_touched(const mw_surface *surface, const mw_line *line, uint32_t triangle);
+
+/* The answer for a triangle that is touched, and the answer for none: MW_TOUCH_NONE, _LIMIT,
+ * _BAD. */
+mw_touch mw__touch_of(const mw_surface *surface, const mw_line *line, uint32_t triangle);
+mw_touch mw__touch_none(mw_touch_state state);
+
+/* The answer for the lowest-numbered of the triangles touched at the point where `triangle` is. */
+mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uint32_t triangle);
+
+/* Is the triangle touched in its interior, at most d away, and are doubles sure of it? Then *touch
+ * becomes the answer. */
+bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d,
+                             mw_touch *touch);
+
+/* --- probe_certain.c --- */
+
+/* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and
+ * complete. `seed`: a triangle known to be touched in reach, or MW_NONE. Counts in *counters,
+ * unless that is NULL. The BVH must be up to date. */
+uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance, uint32_t seed,
+                           mw_probe_counters *counters);
+
+#endif

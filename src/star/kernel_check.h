@@ -1,0 +1,23 @@
+/* kernel_check.h - is a surface a polyhedron that is star-shaped about a centre, and if not, where?
+ * Private.
+ *
+ * It is star-shaped if three conditions hold. It is closed: each edge joins two facets, and welded
+ * vertices still coincide. Its facets can be oriented so that neighbours agree and the centre lies
+ * strictly behind each of them. One ray from the centre meets only one facet. Then the projection
+ * of the facets onto a sphere round the centre is a closed surface with the same orientation
+ * everywhere. So every ray off the edges meets the same number of facets: one. Facets without area
+ * project to nothing. Facets with two coincident corners are not linked and do not count at all.
+ * All tests are exact, and take O(n) together. */
+#ifndef MW_SRC_KERNEL_CHECK_H
+#define MW_SRC_KERNEL_CHECK_H
+
+#include "mesh/defect.h"
+#include "star/star.h"
+
+/* Decide whether the surface is star-shaped, and orient star->tri, which holds its triangles, as
+ * star.h says. Sets star->area_count. Adds all defects to *defects; that of the ray
+ * (MW_DEFECT_COVERED) only if there is no other. Without any, the surface is star-shaped. Returns
+ * false when out of memory. */
+bool mw__star_kernel_check(mw_star *star, mw_defects *defects);
+
+#endif

@@ -1,0 +1,117 @@
+/* star_layout.c - the order and form in which walks read facets.
+ *
+ * The order is along a Hilbert curve over the sphere, which an octahedron unfolds to a square. So
+ * the facets that a walk visits are close in memory, whatever the user's order, and so are the
+ * walks of queries sorted along the same curve. A guide tells where in this order a section of the
+ * curve begins: 1 to 2 bytes a facet. The form has the three planes that bound the cone of a facet,
+ * so that a step reads one cache line and no vertex. */
+#include "base/hilbert.h"
+#include "star/star.h"
+
+#include <stdlib.h>
+
+/* --- order --- */
+
+/* The key of the direction to the middle of a facet. The direction is rounded, and halved so that
+ * it does not overflow. */
+static uint32_t facet_curve_key(const mw_hilbert *hilbert, const mw_star *star, const mw_triangle *t)
+{
+    double d[3], x, y;
+    for (int k = 0; k < 3; k++) {
+        double middle = mw__star_corner_point(star, t->v, 0)[k] / 6 + mw__star_corner_point(star, t->v, 1)[k] / 6 +
+                        mw__star_corner_point(star, t->v, 2)[k] / 6;
+        d[k] = middle - star->centre[k] / 2;
+    }
+    mw__star_unfold(d, &x, &y);
+    return mw__hilbert_key(hilbert, x, y);
+}
+
+static void facets_sort(const mw_star *star, mw_key *keys, mw_key *scratch)
+{
+    static const double low[2] = {-1, -1}, high[2] = {1, 1};
+    mw_hilbert hilbert = mw__hilbert(low, high);
+    for (uint32_t t = 0; t < star->tri_count; t++)
+        keys[t] = (mw_key){facet_curve_key(&hilbert, star, &star->tri[t]), t};
+    mw__sort_keys(keys, scratch, star->tri_count);
+}
+
+/* --- form --- */
+
+/* If a factor is off by u = 2^-53 of itself, a component of the normal (a - c) x (b - c) is off by
+ * 4u of its sum of magnitudes. So the normal is off by less than 2^-49 |a - c| |b - c|. If it is at
+ * least LEAST_SINE times that product, the error is less than 2^-26 of it. If it is shorter, or
+ * lengths are SHORT or LONG, which might underflow or overflow, the normal becomes 0, which is
+ * never sure of a side. */
+#define LEAST_SINE 0x1p-23
+#define SHORT 0x1p-200
+#define LONG 0x1p200
+
+static double layout_vector_length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static void facet_set_normal(const mw_star *star, const double *p, const double *q, float normal[3])
+{
+    double a[3], b[3], n[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = p[k] - star->centre[k];
+        b[k] = q[k] - star->centre[k];
+        normal[k] = 0;
+    }
+    for (uint32_t k = 0; k < 3; k++) n[k] = a[mw__next(k)] * b[mw__prev(k)] - a[mw__prev(k)] * b[mw__next(k)];
+    double from = layout_vector_length(a), to = layout_vector_length(b), size = layout_vector_length(n);
+    bool ordinary = from > SHORT && from < LONG && to > SHORT && to < LONG;
+    if (!ordinary || !(size > LEAST_SINE * from * to)) return;
+    for (int k = 0; k < 3; k++) normal[k] = (float)(n[k] / size);
+}
+
+static bool facet_is_altered(const uint32_t v[3], const mw_triangle *given)
+{
+    return v[0] != given->v[0] || v[1] != given->v[1] || v[2] != given->v[2];
+}
+
+/* Make facet t. slot[i] is the slot of facet i of the user's order. */
+static mw_star_facet facet_make(const mw_star *star, const mw_triangle *t, const uint32_t *slot)
+{
+    mw_star_facet facet = {.user = t->user & MW_USER_MASK};
+    for (uint32_t k = 0; k < 3; k++) {
+        facet.v[k] = t->v[k];
+        facet.link[k] = mw__link(slot[mw__link_triangle(t->link[k])], mw__link_edge(t->link[k]));
+        facet_set_normal(star, mw__star_corner_point(star, t->v, k), mw__star_corner_point(star, t->v, k + 1),
+                         facet.normal[k]);
+    }
+    if (facet_is_altered(facet.v, &star->surface->tri[facet.user])) facet.user |= MW_FACET_ALTERED;
+    return facet;
+}
+
+/* --- guide --- */
+
+/* For each section of the curve, enter the middle one of its facets; if it has none, the next
+ * facet. */
+static void star_fill_guide(mw_star *star, const mw_key *keys)
+{
+    uint32_t parts = UINT32_C(1) << star->guide_bits, shift = 32 - star->guide_bits, end = 0;
+    for (uint32_t i = 0; i < parts; i++) {
+        uint32_t first = end;
+        while (end < star->tri_count && keys[end].key >> shift == i) end++;
+        uint32_t middle = first + (end - first) / 2;
+        star->guide[i] = middle < star->tri_count ? middle : star->tri_count - 1;
+    }
+}
+
+bool mw__star_lay_out(mw_star *star)
+{
+    uint32_t n = star->tri_count, *slot = mw__alloc(n, sizeof *slot);
+    mw_key *keys = mw__alloc(2 * (size_t)n, sizeof *keys);
+    bool done = slot && keys;
+    if (done) {
+        facets_sort(star, keys, keys + n);
+        for (uint32_t i = 0; i < n; i++) slot[keys[i].item] = i;
+        for (uint32_t i = 0; i < n; i++) star->facet[i] = facet_make(star, &star->tri[keys[i].item], slot);
+        star_fill_guide(star, keys);
+    }
+    free(slot);
+    free(keys);
+    return done;
+}
