@@ -1,6 +1,7 @@
 /* fuzz_edit.c - a small mesh and a stream of edits, undos and queries from the input. What each edit has to do is predicted by brute
  * force, its report is taken over into a twin, and the editor has to agree with that after each step. Places are on a small lattice, so
  * that they meet edges, vertices, lines and circles often. */
+#include "oracle/edit_open.h"
 #include "oracle/edit_apply.h"
 
 #include <math.h>

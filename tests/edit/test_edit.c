@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "oracle/edit_open.h"
 #include "oracle/edit_apply.h"
 #include "support/meshes.h"
 

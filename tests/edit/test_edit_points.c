@@ -15,6 +15,7 @@
 
 #include "base/random.h"
 #include "edit/editor.h"
+#include "oracle/edit_open.h"
 #include "oracle/edit_apply.h"
 #include "support/allocations.h"
 #include "support/environment.h"

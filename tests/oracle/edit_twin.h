@@ -48,17 +48,11 @@ typedef struct twin {
 /* Twins opened while this is true get no fields. */
 extern bool twin_bare;
 
-/* An editor of the mesh, which the twin then owns, and its twin. Gives the mesh two fields,
- * unless twin_bare. Reads the constraints of the options, which may be NULL. */
-void twin_open(twin *t, mw_mesh *mesh, const mw_editor_options *options);
 void twin_close(twin *t);
 
 /* How things stand, to compare with after an undo. Shares the editor and the first mesh;
  * twin_close frees the rest. */
 twin twin_copy(const twin *t);
-
-/* Gives a mesh the fields that twins have. */
-void twin_set_fields(mw_mesh *mesh);
 
 /* --- what is there ---------------------------------------------------------------------------- */
 
