@@ -75,7 +75,7 @@ static bool star_contains(const star_polygon *s, const double p[2])
     return mw_orient2d(s->corner + 2 * k, s->corner + 2 * ((k + 1) % s->count), p) > 0;
 }
 
-static double cross(const double a[2], const double b[2], const double c[2])
+static double turn_of(const double a[2], const double b[2], const double c[2])
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
@@ -83,7 +83,7 @@ static double cross(const double a[2], const double b[2], const double c[2])
 static double polygon_area(const double *corner, size_t count)
 {
     double sum = 0;
-    for (size_t k = 1; k + 1 < count; k++) sum += cross(corner, corner + 2 * k, corner + 2 * (k + 1)) / 2;
+    for (size_t k = 1; k + 1 < count; k++) sum += turn_of(corner, corner + 2 * k, corner + 2 * (k + 1)) / 2;
     return sum;
 }
 
@@ -97,7 +97,7 @@ static double star_hull_area(const star_polygon *s, double *hull)
             first = k;
     for (size_t k = 0; k <= s->count; k++) {
         const double *next = s->corner + 2 * ((first + k) % s->count);
-        while (count > 1 && cross(hull + 2 * (count - 2), hull + 2 * (count - 1), next) <= 0) count--;
+        while (count > 1 && turn_of(hull + 2 * (count - 2), hull + 2 * (count - 1), next) <= 0) count--;
         memcpy(hull + 2 * count++, next, 2 * sizeof *next);
     }
     return polygon_area(hull, count);

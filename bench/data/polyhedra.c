@@ -27,21 +27,21 @@ void polyhedron_direction(double direction[3], uint64_t *random)
     direction[2] = z;
 }
 
-static double dot(const double a[3], const double b[3])
+static double vector_dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void cross(const double a[3], const double b[3], double c[3])
+static void vector_cross3(const double a[3], const double b[3], double c[3])
 {
     c[0] = a[1] * b[2] - a[2] * b[1];
     c[1] = a[2] * b[0] - a[0] * b[2];
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static void normalise(double a[3])
+static void vector_normalise(double a[3])
 {
-    double length = sqrt(dot(a, a));
+    double length = sqrt(vector_dot3(a, a));
     for (size_t k = 0; k < 3; k++) a[k] /= length;
 }
 
@@ -89,7 +89,7 @@ static void polyhedron_begin_icosahedron(polyhedron *p)
     memcpy(p->triangles, facets, sizeof facets);
     p->point_count = 12;
     p->triangle_count = 20;
-    for (size_t i = 0; i < 12; i++) normalise(p->points + 3 * i);
+    for (size_t i = 0; i < 12; i++) vector_normalise(p->points + 3 * i);
 }
 
 /* The middles of edges, by the lower-numbered end of an edge, which at most six meet. */
@@ -105,7 +105,7 @@ static uint32_t middle_of(polyhedron *p, edge_middles *known, uint32_t a, uint32
     if (known[low][i].other == 0) {
         double *m = p->points + 3 * p->point_count;
         for (size_t k = 0; k < 3; k++) m[k] = p->points[3 * (size_t)a + k] + p->points[3 * (size_t)b + k];
-        normalise(m);
+        vector_normalise(m);
         known[low][i].other = high;
         known[low][i].middle = (uint32_t)p->point_count++;
     }
@@ -151,9 +151,9 @@ static sphere_frame draw_frame(uint64_t *random)
     double other[3];
     polyhedron_direction(f.pole, random);
     polyhedron_direction(other, random);
-    cross(other, f.pole, f.u);
-    normalise(f.u);
-    cross(f.pole, f.u, f.v);
+    vector_cross3(other, f.pole, f.u);
+    vector_normalise(f.u);
+    vector_cross3(f.pole, f.u, f.v);
     return f;
 }
 
@@ -202,9 +202,9 @@ static mw_status polyhedron_make_hull(polyhedron *p, size_t n, uint64_t *random,
         polyhedron_draw_points(p, &f, random);
         for (size_t i = 1; i < n; i++) {
             const double *q = p->points + 3 * i;
-            double height = 1 - dot(q, f.pole);
-            seen[2 * (i - 1)] = dot(q, f.u) / height;
-            seen[2 * (i - 1) + 1] = dot(q, f.v) / height;
+            double height = 1 - vector_dot3(q, f.pole);
+            seen[2 * (i - 1)] = vector_dot3(q, f.u) / height;
+            seen[2 * (i - 1) + 1] = vector_dot3(q, f.v) / height;
         }
         status = mw_delaunay(seen, n - 1, 2, NULL, NULL, NULL, &plane, error);
     }
@@ -237,7 +237,7 @@ static void polyhedron_wave(polyhedron *p, uint64_t *random)
     }
     for (size_t i = 0; i < p->point_count; i++) {
         double sum = 0;
-        for (size_t w = 0; w < WAVES; w++) sum += cos(dot(way[w], p->points + 3 * i) + phase[w]);
+        for (size_t w = 0; w < WAVES; w++) sum += cos(vector_dot3(way[w], p->points + 3 * i) + phase[w]);
         scale_vector(p->points + 3 * i, exp(0.15 * sum));
     }
 }
@@ -254,8 +254,8 @@ static void knot_point(double t, double s, double point[3])
     double out[3] = {c * cos(2 * t), c * sin(2 * t), z}, side[3];
     double along[3] = {-3 * z * cos(2 * t) - 2 * radius * sin(2 * t), -3 * z * sin(2 * t) + 2 * radius * cos(2 * t),
                        3 * c};
-    normalise(along);
-    cross(along, out, side);
+    vector_normalise(along);
+    vector_cross3(along, out, side);
     double girth = GIRTH * (1 + 0.2 * sin(20 * t) * cos(3 * s));
     const double centre[3] = {radius * cos(2 * t), radius * sin(2 * t), z};
     for (size_t k = 0; k < 3; k++) point[k] = centre[k] + girth * (cos(s) * out[k] + sin(s) * side[k]);

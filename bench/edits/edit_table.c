@@ -27,7 +27,7 @@ static const char *const names[COLUMNS] = {"task", "dataset",   "vertices", "edi
                                            "ns",   "triangles", "bytes",    "wrong", "ratio"};
 #define WIDEST 64
 
-static void print_number(char *cell, int decimals, double value)
+static void edit_table_number(char *cell, int decimals, double value)
 {
     *cell = 0;
     if (!isnan(value)) snprintf(cell, WIDEST, "%.*f", decimals, value);
@@ -38,13 +38,13 @@ static void edit_row_cells(const edit_row *r, char cells[COLUMNS][WIDEST])
     snprintf(cells[0], WIDEST, "%s", edit_task_name(r->task));
     snprintf(cells[1], WIDEST, "%s", r->dataset);
     snprintf(cells[2], WIDEST, "%zu", r->vertices);
-    print_number(cells[3], 0, r->edits);
+    edit_table_number(cells[3], 0, r->edits);
     snprintf(cells[4], WIDEST, "%s", r->name);
-    print_number(cells[5], r->ns < 1000 ? 1 : 0, r->ns);
-    print_number(cells[6], 2, r->triangles);
-    print_number(cells[7], 0, r->bytes);
-    print_number(cells[8], 0, r->wrong);
-    print_number(cells[9], 3, r->ratio);
+    edit_table_number(cells[5], r->ns < 1000 ? 1 : 0, r->ns);
+    edit_table_number(cells[6], 2, r->triangles);
+    edit_table_number(cells[7], 0, r->bytes);
+    edit_table_number(cells[8], 0, r->wrong);
+    edit_table_number(cells[9], 3, r->ratio);
 }
 
 static bool is_text(size_t column)
@@ -52,7 +52,7 @@ static bool is_text(size_t column)
     return column < 2 || column == 4;
 }
 
-static bool is_new_block(const edit_row *rows, size_t i)
+static bool edit_table_is_new_block(const edit_row *rows, size_t i)
 {
     const edit_row *a = &rows[i], *b = &rows[i - 1];
     return a->task != b->task || a->vertices != b->vertices || a->dataset != b->dataset || a->edits != b->edits;
@@ -77,7 +77,7 @@ static void edit_table_print_rows(const edit_table *table, const int *width, tex
     print_cells(names, width, t);
     for (size_t k = 0; k < COLUMNS; k++) row[k] = cells[k];
     for (size_t i = 0; i < table->count; i++) {
-        if (width && i > 0 && is_new_block(table->rows, i)) text_string(t, "\n");
+        if (width && i > 0 && edit_table_is_new_block(table->rows, i)) text_string(t, "\n");
         edit_row_cells(&table->rows[i], cells);
         print_cells(row, width, t);
     }

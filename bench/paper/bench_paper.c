@@ -44,7 +44,7 @@ static int paper_run_made(paper *p, const size_t *sizes)
     }
 }
 
-static const char *base_name(const char *path)
+static const char *paper_base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash && slash[1] ? slash + 1 : path;
@@ -54,7 +54,7 @@ static int paper_run_point_file(paper *p, const char *path)
 {
     dataset data;
     int end = dataset_read(&data, path, paper_encloses(p));
-    walk_trial t = paper_trial(p, base_name(path), &data, true);
+    walk_trial t = paper_trial(p, paper_base_name(path), &data, true);
     if (end == 0) end = paper_measure(p, &t, true);
     dataset_release(&data);
     return end;
@@ -64,9 +64,9 @@ static int paper_run_file(const char *path, void *self)
 {
     paper *p = self;
     switch (p->table->subject) {
-    case PAPER_DOMAINS: return paper_domains_file(p, path, base_name(path));
+    case PAPER_DOMAINS: return paper_domains_file(p, path, paper_base_name(path));
     case PAPER_STARS:
-    case PAPER_SURFACES: return paper_polyhedra_file(p, path, base_name(path));
+    case PAPER_SURFACES: return paper_polyhedra_file(p, path, paper_base_name(path));
     default: return paper_run_point_file(p, path);
     }
 }

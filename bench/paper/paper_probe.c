@@ -66,7 +66,7 @@ static void corners_of(const probe_measurement *s, uint32_t triangle, double cor
     for (size_t k = 0; k < 3; k++) normal[k] = u[(k + 1) % 3] * w[(k + 2) % 3] - u[(k + 2) % 3] * w[(k + 1) % 3];
 }
 
-static double length_of(const double a[3])
+static double motion_length(const double a[3])
 {
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
@@ -74,7 +74,7 @@ static double length_of(const double a[3])
 /* Is the normal a direction? Not so of a triangle without area, or beyond the range of doubles. */
 static bool is_usable(const double normal[3])
 {
-    double length = length_of(normal);
+    double length = motion_length(normal);
     return length > 0 && isfinite(length);
 }
 
@@ -95,7 +95,7 @@ static int probe_measurement_prepare(probe_measurement *s, const mw_surface_info
     double diagonal[3];
     progress_phase("preparing", s->name);
     for (size_t k = 0; k < 3; k++) diagonal[k] = info->high[k] - info->low[k];
-    s->distance = DISTANCE * length_of(diagonal);
+    s->distance = DISTANCE * motion_length(diagonal);
     if (!has_usable(s) || !isfinite(s->distance)) {
         complain("%s: the surface has no area, or one too large for a double", s->name);
         return END_INPUT;
@@ -116,7 +116,7 @@ static void draw_point(probe_measurement *s, double point[3], double normal[3])
     do {
         corners_of(s, (uint32_t)(dataset_unit(&s->random) * count), corner, normal);
     } while (!is_usable(normal));
-    double a = dataset_unit(&s->random), b = dataset_unit(&s->random), length = length_of(normal);
+    double a = dataset_unit(&s->random), b = dataset_unit(&s->random), length = motion_length(normal);
     if (a + b > 1) {
         a = 1 - a;
         b = 1 - b;
@@ -150,7 +150,7 @@ static void draw_query(probe_measurement *s, double query[6])
     for (size_t k = 0; k < 3; k++) query[k] -= before * motion[k];
 }
 
-static mw_probe_options options_of(const probe_measurement *s)
+static mw_probe_options paper_probe_options(const probe_measurement *s)
 {
     return (mw_probe_options){
         .max_distance = s->distance,
@@ -166,7 +166,7 @@ static mw_probe_options options_of(const probe_measurement *s)
 static int probe_measurement_search(probe_measurement *s, const double *queries, size_t n, mw_touch *found)
 {
     mw_error error;
-    mw_probe_options options = options_of(s);
+    mw_probe_options options = paper_probe_options(s);
     options.certain = 1;
     return mw_probe_batch(s->prober, queries, n, 6, &options, found, NULL, &error) == MW_OK
                ? 0
@@ -239,7 +239,7 @@ static void probe_measurement_take_counts(const mw_probe_counters *c, uint32_t s
 static int probe_measurement_count(probe_measurement *s, walk_outcome *o)
 {
     mw_probe_counters sum = {0};
-    mw_probe_options options = options_of(s);
+    mw_probe_options options = paper_probe_options(s);
     uint64_t done = 0, queries = s->paper->queries;
     options.counters = 1;
     progress_phase("counting", s->name);
@@ -266,7 +266,7 @@ static int probe_measurement_time_share(void *self, size_t entry, size_t begin, 
     probe_measurement *s = self;
     mw_error error;
     mw_probe_cursor cursor;
-    mw_probe_options options = options_of(s);
+    mw_probe_options options = paper_probe_options(s);
     options.seed += begin + entry;
     if (mw_probe_cursor_init(s->prober, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
     const double *q = s->queries + 6 * begin;

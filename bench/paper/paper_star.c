@@ -86,7 +86,7 @@ static void star_measurement_draw(star_measurement *s, size_t n)
     }
 }
 
-static mw_star_query_options options_of(const star_measurement *s, size_t i)
+static mw_star_query_options paper_star_options(const star_measurement *s, size_t i)
 {
     return (mw_star_query_options){
         .walk = mw_star_walk_by_name(algorithm_of(s, i)->walk),
@@ -119,7 +119,7 @@ static int star_measurement_count_block(star_measurement *s, size_t n, uint64_t 
         return fail_mesh(s->name, &error);
     for (size_t i = 0; i < s->algorithms; i++) {
         mw_counters counters;
-        mw_star_query_options options = options_of(s, i);
+        mw_star_query_options options = paper_star_options(s, i);
         options.counters = 1;
         options.seed += block; /* other random numbers in each block */
         if (mw_star_locate_batch(s->star, s->queries, n, 3, &options, s->locations, &counters, &error) != MW_OK)
@@ -180,7 +180,7 @@ static int star_measurement_time_share(void *self, size_t i, size_t begin, size_
     star_measurement *s = self;
     mw_error error;
     mw_star_cursor cursor;
-    mw_star_query_options options = options_of(s, i);
+    mw_star_query_options options = paper_star_options(s, i);
     options.seed += begin;
     if (mw_star_cursor_init(s->star, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
     const double *q = s->queries + 3 * begin;

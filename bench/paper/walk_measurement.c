@@ -177,7 +177,7 @@ static int walk_measurement_draw(walk_measurement *s, size_t n)
     return 0;
 }
 
-static mw_query_options options_of(const walk_measurement *s, const algorithm *a, mw_arithmetic arithmetic)
+static mw_query_options walk_options(const walk_measurement *s, const algorithm *a, mw_arithmetic arithmetic)
 {
     return (mw_query_options){
         .walk = mw_walk_by_name(a->walk),
@@ -210,7 +210,7 @@ static int walk_measurement_count_block(walk_measurement *s, size_t n, uint64_t 
     for (size_t i = 0; i < s->algorithms; i++) {
         const algorithm *a = s->trial->algorithms[i];
         mw_counters counters;
-        mw_query_options options = options_of(s, a, MW_EXACT);
+        mw_query_options options = walk_options(s, a, MW_EXACT);
         options.counters = 1;
         options.seed = s->trial->seed + block; /* other random numbers in each block */
         if (mw_locate_batch(locator_for(s, a), s->queries, n, 2, &options, s->locations, &counters, &error) != MW_OK)
@@ -295,7 +295,7 @@ static int walk_measurement_time_share(void *self, size_t entry, size_t begin, s
     mw_cursor cursor;
     const walk_measurement *s = self;
     const algorithm *a = s->trial->algorithms[entry / 2];
-    mw_query_options options = options_of(s, a, entry % 2 ? MW_EXACT : MW_DOUBLE);
+    mw_query_options options = walk_options(s, a, entry % 2 ? MW_EXACT : MW_DOUBLE);
     options.seed = s->trial->seed + begin;
     if (mw_cursor_init(locator_for(s, a), &options, &cursor, &error) != MW_OK) return walk_trial_fail(s->trial, &error);
     const double *q = s->queries + 2 * begin;

@@ -11,7 +11,7 @@ static const char *const names[COLUMNS] = {"task",         "dataset", "vertices"
                                            "ns_per_query", "build_s", "bytes",    "wrong"};
 #define WIDEST 256
 
-static void print_number(char *cell, int decimals, double value)
+static void comparison_number(char *cell, int decimals, double value)
 {
     *cell = 0;
     if (!isnan(value)) snprintf(cell, WIDEST, "%.*f", decimals, value);
@@ -26,10 +26,10 @@ static void comparison_row_cells(const comparison_row *r, char cells[COLUMNS][WI
     snprintf(cells[2], WIDEST, "%zu", r->vertices);
     snprintf(cells[3], WIDEST, "%s", engines[r->engine].name);
     snprintf(cells[4], WIDEST, "%u", r->threads);
-    print_number(cells[5], r->ns_per_query < 100 ? 2 : 1, r->ns_per_query);
-    print_number(cells[6], 6, r->build_seconds);
-    print_number(cells[7], 0, r->bytes);
-    print_number(cells[8], 0, r->wrong);
+    comparison_number(cells[5], r->ns_per_query < 100 ? 2 : 1, r->ns_per_query);
+    comparison_number(cells[6], 6, r->build_seconds);
+    comparison_number(cells[7], 0, r->bytes);
+    comparison_number(cells[8], 0, r->wrong);
 }
 
 static bool is_text(size_t column)
@@ -77,7 +77,7 @@ static void print_aligned(const char *const cells[COLUMNS], const int width[COLU
 }
 
 /* Tasks and sets stand apart. */
-static bool is_new_block(const comparison_row *rows, size_t i)
+static bool comparison_is_new_block(const comparison_row *rows, size_t i)
 {
     const comparison_row *a = &rows[i], *b = &rows[i - 1];
     return a->task != b->task || a->vertices != b->vertices || strcmp(a->dataset, b->dataset) != 0;
@@ -96,7 +96,7 @@ static void comparison_print_table(const comparison_table *table, text *t)
     }
     print_aligned(names, width, t);
     for (size_t i = 0; i < table->count; i++) {
-        if (i > 0 && is_new_block(table->rows, i)) text_string(t, "\n");
+        if (i > 0 && comparison_is_new_block(table->rows, i)) text_string(t, "\n");
         comparison_row_cells(&table->rows[i], cells);
         for (size_t k = 0; k < COLUMNS; k++) row[k] = cells[k];
         print_aligned(row, width, t);

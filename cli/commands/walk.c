@@ -239,7 +239,7 @@ static int ray_point(const walk_settings *s, const char *name, const coordinates
 
 /* The unit vector from the centre towards a point. Halves and the largest coordinate prevent an
  * overflow. */
-static void unit_direction(const double centre[3], const double point[3], double d[3])
+static void ray_unit_direction(const double centre[3], const double point[3], double d[3])
 {
     double largest = 0;
     for (int k = 0; k < 3; k++) {
@@ -299,8 +299,8 @@ static int walk_record_arc(walk_record *w, const mw_star *star, const mw_surface
     double u[3], v[3], d[3];
     if (!walk_record_make_line(w, PARTS + 1)) return fail_memory();
     if (mw_star_cursor_init(star, NULL, &cursor, &error) != MW_OK) return fail_query(&error);
-    unit_direction(centre, from, u);
-    unit_direction(centre, to, v);
+    ray_unit_direction(centre, from, u);
+    ray_unit_direction(centre, to, v);
     double angle = angle_between(u, v), reach = 1;
     bool opposite = angle > acos(-1) - 0x1p-15;
     for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(centre[k]));

@@ -17,7 +17,7 @@ static void outer(const double a[3], const double b[3], double c[3])
 }
 
 /* False for one without length. */
-static bool normalise(double a[3])
+static bool direction_normalise(double a[3])
 {
     double length = sqrt(inner(a, a));
     if (!(length > 1e-150) || !isfinite(length)) return false;
@@ -27,7 +27,7 @@ static bool normalise(double a[3])
 
 /* --- the view ----------------------------------------------------------------------------------------------------- */
 
-static void measure(projection *p)
+static void projection_measure(projection *p)
 {
     const drawing *d = p->d;
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -47,7 +47,7 @@ static void measure(projection *p)
 }
 
 /* A point in the cube. */
-static void place(const projection *p, const double *point, double cube[3])
+static void projection_place(const projection *p, const double *point, double cube[3])
 {
     for (int k = 0; k < 3; k++) cube[k] = (point[k] - p->middle[k]) / p->size;
 }
@@ -55,7 +55,7 @@ static void place(const projection *p, const double *point, double cube[3])
 static void corners(const projection *p, uint32_t triangle, double corner[3][3])
 {
     const uint32_t *v = p->d->triangles + 3 * (size_t)triangle;
-    for (size_t k = 0; k < 3; k++) place(p, p->d->points + 3 * (size_t)v[k], corner[k]);
+    for (size_t k = 0; k < 3; k++) projection_place(p, p->d->points + 3 * (size_t)v[k], corner[k]);
 }
 
 /* Of length 1, on the front; zero where there is no area. */
@@ -68,9 +68,9 @@ static void normal_of(const projection *p, uint32_t triangle, double n[3])
         b[k] = corner[2][k] - corner[0][k];
     }
     outer(a, b, n);
-    if (!normalise(n)) memset(n, 0, 3 * sizeof *n);
+    if (!direction_normalise(n)) memset(n, 0, 3 * sizeof *n);
     if (p->d->view != VIEW_STAR) return;
-    place(p, p->d->centre, c);
+    projection_place(p, p->d->centre, c);
     for (int k = 0; k < 3; k++) a[k] = corner[0][k] - c[k];
     if (inner(a, n) < 0)
         for (int k = 0; k < 3; k++) n[k] = -n[k];
@@ -81,9 +81,9 @@ static void direction_of(const projection *p, uint32_t triangle, double n[3])
 {
     double corner[3][3], c[3];
     corners(p, triangle, corner);
-    place(p, p->d->centre, c);
+    projection_place(p, p->d->centre, c);
     for (int k = 0; k < 3; k++) n[k] = (corner[0][k] + corner[1][k] + corner[2][k]) / 3 - c[k];
-    if (!normalise(n)) memset(n, 0, 3 * sizeof *n);
+    if (!direction_normalise(n)) memset(n, 0, 3 * sizeof *n);
 }
 
 static void look_of(const projection *p, size_t visit, double n[3])
@@ -105,7 +105,7 @@ static void mean_look(const projection *p, double eye[3])
     }
     memcpy(eye, sum, sizeof sum);
     if (count && inner(sum, sum) < 0.09 * (double)count * (double)count) look_of(p, count - 1, eye);
-    if (!normalise(eye)) memcpy(eye, (const double[]){0, 0, 1}, sizeof sum);
+    if (!direction_normalise(eye)) memcpy(eye, (const double[]){0, 0, 1}, sizeof sum);
 }
 
 /* What is up on the page: north on a globe; models have y up more often than z. */
@@ -115,21 +115,21 @@ static void choose_up(const projection *p, const double eye[3], double up[3])
     int first = p->d->view == VIEW_STAR ? 2 : 1, axis = fabs(eye[first]) < 0.9 ? first : 3 - first;
     unit[axis] = 1;
     for (int k = 0; k < 3; k++) up[k] = unit[k] - eye[k] * eye[axis];
-    normalise(up);
+    direction_normalise(up);
 }
 
 /* A probe's line should be seen as a line: where the eye looks along it, step aside. */
 static void step_aside(const projection *p, double eye[3])
 {
     double from[3], to[3], line[3], up[3], side[3];
-    place(p, p->d->line, from);
-    place(p, p->d->line + 3 * (p->d->line_count - 1), to);
+    projection_place(p, p->d->line, from);
+    projection_place(p, p->d->line + 3 * (p->d->line_count - 1), to);
     for (int k = 0; k < 3; k++) line[k] = to[k] - from[k];
-    if (!normalise(line) || fabs(inner(line, eye)) < 0.85) return;
+    if (!direction_normalise(line) || fabs(inner(line, eye)) < 0.85) return;
     choose_up(p, eye, up);
     outer(up, eye, side);
     for (int k = 0; k < 3; k++) eye[k] += 0.55 * side[k] + 0.25 * up[k];
-    normalise(eye);
+    direction_normalise(eye);
 }
 
 static void choose_view(projection *p)
@@ -149,7 +149,7 @@ static void choose_view(projection *p)
 projection projection_make(const drawing *d)
 {
     projection p = {.d = d};
-    measure(&p);
+    projection_measure(&p);
     choose_view(&p);
     return p;
 }
@@ -159,7 +159,7 @@ projection projection_make(const drawing *d)
 page_point projection_at(const projection *p, const double *point)
 {
     double cube[3];
-    place(p, point, cube);
+    projection_place(p, point, cube);
     if (p->d->view == VIEW_PLANE) return (page_point){cube[0], cube[1], 0};
     return (page_point){inner(p->axis[0], cube), inner(p->axis[1], cube), inner(p->axis[2], cube)};
 }
@@ -176,8 +176,8 @@ bool projection_shows(const projection *p, const double *point)
 {
     double c[3], at[3];
     if (p->d->view != VIEW_STAR) return true;
-    place(p, p->d->centre, c);
-    place(p, point, at);
+    projection_place(p, p->d->centre, c);
+    projection_place(p, point, at);
     for (int k = 0; k < 3; k++) at[k] -= c[k];
     return inner(at, p->axis[2]) >= 0;
 }

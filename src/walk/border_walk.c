@@ -121,7 +121,7 @@ static MW_INLINE bool is_farthest(mw_walk *w, mw_point a, mw_point b, mw_policy 
     return is_behind(w, last, (crossed){b, a}, P);
 }
 
-static MW_INLINE bool point_is_between(mw_point a, mw_point q, mw_point b)
+static MW_INLINE bool point_in_box(mw_point a, mw_point q, mw_point b)
 {
     return fmin(a.x, b.x) <= q.x && q.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= q.y && q.y <= fmax(a.y, b.y);
 }
@@ -144,7 +144,7 @@ static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, bool all, mw_pol
     uint32_t half = mw__link(w->t, e);
     if (P.count) w->work->border_edges++;
     if (half < w->lowest) w->lowest = half;
-    if (MW_UNLIKELY(s == 0 && point_is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
+    if (MW_UNLIKELY(s == 0 && point_in_box(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
     if (w->phase == ROUND_LEFT && s <= 0 && comes_back(w, a, b, P)) {
         if (!all) return come_back(w, half, P);
         if (is_farthest(w, a, b, P)) w->farthest = half;

@@ -295,7 +295,7 @@ static void open_box(seeker *s, uint32_t p, uint32_t number)
 }
 
 /* Is b, another point than a and c, on the way from a to c? Exact. */
-static bool point_is_between(mw_point a, mw_point b, mw_point c)
+static bool vertex_is_between(mw_point a, mw_point b, mw_point c)
 {
     return fmin(a.x, c.x) <= b.x && b.x <= fmax(a.x, c.x) && fmin(a.y, c.y) <= b.y && b.y <= fmax(a.y, c.y) &&
            mw__orient2d(a, b, c) == 0;
@@ -310,7 +310,7 @@ static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, d
         mw_point w = s->nearest[i];
         double a = u.x * w.y, b = u.y * w.x, height = fabs(a - b), along = u.x * w.x + u.y * w.y;
         if (height <= LENGTH_MARGIN * (fabs(a) + fabs(b)) + TINY) {
-            if (along > 0 && point_is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
+            if (along > 0 && vertex_is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
             continue;
         }
         bool inside = height < s->tangent * along && height < s->tangent * (square - along - LENGTH_MARGIN * square);

@@ -57,7 +57,7 @@ static mw_triangle *triangle_of(const weigher *w, uint32_t link)
     return &w->t->tri[mw__link_triangle(link)];
 }
 
-static double vertex_side(const weigher *w, uint32_t a, uint32_t b, uint32_t c)
+static double weigher_side(const weigher *w, uint32_t a, uint32_t b, uint32_t c)
 {
     return mw__orient2d(w->t->point[a], w->t->point[b], w->t->point[c]);
 }
@@ -104,7 +104,7 @@ static bool is_too_long(const weigher *w, uint32_t half)
     uint32_t a = mw__half_start(w->t->tri, half), b = mw__half_start(w->t->tri, twin);
     uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)), q = mw__half_start(w->t->tri, mw__half_prev(twin));
     return mw__surely_longer(mw__square(&w->points, a, b), mw__square(&w->points, p, q)) &&
-           vertex_side(w, p, a, q) > 0 && vertex_side(w, q, b, p) > 0;
+           weigher_side(w, p, a, q) > 0 && weigher_side(w, q, b, p) > 0;
 }
 
 enum { ALL_EDGES = 7, OUTER_EDGES = 6, ON_STACK = 8 };
@@ -153,8 +153,8 @@ static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *step
     bool clockwise = false;
     do {
         ++*steps;
-        if (vertex_side(w, u, mw__half_start(w->t->tri, mw__half_next(half)), v) > 0 &&
-            vertex_side(w, u, mw__half_start(w->t->tri, mw__half_prev(half)), v) < 0)
+        if (weigher_side(w, u, mw__half_start(w->t->tri, mw__half_next(half)), v) > 0 &&
+            weigher_side(w, u, mw__half_start(w->t->tri, mw__half_prev(half)), v) < 0)
             return half;
         uint32_t beyond = clockwise ? mw__half_link(w->t->tri, half) : mw__half_link(w->t->tri, mw__half_prev(half));
         if (beyond == MW_NONE && !clockwise) { /* the hull: turn the other way from the beginning */
@@ -184,7 +184,7 @@ static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking,
             way->to = mw__half_prev(twin);
             return true;
         }
-        double turn = vertex_side(w, u, v, apex);
+        double turn = weigher_side(w, u, v, apex);
         if (turn == 0) return false;
         half = turn > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
@@ -334,7 +334,7 @@ static bool stays_inside(const weigher *w, const crossing *way)
     for (uint32_t half = mw__half_next(way->from); has_mark(w, half);) {
         uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (apex == v) return true;
-        half = vertex_side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
+        half = weigher_side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
     return false;
 }
