@@ -442,7 +442,7 @@ static void insert_within(mw_editor *editor, double x, double y, double side, ui
 }
 
 /* A cursor stays in a corner of the mesh. Its triangle goes by removals round about, by insertions that are undone, by flips; far away much
- * happens, so that tiles change their places. It begins where its triangle was. */
+ * happens, so that tiles move to other slots. It begins where its triangle was. */
 static void test_cursors_recover(void **state)
 {
     (void)state;
