@@ -2,7 +2,7 @@
 #include "edit/editor.h"
 
 #include "tiling/tiling_create.h"
-#include "edit/fabric_memory.h"
+#include "edit/dynamic_tiling_memory.h"
 #include "walk/fetch.h"
 #include "edit/flip.h"
 #include "edit/journal.h"
@@ -13,11 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- making ----------------------------------------------------------------------------------------------------------- */
+/* --- making ----------------------------------------------------------------------------------- */
 
-void mw__editor_look(mw_editor *editor)
+void mw__editor_update_view(mw_editor *editor)
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     const mw_tiling *tiling = &editor->locator.tiling;
     mw_mesh *view = &editor->view;
     view->point = tiling->point;
@@ -29,48 +29,51 @@ void mw__editor_look(mw_editor *editor)
     view->tri_count = tiling->tri_count;
 }
 
-mw_status mw__fix_edges(mw_fabric *f, const uint32_t *ends, size_t count, mw_error *error)
+mw_status mw__fix_edges(mw_dynamic_tiling *f, const uint32_t *ends, size_t count, mw_error *error)
 {
-    if (!mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
+    if (!mw__journal_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
     mw_status status = MW_OK;
     for (size_t i = 0; i < count && !status; i++) {
-        uint32_t a = mw__vertex_there(f, ends[2 * i]), b = mw__vertex_there(f, ends[2 * i + 1]), pieces;
-        if (a == MW_NONE || b == MW_NONE || a == b || mw__fabric_edge(f, a, b) == MW_NONE)
+        uint32_t a = mw__used_vertex_slot(f, ends[2 * i]), b = mw__used_vertex_slot(f, ends[2 * i + 1]),
+                 constrained_edges;
+        if (a == MW_NONE || b == MW_NONE || a == b || mw__dynamic_edge(f, a, b) == MW_NONE)
             status = mw__fail_at(error, -1, ends[2 * i],
                                  "the constraint from vertex %" PRIu32 " to %" PRIu32 " is no edge of the mesh",
                                  ends[2 * i], ends[2 * i + 1]);
         else
-            status = mw__fabric_constrain(f, a, b, false, &pieces, error);
+            status = mw__dynamic_constrain(f, a, b, false, &constrained_edges, error);
     }
     if (status) {
-        mw__fabric_rollback(f);
+        mw__journal_rollback(f);
         return status;
     }
-    mw__fabric_commit(f);
-    mw__fabric_forget(f, 0);
+    mw__journal_commit(f);
+    mw__journal_forget(f, 0);
     return MW_OK;
 }
 
-static bool is_delaunay(const mw_fabric *f)
+static bool dynamic_is_delaunay(const mw_dynamic_tiling *f)
 {
     for (uint32_t t = 0; t < f->tiling->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t half = mw__link(t, k), other = mw__beyond(f, half);
-            if (other != MW_NONE && other > half && mw__is_users(f, t) && mw__is_illegal(f, half)) return false;
+            if (other != MW_NONE && other > half && mw__is_users_tile(f, t) && mw__edge_is_illegal(f, half))
+                return false;
         }
     return true;
 }
 
-static mw_status choose_delaunay(mw_fabric *f, mw_delaunay_mode wanted, mw_error *error)
+static mw_status editor_choose_delaunay(mw_dynamic_tiling *f, mw_delaunay_mode wanted, mw_error *error)
 {
-    f->delaunay = wanted != MW_DELAUNAY_NEVER && is_delaunay(f);
+    f->delaunay = wanted != MW_DELAUNAY_NEVER && dynamic_is_delaunay(f);
     if (wanted != MW_DELAUNAY_MAKE || f->delaunay) return MW_OK;
-    mw_status status = mw__fabric_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, true) ? mw__fabric_mend(f, error)
-                                                                                   : mw__fail_memory(error);
+    mw_status status = mw__journal_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, true)
+                           ? mw__dynamic_make_delaunay(f, error)
+                           : mw__fail_memory(error);
     if (status) return status;
-    mw__fabric_commit(f);
-    mw__fabric_forget(f, 0);
-    mw__fabric_trim(f); /* no edit will need as much */
+    mw__journal_commit(f);
+    mw__journal_forget(f, 0);
+    mw__dynamic_trim(f); /* no edit will need as much */
     return MW_OK;
 }
 
@@ -96,18 +99,18 @@ static bool copy_fields(mw_editor *editor, const mw_mesh *mesh)
     return true;
 }
 
-static mw_status make(mw_editor *editor, const mw_mesh *mesh, const mw_editor_options *options, mw_error *error)
+static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh, const mw_editor_options *options, mw_error *error)
 {
     mw_locator *locator = &editor->locator;
-    mw_fabric *f = &editor->fabric;
+    mw_dynamic_tiling *f = &editor->dynamic;
     locator->mesh = &editor->view;
     mw_status status = mw__tiling_create(mesh, false, &locator->tiling, error);
-    if (!status) status = mw__fabric_create(f, &locator->tiling, mesh, error);
+    if (!status) status = mw__dynamic_create(f, &locator->tiling, mesh, error);
     if (!status) status = mw__fix_edges(f, options->constrained_edges, options->constrained_edge_count, error);
-    if (!status) status = choose_delaunay(f, options->delaunay, error);
+    if (!status) status = editor_choose_delaunay(f, options->delaunay, error);
     if (!status && !copy_fields(editor, mesh)) status = mw__fail_memory(error);
     if (status) return status;
-    mw__editor_look(editor);
+    mw__editor_update_view(editor);
     status = mw__upkeep_create(&editor->upkeep, locator, f, error);
     return status ? status : mw_cursor_init(locator, NULL, &editor->cursor, error);
 }
@@ -130,7 +133,7 @@ mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options
     editor->keeps_log = options->log != 0;
     editor->threads = options->threads;
     editor->undo = options->undo;
-    mw_status status = make(editor, mesh, options, error);
+    mw_status status = editor_make(editor, mesh, options, error);
     if (status)
         mw_editor_destroy(editor);
     else
@@ -142,7 +145,7 @@ void mw_editor_destroy(mw_editor *editor)
 {
     if (!editor) return;
     mw__upkeep_release(&editor->upkeep);
-    mw__fabric_release(&editor->fabric);
+    mw__dynamic_release(&editor->dynamic);
     mw__tiling_release(&editor->locator.tiling);
     for (size_t i = 0; i < editor->view.field_count; i++) {
         free(editor->view.field[i].name);
@@ -154,11 +157,11 @@ void mw_editor_destroy(mw_editor *editor)
     free(editor);
 }
 
-/* --- values at new vertices ------------------------------------------------------------------------------------------- */
+/* --- values at new vertices ------------------------------------------------------------------- */
 
 bool mw__field_room(mw_editor *editor, size_t more)
 {
-    const size_t needed = editor->fabric.vertex_count + more;
+    const size_t needed = editor->dynamic.vertex_count + more;
     if (editor->view.field_count == 0 || needed <= editor->field_room) return true;
     size_t room = needed + needed / 4 + 16;
     for (size_t i = 0; i < editor->view.field_count; i++) {
@@ -170,15 +173,15 @@ bool mw__field_room(mw_editor *editor, size_t more)
     return true;
 }
 
-/* Give the next vertex its values: interpolated in the mesh as it is before it comes; *borrows: it lies outside. From a tile to the one where that
- * ended. */
-static uint32_t set_values(mw_editor *editor, const mw_edit *edit, uint32_t from, bool *borrows)
+/* Set the values of the next vertex, interpolated in the mesh without it. *borrows: the point lies
+ * outside of the mesh. The search begins at tile `from`; returns the tile where it ends. */
+static uint32_t editor_set_values(mw_editor *editor, const mw_edit *edit, uint32_t from, bool *borrows)
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     mw_mesh *view = &editor->view;
     editor->cursor.last = from;
     editor->cursor.epoch = editor->locator.epoch;
-    mw__editor_look(editor);
+    mw__editor_update_view(editor);
     mw_location at = mw_locate(&editor->locator, &editor->cursor, edit->x, edit->y);
     *borrows = at.triangle == MW_NONE;
     for (uint32_t i = 0; i < view->field_count; i++) {
@@ -191,105 +194,107 @@ static uint32_t set_values(mw_editor *editor, const mw_edit *edit, uint32_t from
     return editor->cursor.last;
 }
 
-/* Of vertices v (MW_NONE: none) and w the one nearer to p, of equally near ones that of the lower number. */
-static uint32_t nearer(const mw_fabric *f, mw_point p, uint32_t v, uint32_t w)
+/* The vertex nearer to p: v (which may be MW_NONE) or w. Of equally near ones, the lower number. */
+static uint32_t nearer_vertex(const mw_dynamic_tiling *f, mw_point p, uint32_t v, uint32_t w)
 {
     if (v == MW_NONE) return w;
     double one = mw__square_length(f->tiling->point[v], p), two = mw__square_length(f->tiling->point[w], p);
     return two < one || (two == one && f->vertex_number[w] < f->vertex_number[v]) ? w : v;
 }
 
-/* Beyond the hull that there was a vertex has the values of the nearest that is joined to it. */
+/* A vertex outside of the former hull takes the values of the nearest vertex that it is joined
+ * to. */
 static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t v)
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     bool open;
     uint32_t best = MW_NONE, vertex = f->vertex_number[v];
-    for (uint32_t at = mw__star_first(f, v, &open); at != MW_NONE; at = mw__beyond(f, mw__half_prev(at))) {
-        best = nearer(f, f->tiling->point[v], best, mw__corner(f, mw__half_next(at)));
-        best = nearer(f, f->tiling->point[v], best, mw__corner(f, mw__half_prev(at)));
+    for (uint32_t at = mw__vertex_star_first(f, v, &open); at != MW_NONE; at = mw__beyond(f, mw__half_prev(at))) {
+        best = nearer_vertex(f, f->tiling->point[v], best, mw__corner(f, mw__half_next(at)));
+        best = nearer_vertex(f, f->tiling->point[v], best, mw__corner(f, mw__half_prev(at)));
     }
     for (uint32_t i = 0; i < editor->view.field_count; i++)
         if (i != edit->field || isnan(edit->value))
             editor->view.field[i].values[vertex] = editor->view.field[i].values[f->vertex_number[best]];
 }
 
-/* --- edits ------------------------------------------------------------------------------------------------------------ */
+/* --- edits ------------------------------------------------------------------------------------ */
 
-static mw_status refuse_vertex(const mw_fabric *f, uint32_t number, mw_error *error)
+static mw_status refuse_vertex(const mw_dynamic_tiling *f, uint32_t number, mw_error *error)
 {
     bool gone = number >= f->vertex_count || f->vertex_slot[number] == MW_NONE;
     return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
 }
 
-/* A tile to begin at to look for q. The guide leads near as a rule, and to ask whether the last edit was nearer would cost more than it saves; but
- * after a long walk, such as where many vertices have come into a cell, that is asked until it was not. */
-static uint32_t first_tile(mw_editor *editor, mw_point q)
+/* The tile where the search for q begins: what the guide names, which is near as a rule. To test
+ * whether the last edit was nearer would cost more than it saves. But after a long walk (as when
+ * many vertices have come into one cell) that is tested, until it is no longer so. */
+static uint32_t insertion_first_tile(mw_editor *editor, mw_point q)
 {
     const mw_locator *locator = &editor->locator;
-    const uint32_t last = editor->fabric.last;
-    editor->astray = editor->astray && mw__is_close(locator, last, q);
-    return MW_UNLIKELY(editor->astray) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
+    const uint32_t last = editor->dynamic.last;
+    editor->guide_led_far = editor->guide_led_far && mw__is_close(locator, last, q);
+    return MW_UNLIKELY(editor->guide_led_far) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
 }
 
-/* To put a vertex at q into a mesh without fields. */
-static mw_status insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *place, mw_error *error)
+/* Insert a vertex at q in a mesh without fields. */
+static mw_status editor_insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *slot, mw_error *error)
 {
     enum { FAR = 8 };
-    mw_fabric *f = &editor->fabric;
-    if (t != MW_NONE) return mw__fabric_insert(f, q, t, place, error);
-    t = first_tile(editor, q);
+    mw_dynamic_tiling *f = &editor->dynamic;
+    if (t != MW_NONE) return mw__dynamic_insert(f, q, t, slot, error);
+    t = insertion_first_tile(editor, q);
     if (editor->upkeep.large) {
         mw__fetch_tiles_round(f->tiling, t);
         mw__fetch_points_round(f->tiling, f->tiling->tri[t].v[0]);
     }
-    mw_status status = mw__fabric_insert(f, q, t, place, error);
-    editor->astray |= f->walked > FAR;
+    mw_status status = mw__dynamic_insert(f, q, t, slot, error);
+    editor->guide_led_far |= f->walked > FAR;
     return status;
 }
 
-static __attribute__((noinline)) mw_status insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t t,
-                                                              uint32_t *vertex, mw_error *error)
+static __attribute__((noinline)) mw_status editor_insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t t,
+                                                                     uint32_t *vertex, mw_error *error)
 {
-    mw_fabric *f = &editor->fabric;
+    mw_dynamic_tiling *f = &editor->dynamic;
     const uint32_t before = f->vertex_count;
     bool borrows;
-    uint32_t place = MW_NONE;
+    uint32_t slot = MW_NONE;
     if (!isnan(edit->value) && edit->field >= editor->view.field_count)
         return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     if (!mw__field_room(editor, 1)) return mw__fail_memory(error);
-    t = set_values(editor, edit, t == MW_NONE ? f->last : t, &borrows);
-    mw_status status = mw__fabric_insert(f, (mw_point){edit->x, edit->y}, t, &place, error);
+    t = editor_set_values(editor, edit, t == MW_NONE ? f->last : t, &borrows);
+    mw_status status = mw__dynamic_insert(f, (mw_point){edit->x, edit->y}, t, &slot, error);
     if (status) return status;
-    if (borrows && f->vertex_count > before) borrow_values(editor, edit, place);
-    *vertex = f->vertex_number[place];
+    if (borrows && f->vertex_count > before) borrow_values(editor, edit, slot);
+    *vertex = f->vertex_number[slot];
     return MW_OK;
 }
 
 mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error)
 {
-    mw_fabric *f = &editor->fabric;
+    mw_dynamic_tiling *f = &editor->dynamic;
     const mw_point q = {edit->x, edit->y};
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
-    if (editor->view.field_count > 0) return insert_with_values(editor, edit, t, vertex, error);
-    uint32_t place = MW_NONE;
-    mw_status status = insert_at(editor, q, t, &place, error);
-    if (!status) *vertex = f->vertex_number[place];
+    if (editor->view.field_count > 0) return editor_insert_with_values(editor, edit, t, vertex, error);
+    uint32_t slot = MW_NONE;
+    mw_status status = editor_insert_at(editor, q, t, &slot, error);
+    if (!status) *vertex = f->vertex_number[slot];
     return status;
 }
 
-static mw_status insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status edit_insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
-    const uint32_t before = editor->fabric.vertex_count;
+    const uint32_t before = editor->dynamic.vertex_count;
     mw_status status = mw__editor_insert(editor, edit, MW_NONE, &change->vertex, error);
-    change->vertices_made = editor->fabric.vertex_count > before;
+    change->vertices_made = editor->dynamic.vertex_count > before;
     return status;
 }
 
 static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
-    mw_fabric *f = &editor->fabric;
-    uint32_t v = mw__vertex_there(f, edit->vertex);
+    mw_dynamic_tiling *f = &editor->dynamic;
+    uint32_t v = mw__used_vertex_slot(f, edit->vertex);
     if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
     change->vertex = edit->vertex;
     if (editor->upkeep.large) {
@@ -298,42 +303,42 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
     }
     if (edit->kind == MW_EDIT_REMOVE) {
         change->vertices_freed = 1;
-        return mw__fabric_remove(f, v, error);
+        return mw__dynamic_remove(f, v, error);
     }
     if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     mw_point q = {edit->x, edit->y};
-    return mw__fabric_move(f, v, q, mw__guided(&editor->locator, f->tiling->tile_at[v], q), error);
+    return mw__dynamic_move(f, v, q, mw__guided(&editor->locator, f->tiling->tile_at[v], q), error);
 }
 
-static mw_status change_edge(mw_fabric *f, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status change_edge(mw_dynamic_tiling *f, const mw_edit *edit, mw_change *change, mw_error *error)
 {
-    uint32_t v = mw__vertex_there(f, edit->vertex), w = mw__vertex_there(f, edit->other);
+    uint32_t v = mw__used_vertex_slot(f, edit->vertex), w = mw__used_vertex_slot(f, edit->other);
     if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
     if (w == MW_NONE) return refuse_vertex(f, edit->other, error);
     if (v == w) return mw__fail_at(error, -1, edit->vertex, "both ends are vertex %" PRIu32, edit->vertex);
-    if (edit->kind == MW_EDIT_FLIP) return mw__fabric_flip(f, v, w, error);
-    return mw__fabric_constrain(f, v, w, edit->kind == MW_EDIT_RELEASE, &change->constrained_edges, error);
+    if (edit->kind == MW_EDIT_FLIP) return mw__dynamic_flip(f, v, w, error);
+    return mw__dynamic_constrain(f, v, w, edit->kind == MW_EDIT_RELEASE, &change->constrained_edges, error);
 }
 
 static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *error)
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     if (edit->field >= editor->view.field_count) return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     if (edit->vertex >= f->vertex_count || f->vertex_slot[edit->vertex] == MW_NONE)
         return refuse_vertex(f, edit->vertex, error);
     f->step[f->step_count - 1].value = editor->view.field[edit->field].values[edit->vertex];
-    return MW_OK; /* it is written when nothing can fail any more */
+    return MW_OK; /* mw_edit_apply writes the new value, when nothing can fail any more */
 }
 
-static mw_status carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status edit_carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     switch (edit->kind) {
-    case MW_EDIT_INSERT: return insert(editor, edit, change, error);
+    case MW_EDIT_INSERT: return edit_insert(editor, edit, change, error);
     case MW_EDIT_REMOVE:
     case MW_EDIT_MOVE: return change_vertex(editor, edit, change, error);
     case MW_EDIT_FLIP:
     case MW_EDIT_CONSTRAIN:
-    case MW_EDIT_RELEASE: return change_edge(&editor->fabric, edit, change, error);
+    case MW_EDIT_RELEASE: return change_edge(&editor->dynamic, edit, change, error);
     case MW_EDIT_VALUE: return change_value(editor, edit, error);
     case MW_EDIT_KIND_COUNT: break;
     }
@@ -351,10 +356,10 @@ bool mw__log_room(mw_editor *editor, size_t more)
     return true;
 }
 
-/* For the report of the step under way. */
+/* Room for the report of the step under way. */
 static bool report_room(mw_editor *editor)
 {
-    size_t count = 3 * mw__fabric_extent(&editor->fabric), room = count + count / 2 + 16;
+    size_t count = 3 * mw__journal_extent(&editor->dynamic), room = count + count / 2 + 16;
     if (editor->changed && count <= editor->changed_room) return true;
     mw_changed_triangle *changed = mw__realloc(editor->changed, room, sizeof *changed);
     if (!changed) return false;
@@ -366,30 +371,31 @@ static bool report_room(mw_editor *editor)
 mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
                               mw_error *error)
 {
-    mw_fabric *f = &editor->fabric;
+    mw_dynamic_tiling *f = &editor->dynamic;
     if (!status && change && !report_room(editor)) status = mw__fail_memory(error);
     if (status) {
-        if (f->under_way) mw__fabric_rollback(f);
-        mw__editor_look(editor);
+        if (f->under_way) mw__journal_rollback(f);
+        mw__editor_update_view(editor);
         return status;
     }
-    mw__editor_look(editor);
-    mw__fabric_commit(f);
+    mw__editor_update_view(editor);
+    mw__journal_commit(f);
     if (editor->undoable < editor->undo) editor->undoable++;
     editor->edits += f->step[f->step_count - 1].edits;
     mw__upkeep_edit(&editor->upkeep, false);
     if (change) {
         *change = *own;
-        mw__fabric_report(f, editor->changed, change);
+        mw__journal_report(f, editor->changed, change);
     }
-    mw__fabric_forget(f, editor->undo);
+    mw__journal_forget(f, editor->undo);
     return MW_OK;
 }
 
-/* An insertion about which nobody will ask is a step only if it becomes one (mw__fabric_insert). */
-static mw_status insert_unasked(mw_editor *editor, const mw_edit *edit, mw_error *error)
+/* Insert a vertex when nobody needs to know what changed. There is no step unless
+ * mw__dynamic_insert begins one. */
+static mw_status editor_insert_unreported(mw_editor *editor, const mw_edit *edit, mw_error *error)
 {
-    mw_fabric *f = &editor->fabric;
+    mw_dynamic_tiling *f = &editor->dynamic;
     const uint32_t before = f->vertex_count;
     uint32_t vertex;
     mw_status status = mw__editor_insert(editor, edit, MW_NONE, &vertex, error);
@@ -397,7 +403,7 @@ static mw_status insert_unasked(mw_editor *editor, const mw_edit *edit, mw_error
         const mw_change own = {.vertex = MW_NONE};
         return mw__editor_conclude(editor, status, &own, NULL, error);
     }
-    mw__editor_look(editor);
+    mw__editor_update_view(editor);
     editor->edits++;
     mw__upkeep_insertion(&editor->upkeep, f->vertex_count > before ? f->vertex_slot[vertex] : MW_NONE);
     return MW_OK;
@@ -406,27 +412,28 @@ static mw_status insert_unasked(mw_editor *editor, const mw_edit *edit, mw_error
 mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
-    if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log && !mw__editor_asks(editor, change))
-        return insert_unasked(editor, edit, error);
-    const mw_edit copy = *edit; /* it may stand in the log, which grows */
+    if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log && !mw__editor_needs_report(editor, change))
+        return editor_insert_unreported(editor, edit, error);
+    const mw_edit copy = *edit; /* the caller may pass an entry of the log, which may move */
     mw_change own = {.vertex = MW_NONE};
-    if (!mw__log_room(editor, 1) || !mw__fabric_begin(&editor->fabric, &copy, true)) return mw__fail_memory(error);
-    mw_status status = mw__editor_conclude(editor, carry_out(editor, &copy, &own, error), &own, change, error);
+    if (!mw__log_room(editor, 1) || !mw__journal_begin(&editor->dynamic, &copy, true)) return mw__fail_memory(error);
+    mw_status status = mw__editor_conclude(editor, edit_carry_out(editor, &copy, &own, error), &own, change, error);
     if (status) return status;
     if (editor->keeps_log) editor->log[editor->log_count++] = copy;
     if (copy.kind == MW_EDIT_VALUE) editor->view.field[copy.field].values[copy.vertex] = copy.value;
     return MW_OK;
 }
 
-/* --- undo ------------------------------------------------------------------------------------------------------------- */
+/* --- undo ------------------------------------------------------------------------------------- */
 
-static void undo_value(mw_editor *editor, const mw_step *step)
+static void undo_value(mw_editor *editor, const mw_journal_step *step)
 {
     if (step->edit.kind == MW_EDIT_VALUE) editor->view.field[step->edit.field].values[step->edit.vertex] = step->value;
 }
 
-/* What taking back an edit did to a vertex. `vertices` is how many numbers of vertices were given out before. */
-static mw_change undone(const mw_fabric *f, const mw_step *step, uint32_t vertices)
+/* What undoing an edit did to a vertex. `vertices`: how many numbers of vertices were given out
+ * before. */
+static mw_change undone_change(const mw_dynamic_tiling *f, const mw_journal_step *step, uint32_t vertices)
 {
     mw_change change = {.vertex = MW_NONE};
     if (step->vertex == MW_NONE) return change;
@@ -441,21 +448,21 @@ mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
     if (editor->undoable == 0) return mw__fail(error, MW_ERROR_INPUT, "there is no edit to take back");
     if (change && !report_room(editor)) return mw__fail_memory(error);
-    mw_fabric *f = &editor->fabric;
+    mw_dynamic_tiling *f = &editor->dynamic;
     uint32_t vertices = f->vertex_count;
-    if (!mw__fabric_revert(f)) return mw__fail_memory(error);
-    const mw_step *step = &f->step[f->step_count - 1];
+    if (!mw__journal_revert(f)) return mw__fail_memory(error);
+    const mw_journal_step *step = &f->step[f->step_count - 1];
     undo_value(editor, step);
     if (editor->keeps_log) editor->log_count -= step->edits;
     editor->undoable--;
     editor->edits++;
-    mw__editor_look(editor);
+    mw__editor_update_view(editor);
     mw__upkeep_edit(&editor->upkeep, true);
     if (change) {
-        *change = undone(f, step, vertices);
-        mw__fabric_report(f, editor->changed, change);
+        *change = undone_change(f, step, vertices);
+        mw__journal_report(f, editor->changed, change);
     }
-    mw__fabric_drop(f);
+    mw__journal_drop(f);
     return MW_OK;
 }
 
@@ -465,7 +472,7 @@ const mw_edit *mw_editor_log(const mw_editor *editor, size_t *count)
     return editor->log_count > 0 ? editor->log : NULL;
 }
 
-/* --- each kind by itself ---------------------------------------------------------------------------------------------- */
+/* --- each kind by itself ---------------------------------------------------------------------- */
 
 mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change *change, mw_error *error)
 {

@@ -2,21 +2,21 @@
 #ifndef MW_SRC_EDITOR_H
 #define MW_SRC_EDITOR_H
 
-#include "edit/fabric.h"
+#include "edit/dynamic_tiling.h"
 #include "edit/upkeep.h"
 
 struct mw_editor {
-    mw_fabric fabric;   /* changes the locator's tiling                                  */
-    mw_locator locator; /* of what is there now                                          */
-    mw_mesh
-        view; /* the tiling as a mesh, ghosts and all, for those who look up triangles by number; with the fields, whose
-                           values are by number of vertex. It owns the fields only        */
-    size_t field_room; /* values of each field there is room for                        */
+    mw_dynamic_tiling dynamic; /* changes the locator's tiling */
+    mw_locator locator;        /* of the mesh as it is now     */
+    /* The tiling as a mesh, with ghosts, for callers that look up triangles by number; and the
+     * fields, by number of vertex. It owns only the fields. */
+    mw_mesh view;
+    size_t field_room; /* values in each field there is room for */
     mw_upkeep upkeep;
-    mw_cursor cursor; /* finds where to insert */
-    bool astray;      /* the last walk there was long: see first_tile */
+    mw_cursor cursor;   /* interpolates values of new vertices    */
+    bool guide_led_far; /* the last walk from the guide was long: see insertion_first_tile */
     bool keeps_log;
-    uint32_t threads; /* as in the options */
+    uint32_t threads; /* as in the options                      */
     size_t undo, undoable;
     mw_edit *log;
     size_t log_count, log_room;
@@ -25,38 +25,41 @@ struct mw_editor {
     uint64_t edits;
 };
 
-/* The arrays of the fabric may have moved: have the view look at them. */
-void mw__editor_look(mw_editor *editor);
+/* Update the view: the arrays of the dynamic tiling may have moved. */
+void mw__editor_update_view(mw_editor *editor);
 
-/* Will somebody ask what an insertion changed? `change`: as the caller has it. */
-static MW_INLINE bool mw__editor_asks(const mw_editor *editor, const mw_change *change)
+/* Does an undo, a report (`change`, as the caller gave it) or an index need to know what an
+ * insertion changed? */
+static MW_INLINE bool mw__editor_needs_report(const mw_editor *editor, const mw_change *change)
 {
-    return change || editor->undo > 0 || mw__upkeep_asks(&editor->upkeep);
+    return change || editor->undo > 0 || mw__upkeep_needs_report(&editor->upkeep);
 }
 
-/* One insertion, within the step under way if there is one; *vertex is set to the number of the vertex there. `t`: a tile to begin at, MW_NONE: which
- * is to be chosen. Errors as mw_edit_apply; then the step is to be rolled back. */
+/* Insert one vertex, within the step under way if there is one. Sets *vertex to the number of the
+ * vertex there. `t`: the tile where the search begins; MW_NONE: choose one. Errors as
+ * mw_edit_apply; the caller then rolls the step back. */
 mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error);
 
-/* After the operations of the step under way, which had this outcome: all or nothing. `change` may be NULL, or is filled: with `own`, and the
- * triangles. Also for an insertion that failed before it was a step: then there is nothing to roll back. */
+/* End the step under way, whose operations had this outcome: commit it, or roll it back. `change`:
+ * NULL, or filled with `own` and the triangles changed. Also for an insertion that failed before it
+ * began a step: then there is nothing to roll back. */
 mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
                               mw_error *error);
 
-/* Room for so many more entries of the log, if there is one. */
+/* Room for so many more entries of the log, if the editor keeps one. */
 bool mw__log_room(mw_editor *editor, size_t more);
 
 /* Room for the values of so many more vertices in each field. */
 bool mw__field_room(mw_editor *editor, size_t more);
 
-/* Fix the edges that join pairs of vertices. MW_ERROR_INPUT: there is no such edge, or no such vertex. */
-mw_status mw__fix_edges(mw_fabric *fabric, const uint32_t *ends, size_t count, mw_error *error);
+/* Fix the edges that join pairs of vertices. MW_ERROR_INPUT: no such edge, or no such vertex. */
+mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t count, mw_error *error);
 
-/* The place of a vertex that some triangle has, MW_NONE if there is none of that number. */
-static MW_INLINE uint32_t mw__vertex_there(const mw_fabric *f, uint32_t number)
+/* The slot of a vertex that has a tile, by its number; MW_NONE if there is none. */
+static MW_INLINE uint32_t mw__used_vertex_slot(const mw_dynamic_tiling *f, uint32_t number)
 {
-    uint32_t place = number < f->vertex_count ? f->vertex_slot[number] : MW_NONE;
-    return place != MW_NONE && f->tiling->tile_at[place] != MW_NONE ? place : MW_NONE;
+    uint32_t slot = number < f->vertex_count ? f->vertex_slot[number] : MW_NONE;
+    return slot != MW_NONE && f->tiling->tile_at[slot] != MW_NONE ? slot : MW_NONE;
 }
 
 #endif

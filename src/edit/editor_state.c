@@ -1,19 +1,20 @@
-/* editor_state.c - what is there now: looking things up by number. */
+/* editor_state.c - queries about the current mesh, by number. */
 #include "edit/editor.h"
 
-#include "edit/fabric_memory.h"
+#include "edit/dynamic_tiling_memory.h"
 #include "edit/journal.h"
 #include "edit/vertex_star.h"
 
-static size_t log_bytes(const mw_editor *editor)
+static size_t undo_bytes(const mw_editor *editor)
 {
-    const mw_fabric *f = &editor->fabric;
-    return f->before_room * sizeof *f->before + f->step_room * sizeof *f->step + editor->log_room * sizeof *editor->log;
+    const mw_dynamic_tiling *f = &editor->dynamic;
+    return f->journal_room * sizeof *f->journal + f->step_room * sizeof *f->step +
+           editor->log_room * sizeof *editor->log;
 }
 
 void mw_editor_describe(const mw_editor *editor, mw_editor_info *info)
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     const mw_tiling *tiling = f->tiling;
     size_t index_bytes = mw__upkeep_bytes(&editor->upkeep), fields = editor->view.field_count * editor->field_room;
     *info = (mw_editor_info){
@@ -25,18 +26,18 @@ void mw_editor_describe(const mw_editor *editor, mw_editor_info *info)
         .delaunay = f->delaunay,
         .convex = f->convex,
         .undoable = editor->undoable,
-        .bytes = sizeof *editor + mw__fabric_bytes(f) + mw__tiling_bytes(tiling) + index_bytes +
+        .bytes = sizeof *editor + mw__dynamic_bytes(f) + mw__tiling_bytes(tiling) + index_bytes +
                  fields * sizeof(double) + editor->log_room * sizeof *editor->log +
                  editor->changed_room * sizeof *editor->changed,
-        .undo_bytes = log_bytes(editor),
+        .undo_bytes = undo_bytes(editor),
         .index_bytes = index_bytes,
         .edits = editor->edits,
         .refreshes = editor->upkeep.refreshes,
     };
 }
 
-/* The tile of a triangle; NULL if there is none of that number. */
-static const mw_triangle *tile_of(const mw_tiling *tiling, uint32_t triangle)
+/* The tile of a triangle; NULL if no triangle has that number. */
+static const mw_triangle *triangle_tile(const mw_tiling *tiling, uint32_t triangle)
 {
     if (triangle >= tiling->number_count || tiling->tile_of[triangle] & MW_GONE) return NULL;
     return &tiling->tri[tiling->tile_of[triangle]];
@@ -44,15 +45,15 @@ static const mw_triangle *tile_of(const mw_tiling *tiling, uint32_t triangle)
 
 int mw_editor_triangle(const mw_editor *editor, uint32_t triangle, uint32_t vertices[3])
 {
-    const mw_triangle *tile = tile_of(editor->fabric.tiling, triangle);
+    const mw_triangle *tile = triangle_tile(editor->dynamic.tiling, triangle);
     if (!tile) return 0;
-    mw__fabric_corners(&editor->fabric, tile, vertices);
+    mw__dynamic_tile_vertices(&editor->dynamic, tile, vertices);
     return 1;
 }
 
 int mw_editor_vertex(const mw_editor *editor, uint32_t vertex, double point[2])
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     if (vertex >= f->vertex_count || f->vertex_slot[vertex] == MW_NONE) return 0;
     mw_point p = f->tiling->point[f->vertex_slot[vertex]];
     point[0] = p.x;
@@ -62,38 +63,40 @@ int mw_editor_vertex(const mw_editor *editor, uint32_t vertex, double point[2])
 
 uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex)
 {
-    uint32_t v = mw__vertex_there(&editor->fabric, vertex);
-    const mw_tiling *tiling = editor->fabric.tiling;
+    uint32_t v = mw__used_vertex_slot(&editor->dynamic, vertex);
+    const mw_tiling *tiling = editor->dynamic.tiling;
     return v == MW_NONE ? MW_NONE : mw__lowest_around_vertex(tiling, tiling->tile_at[v], v);
 }
 
-/* Edges of ghosts alone are none of the mesh. */
-static bool is_edge(const mw_fabric *f, uint32_t half)
+/* An edge between ghosts is no edge of the mesh. */
+static bool edge_is_of_mesh(const mw_dynamic_tiling *f, uint32_t half)
 {
     uint32_t other = mw__beyond(f, half);
-    return mw__is_users(f, mw__link_triangle(half)) || (other != MW_NONE && mw__is_users(f, mw__link_triangle(other)));
+    return mw__is_users_tile(f, mw__link_triangle(half)) ||
+           (other != MW_NONE && mw__is_users_tile(f, mw__link_triangle(other)));
 }
 
 size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours, size_t capacity)
 {
-    const mw_fabric *f = &editor->fabric;
-    uint32_t v = mw__vertex_there(f, vertex);
+    const mw_dynamic_tiling *f = &editor->dynamic;
+    uint32_t v = mw__used_vertex_slot(f, vertex);
     if (v == MW_NONE) return 0;
     size_t n = 0;
     bool open;
-    uint32_t begin = mw__star_first(f, v, &open), at = begin;
-    if (!open) /* begin behind ghosts, if there are any */
-        while (mw__is_users(f, mw__link_triangle(at))) {
+    uint32_t begin = mw__vertex_star_first(f, v, &open), at = begin;
+    if (!open) /* begin after the ghosts, if there are any */
+        while (mw__is_users_tile(f, mw__link_triangle(at))) {
             at = mw__half_next(mw__beyond(f, at));
             if (at == begin) break;
         }
-    if (!mw__is_users(f, mw__link_triangle(at))) at = mw__beyond(f, mw__half_prev(at));
+    if (!mw__is_users_tile(f, mw__link_triangle(at))) at = mw__beyond(f, mw__half_prev(at));
     begin = at;
     do {
         uint32_t last = mw__half_prev(at);
-        if (is_edge(f, at) && n++ < capacity) neighbours[n - 1] = f->vertex_number[mw__corner(f, mw__half_next(at))];
+        if (edge_is_of_mesh(f, at) && n++ < capacity)
+            neighbours[n - 1] = f->vertex_number[mw__corner(f, mw__half_next(at))];
         at = mw__beyond(f, last);
-        if (at == MW_NONE && is_edge(f, last) && n++ < capacity)
+        if (at == MW_NONE && edge_is_of_mesh(f, last) && n++ < capacity)
             neighbours[n - 1] = f->vertex_number[mw__corner(f, last)];
     } while (at != MW_NONE && at != begin);
     return n;
@@ -101,13 +104,13 @@ size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uin
 
 mw_edge_kind mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to)
 {
-    const mw_fabric *f = &editor->fabric;
-    uint32_t v = mw__vertex_there(f, from), w = mw__vertex_there(f, to);
-    uint32_t half = v == MW_NONE || w == MW_NONE || v == w ? MW_NONE : mw__fabric_edge(f, v, w);
-    if (half == MW_NONE || !is_edge(f, half)) return MW_EDGE_NONE;
+    const mw_dynamic_tiling *f = &editor->dynamic;
+    uint32_t v = mw__used_vertex_slot(f, from), w = mw__used_vertex_slot(f, to);
+    uint32_t half = v == MW_NONE || w == MW_NONE || v == w ? MW_NONE : mw__dynamic_edge(f, v, w);
+    if (half == MW_NONE || !edge_is_of_mesh(f, half)) return MW_EDGE_NONE;
     uint32_t other = mw__beyond(f, half);
-    bool border =
-        other == MW_NONE || mw__is_users(f, mw__link_triangle(half)) != mw__is_users(f, mw__link_triangle(other));
+    bool border = other == MW_NONE ||
+                  mw__is_users_tile(f, mw__link_triangle(half)) != mw__is_users_tile(f, mw__link_triangle(other));
     if (border && !(f->convex && mw__is_fixed(f, half))) return MW_EDGE_BORDER;
     return mw__is_fixed(f, half) ? MW_EDGE_CONSTRAINED : MW_EDGE_UNCONSTRAINED;
 }
@@ -122,7 +125,7 @@ uint32_t mw_editor_field_by_name(const mw_editor *editor, const char *name)
 
 double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex)
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     bool there = field < editor->view.field_count && vertex < f->vertex_count && f->vertex_slot[vertex] != MW_NONE;
     return there ? editor->view.field[field].values[vertex] : NAN;
 }
@@ -131,8 +134,9 @@ void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_loc
                            double *result)
 {
     for (size_t i = 0; i < n; i++) {
-        result[i] = NAN; /* also where the triangle has gone since */
-        if (field >= editor->view.field_count || !tile_of(editor->fabric.tiling, locations[i].triangle)) continue;
+        result[i] = NAN; /* also if the triangle has been deleted since */
+        if (field >= editor->view.field_count || !triangle_tile(editor->dynamic.tiling, locations[i].triangle))
+            continue;
         mw_interpolate(&editor->view, editor->view.field[field].values, &locations[i], 1, &result[i]);
     }
 }

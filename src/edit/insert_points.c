@@ -1,8 +1,9 @@
-/* insert_points.c - many points at once: one step, whose journal has each tile once, or which needs none. */
+/* insert_points.c - many points at once, in one step. The step records each tile once, or none at
+ * all. */
 #include "edit/editor.h"
-#include "edit/fabric_memory.h"
+#include "edit/dynamic_tiling_memory.h"
 #include "walk/fetch.h"
-#include "edit/hole.h"
+#include "edit/cavity.h"
 #include "edit/journal.h"
 
 #include "mesh/point_order.h"
@@ -11,23 +12,23 @@
 
 #include <stdlib.h>
 
-/* Points, and the order in which they go in: NULL is that in which they are given. */
-typedef struct batch {
+/* Points, and the order of their insertion. NULL: in the order given. */
+typedef struct point_batch {
     const mw_point *point;
     size_t n;
     uint32_t *order;
-} batch;
+} point_batch;
 
-static size_t item(const batch *b, size_t i)
+static size_t point_batch_index(const point_batch *b, size_t i)
 {
     return b->order ? b->order[i] : i;
 }
 
-/* --- in which order ----------------------------------------------------------------------------------------------------- */
+/* --- the order -------------------------------------------------------------------------------- */
 
-/* Do the points come along a curve? One that fills their extent makes steps of its diameter over sqrt(n), on average, points in random order
- * half the diameter. */
-static bool come_along(const mw_point *p, size_t n)
+/* Do the points follow a space-filling curve? Then the average step is their diameter divided by
+ * sqrt(n). Points in random order make steps of half the diameter. */
+static bool points_follow_curve(const mw_point *p, size_t n)
 {
     enum { LONGER = 4 };
     double low[2] = {p[0].x, p[0].y}, high[2] = {p[0].x, p[0].y}, way = 0;
@@ -41,52 +42,56 @@ static bool come_along(const mw_point *p, size_t n)
     return way <= LONGER * sqrt((double)n) * (high[0] - low[0] + high[1] - low[1]);
 }
 
-/* *order: n numbers, owned by the caller in any case, or NULL for the order in which they come; false when out of memory. */
-static bool choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t **order)
+/* *order: n numbers, owned by the caller in any case; NULL: the order given. False when out of
+ * memory. */
+static bool points_choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t **order)
 {
     *order = NULL;
-    if (come_along(p, n)) return true;
+    if (points_follow_curve(p, n)) return true;
     *order = mw__alloc(n, sizeof **order);
     return *order && mw__points_order(p, (uint32_t)n, threads, *order);
 }
 
-/* --- looking ahead ------------------------------------------------------------------------------------------------------- */
+/* --- looking ahead ---------------------------------------------------------------------------- */
 
-/* While a point goes in, those after it are on their way: each begins at the tile that the guide names, and goes a tile nearer now and then. Where to
- * cannot be guessed, and is known late: a walk of one's own would wait each time, while here another point goes in. What each will meet is asked of
- * memory as it comes nearer. They walk in plain doubles, since any tile will do to begin at; and points that go in do not move tiles, so
- * that all of them stay tiles. */
+/* While one point is inserted, the search for the next ones proceeds. Each begins at the tile that
+ * the guide names, and moves one tile nearer from time to time. The next tile cannot be predicted,
+ * and is known late: a separate walk would wait for memory at each tile, while here another point
+ * is inserted in the meantime. The data that a point will need is prefetched as its turn comes
+ * nearer. These walks use plain doubles, since any tile will do to begin at. Insertions do not move
+ * tiles to other slots, so the tiles remain valid. An upcoming point passes these stages, so many
+ * insertions before its own: */
 enum {
-    AHEAD = 16,  /* points of which a place in memory is asked for */
-    NAMED = 12,  /* those that get their first tile                */
-    CORNERS = 8, /* its corners and neighbours are asked for       */
-    NEARER = 6,  /* they go a tile nearer, from here on            */
-    EVERY = 2,   /* once for so many points                        */
-    BEYOND = 2   /* what lies beyond the neighbours is asked for   */
+    AHEAD = 16,  /* the point is prefetched                    */
+    NAMED = 12,  /* the guide names its first tile             */
+    CORNERS = 8, /* corners and neighbours are prefetched      */
+    NEARER = 6,  /* from here on it moves one tile nearer,     */
+    EVERY = 2,   /* once in so many insertions                 */
+    BEYOND = 2   /* what lies beyond the neighbours is prefetched */
 };
 
-typedef struct traveller {
+typedef struct upcoming_point {
     mw_point q;
-    uint32_t tile; /* where to begin */
-} traveller;
+    uint32_t tile; /* where the search begins */
+} upcoming_point;
 
-typedef struct outlook {
-    const batch *points;
+typedef struct lookahead {
+    const point_batch *points;
     const mw_editor *editor;
     bool used;
-    traveller on_way[AHEAD]; /* point i is on_way[i % AHEAD] */
-} outlook;
+    upcoming_point upcoming[AHEAD]; /* point i is upcoming[i % AHEAD] */
+} lookahead;
 
-static MW_INLINE void name_first(outlook *o, size_t i)
+static MW_INLINE void lookahead_name_first(lookahead *look, size_t i)
 {
-    const mw_tiling *tiling = &o->editor->locator.tiling;
-    traveller *one = &o->on_way[i % AHEAD];
-    one->q = o->points->point[item(o->points, i)];
-    one->tile = mw__index_tile_ahead(tiling, &o->editor->locator.guide, one->q);
+    const mw_tiling *tiling = &look->editor->locator.tiling;
+    upcoming_point *one = &look->upcoming[i % AHEAD];
+    one->q = look->points->point[point_batch_index(look->points, i)];
+    one->tile = mw__index_tile_ahead(tiling, &look->editor->locator.guide, one->q);
     __builtin_prefetch(&tiling->tri[one->tile]);
 }
 
-static MW_INLINE void fetch_corners(const mw_tiling *tiling, const traveller *one)
+static MW_INLINE void prefetch_corners(const mw_tiling *tiling, const upcoming_point *one)
 {
     const mw_triangle *tile = &tiling->tri[one->tile];
     for (int k = 0; k < 3; k++) {
@@ -95,8 +100,8 @@ static MW_INLINE void fetch_corners(const mw_tiling *tiling, const traveller *on
     }
 }
 
-/* One step of the remembering walk, and what comes next of memory. */
-static MW_INLINE void go_nearer(const mw_tiling *tiling, traveller *one)
+/* Take one step of the remembering walk, and prefetch for the next one. */
+static MW_INLINE void lookahead_step_nearer(const mw_tiling *tiling, upcoming_point *one)
 {
     const uint32_t link = mw__link_nearer(tiling, one->q, one->tile);
     if (MW_UNLIKELY(link == MW_NONE)) return;
@@ -108,7 +113,7 @@ static MW_INLINE void go_nearer(const mw_tiling *tiling, traveller *one)
     mw__fetch_tile(tiling, tile->link[mw__prev(e)]);
 }
 
-static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one)
+static MW_INLINE void prefetch_beyond(const mw_tiling *tiling, const upcoming_point *one)
 {
     const mw_triangle *tile = &tiling->tri[one->tile];
     for (int k = 0; k < 3; k++) {
@@ -123,56 +128,59 @@ static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one
     }
 }
 
-/* In a small mesh all is near, and to ask for more costs more than it gains. */
-static MW_INLINE void fetch_far(const outlook *o, size_t i)
+/* Not for small meshes: they are in the caches, and prefetching costs more than it gains. */
+static MW_INLINE void prefetch_far(const lookahead *look, size_t i)
 {
-    const mw_tiling *tiling = &o->editor->locator.tiling;
-    mw__fetch_tiles_round(tiling, o->on_way[(i + NAMED) % AHEAD].tile);
-    mw__fetch_points_round(tiling, tiling->tri[o->on_way[(i + CORNERS) % AHEAD].tile].v[0]);
-    fetch_beyond(tiling, &o->on_way[(i + BEYOND) % AHEAD]);
+    const mw_tiling *tiling = &look->editor->locator.tiling;
+    mw__fetch_tiles_round(tiling, look->upcoming[(i + NAMED) % AHEAD].tile);
+    mw__fetch_points_round(tiling, tiling->tri[look->upcoming[(i + CORNERS) % AHEAD].tile].v[0]);
+    prefetch_beyond(tiling, &look->upcoming[(i + BEYOND) % AHEAD]);
 }
 
-/* Where points are so many that each lies in a tile of the one before, or beside it, there is nothing to look for. */
-static void begin_outlook(outlook *o, const mw_editor *editor, const batch *b)
+/* If there are as many points as vertices, each lies in the tile of the one before, or near it: no
+ * lookahead is needed. */
+static void lookahead_begin(lookahead *look, const mw_editor *editor, const point_batch *b)
 {
-    bool used = b->n < editor->fabric.vertex_count;
-    *o = (outlook){.points = b, .editor = editor, .used = used};
-    for (size_t i = 0; used && i < NAMED && i < b->n; i++) name_first(o, i);
+    bool used = b->n < editor->dynamic.vertex_count;
+    *look = (lookahead){.points = b, .editor = editor, .used = used};
+    for (size_t i = 0; used && i < NAMED && i < b->n; i++) lookahead_name_first(look, i);
 }
 
-/* Before point i goes in: a tile to begin at. At the end places of points that are in already are looked at in place of others, as any is a tile's. */
-static MW_INLINE uint32_t look_ahead(outlook *o, size_t i)
+/* Call before point i is inserted: returns the tile where its search begins. Near the end, entries
+ * of points already inserted are processed again; this is harmless, as their tiles still exist. */
+static MW_INLINE uint32_t lookahead_next_tile(lookahead *look, size_t i)
 {
-    const mw_tiling *tiling = &o->editor->locator.tiling;
-    const size_t n = o->points->n;
-    if (!o->used) return o->editor->fabric.last;
-    if (i + AHEAD < n) __builtin_prefetch(&o->points->point[item(o->points, i + AHEAD)]);
-    if (i + NAMED < n) name_first(o, i + NAMED);
-    fetch_corners(tiling, &o->on_way[(i + CORNERS) % AHEAD]);
-    for (size_t k = NEARER; k > BEYOND; k -= EVERY) go_nearer(tiling, &o->on_way[(i + k) % AHEAD]);
-    if (o->editor->upkeep.large) fetch_far(o, i);
-    return o->on_way[i % AHEAD].tile;
+    const mw_tiling *tiling = &look->editor->locator.tiling;
+    const size_t n = look->points->n;
+    if (!look->used) return look->editor->dynamic.last;
+    if (i + AHEAD < n) __builtin_prefetch(&look->points->point[point_batch_index(look->points, i + AHEAD)]);
+    if (i + NAMED < n) lookahead_name_first(look, i + NAMED);
+    prefetch_corners(tiling, &look->upcoming[(i + CORNERS) % AHEAD]);
+    for (size_t k = NEARER; k > BEYOND; k -= EVERY) lookahead_step_nearer(tiling, &look->upcoming[(i + k) % AHEAD]);
+    if (look->editor->upkeep.large) prefetch_far(look, i);
+    return look->upcoming[i % AHEAD].tile;
 }
 
-/* --- one step ----------------------------------------------------------------------------------------------------------- */
+/* --- one step --------------------------------------------------------------------------------- */
 
-static mw_edit insertion(mw_point p)
+static mw_edit insertion_edit(mw_point p)
 {
     return (mw_edit){.kind = MW_EDIT_INSERT, .x = p.x, .y = p.y, .value = NAN};
 }
 
-static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *own, mw_error *error)
+static mw_status points_insert_all(mw_editor *editor, const point_batch *b, uint32_t *vertices, mw_change *own,
+                                   mw_error *error)
 {
-    const mw_fabric *f = &editor->fabric;
+    const mw_dynamic_tiling *f = &editor->dynamic;
     const uint32_t before = f->vertex_count;
     mw_error why;
-    outlook o;
-    begin_outlook(&o, editor, b);
+    lookahead look;
+    lookahead_begin(&look, editor, b);
     for (size_t i = 0; i < b->n; i++) {
-        const size_t at = item(b, i);
-        const mw_edit edit = insertion(b->point[at]);
+        const size_t at = point_batch_index(b, i);
+        const mw_edit edit = insertion_edit(b->point[at]);
         uint32_t vertex;
-        mw_status status = mw__editor_insert(editor, &edit, look_ahead(&o, i), &vertex, &why);
+        mw_status status = mw__editor_insert(editor, &edit, lookahead_next_tile(&look, i), &vertex, &why);
         if (status == MW_ERROR_MEMORY) return mw__fail_memory(error);
         if (status) return mw__fail(error, status, "point %zu: %s", at, why.message);
         if (vertices) vertices[at] = vertex;
@@ -183,54 +191,58 @@ static mw_status insert_all(mw_editor *editor, const batch *b, uint32_t *vertice
     return MW_OK;
 }
 
-static bool are_finite(const batch *b)
+static bool points_are_finite(const point_batch *b)
 {
     for (size_t i = 0; i < b->n; i++)
         if (!isfinite(b->point[i].x) || !isfinite(b->point[i].y)) return false;
     return true;
 }
 
-/* Room for so many insertions, wherever they are and whatever they meet. False where there is not as much memory, or as many numbers, or where they
- * may be refused for another reason: in a mesh that does not fill its hull. */
-static bool reserve_insertions(mw_fabric *f, size_t n)
+/* Reserve room for n insertions, wherever they are. False if there is not enough memory, or not
+ * enough numbers; also if a point may be refused for another reason, as in a mesh that does not
+ * fill its hull. */
+static bool reserve_insertions(mw_dynamic_tiling *f, size_t n)
 {
     mw_tiling *tiling = f->tiling;
-    const size_t tiles = 2 * (tiling->point_count + n); /* there are fewer in any triangulation of so many points */
+    /* a triangulation of so many points has fewer tiles */
+    const size_t tiles = 2 * (tiling->point_count + n);
     if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
-    return mw__more_tiles(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__hole_room(f, tiles);
+    return mw__tile_room_grow(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__cavity_room(f, tiles);
 }
 
-/* Begin the step. Where nobody asks, and there is room for all that may be met, nothing can fail, and nothing has to be recorded. Room that is not
- * used takes addresses only, but time: more than a few records would. */
+/* Begin the step. If nobody needs to know what changed, and there is room for everything, nothing
+ * can fail, and nothing has to be recorded. Unused room takes addresses only, but to reserve it
+ * takes time: for a few points, more than their records do. */
 enum { FEW = 100 };
-static bool begin(mw_editor *editor, const batch *b, const mw_change *change)
+static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_change *change)
 {
-    enum { TILES_PER_POINT = 4 }; /* that are changed */
-    mw_fabric *f = &editor->fabric;
-    const mw_edit first = insertion(b->point[item(b, 0)]);
-    bool sure = b->n >= FEW && !mw__editor_asks(editor, change) && are_finite(b) && mw__field_room(editor, b->n) &&
-                reserve_insertions(f, b->n);
+    enum { TILES_PER_POINT = 4 }; /* changed by an insertion */
+    mw_dynamic_tiling *f = &editor->dynamic;
+    const mw_edit first = insertion_edit(b->point[point_batch_index(b, 0)]);
+    bool sure = b->n >= FEW && !mw__editor_needs_report(editor, change) && points_are_finite(b) &&
+                mw__field_room(editor, b->n) && reserve_insertions(f, b->n);
     if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(f, TILES_PER_POINT * b->n))) return false;
-    return mw__fabric_begin(f, &first, !sure);
+    return mw__journal_begin(f, &first, !sure);
 }
 
-static mw_status run(mw_editor *editor, const batch *b, uint32_t *vertices, mw_change *change, mw_error *error)
+static mw_status points_insert(mw_editor *editor, const point_batch *b, uint32_t *vertices, mw_change *change,
+                               mw_error *error)
 {
-    mw_fabric *f = &editor->fabric;
+    mw_dynamic_tiling *f = &editor->dynamic;
     mw_change own = {.vertex = MW_NONE};
     const uint64_t refreshes = editor->upkeep.refreshes;
-    if (!begin(editor, b, change)) return mw__fail_memory(error);
+    if (!points_begin_step(editor, b, change)) return mw__fail_memory(error);
     f->step[f->step_count - 1].edits = b->n;
-    mw_status status = insert_all(editor, b, vertices, &own, error);
+    mw_status status = points_insert_all(editor, b, vertices, &own, error);
     status = mw__editor_conclude(editor, status, &own, change, error);
-    if (b->n >= FEW) mw__rim_release(f); /* no edit will need as much */
+    if (b->n >= FEW) mw__boundary_release(f); /* no edit will need as much */
     if (status && editor->upkeep.refreshes > refreshes) mw__upkeep_rolled_back(&editor->upkeep);
     for (size_t i = 0; i < b->n && !status && editor->keeps_log; i++)
-        editor->log[editor->log_count++] = insertion(b->point[item(b, i)]);
+        editor->log[editor->log_count++] = insertion_edit(b->point[point_batch_index(b, i)]);
     return status;
 }
 
-/* --- the public function --------------------------------------------------------------------------------------------------- */
+/* --- the public function ---------------------------------------------------------------------- */
 
 static mw_point *copy_points(const double *points, size_t n, size_t stride)
 {
@@ -248,9 +260,10 @@ mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t 
     if (change) *change = (mw_change){.vertex = MW_NONE};
     if (n == 0) return MW_OK;
     mw_point *own = copy_points(points, n, stride ? stride : 2);
-    batch b = {own, n, NULL};
-    mw_status status = own && choose_order(own, n, editor->threads, &b.order) ? run(editor, &b, vertices, change, error)
-                                                                              : mw__fail_memory(error);
+    point_batch b = {own, n, NULL};
+    mw_status status = own && points_choose_order(own, n, editor->threads, &b.order)
+                           ? points_insert(editor, &b, vertices, change, error)
+                           : mw__fail_memory(error);
     free(b.order);
     free(own);
     return status;

@@ -1,104 +1,105 @@
-/* journal.c - an edit as a whole: what it changed, and how it is taken back. */
+/* journal.c - an edit as a whole: what it changed, and how it is undone. */
 #include "edit/journal.h"
 
-#include "edit/fabric_memory.h"
-#include "edit/stitch.h"
+#include "edit/dynamic_tiling_memory.h"
+#include "edit/tile_links.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-bool mw__fabric_begin(mw_fabric *f, const mw_edit *edit, bool recorded)
+bool mw__journal_begin(mw_dynamic_tiling *f, const mw_edit *edit, bool recorded)
 {
-    if (MW_UNLIKELY(!f->before) && !mw__journal_room(f, 1)) return false;
+    if (MW_UNLIKELY(!f->journal) && !mw__journal_room(f, 1)) return false;
     if (f->step_count == f->step_room) {
         size_t room = f->step_room + f->step_room / 2 + 4;
-        mw_step *step = mw__realloc(f->step, room, sizeof *step);
+        mw_journal_step *step = mw__realloc(f->step, room, sizeof *step);
         if (!step) return false;
         f->step = step;
         f->step_room = room;
     }
     const mw_tiling *tiling = f->tiling;
-    f->step[f->step_count++] = (mw_step){.edit = *edit,
-                                         .edits = 1,
-                                         .journal = f->before_count,
-                                         .tiles = tiling->tri_count,
-                                         .ghosts = tiling->ghost_count,
-                                         .numbers = tiling->number_count,
-                                         .vertices = f->vertex_count,
-                                         .points = tiling->point_count,
-                                         .free_places = f->free_count,
-                                         .fixed_count = f->fixed_count,
-                                         .vertex = MW_NONE,
-                                         .delaunay = f->delaunay};
-    f->journaled = recorded ? tiling->tri_count : 0;
+    f->step[f->step_count++] = (mw_journal_step){.edit = *edit,
+                                                 .edits = 1,
+                                                 .first_entry = f->journal_count,
+                                                 .tiles = tiling->tri_count,
+                                                 .ghosts = tiling->ghost_count,
+                                                 .numbers = tiling->number_count,
+                                                 .vertices = f->vertex_count,
+                                                 .points = tiling->point_count,
+                                                 .free_slots = f->free_count,
+                                                 .fixed_count = f->fixed_count,
+                                                 .vertex = MW_NONE,
+                                                 .delaunay = f->delaunay};
+    f->journal_below = recorded ? tiling->tri_count : 0;
     f->under_way = true;
     f->flips = 0;
     f->stack_count = 0;
     return true;
 }
 
-static void end(mw_fabric *f)
+static void journal_end(mw_dynamic_tiling *f)
 {
-    f->journaled = 0;
+    f->journal_below = 0;
     f->under_way = false;
 }
 
-static void clear_marks(mw_fabric *f, const mw_before *first, size_t count)
+static void journal_clear_marks(mw_dynamic_tiling *f, const mw_journal_entry *first, size_t count)
 {
-    for (size_t i = 0; i < count; i++) f->mark[first[i].place] &= (uint8_t)MW_FIXED_EDGES;
+    for (size_t i = 0; i < count; i++) f->mark[first[i].slot] &= (uint8_t)MW_FIXED_EDGES;
 }
 
-void mw__fabric_commit(mw_fabric *f)
+void mw__journal_commit(mw_dynamic_tiling *f)
 {
-    const mw_before *first;
-    size_t count = mw__fabric_journal(f, &first);
-    mw_step *step = &f->step[f->step_count - 1];
+    const mw_journal_entry *first;
+    size_t count = mw__journal_entries(f, &first);
+    mw_journal_step *step = &f->step[f->step_count - 1];
     step->made = f->vertex_count - step->vertices;
-    clear_marks(f, first, count);
-    end(f);
+    journal_clear_marks(f, first, count);
+    journal_end(f);
 }
 
-/* --- taking back ------------------------------------------------------------------------------------------------------ */
+/* --- undo ------------------------------------------------------------------------------------- */
 
-/* Exchange the journal of the last step with the tiles. Tiles round about lie beside restored ones only, whose links tell theirs. */
-static void exchange_tiles(mw_fabric *f, const mw_step *step)
+/* Exchange the entries of the last step with the tiles. Unrecorded neighbours lie beside restored
+ * tiles only, and get their links from them. */
+static void journal_exchange_tiles(mw_dynamic_tiling *f, const mw_journal_step *step)
 {
     mw_tiling *tiling = f->tiling;
-    for (size_t i = step->journal; i < f->before_count; i++) {
-        mw_before *b = &f->before[i], now = {.place = b->place, .tile.v[0] = MW_NONE};
-        if (b->place < tiling->tri_count)
-            now = (mw_before){b->place, f->mark[b->place] & MW_FIXED_EDGES, tiling->tri[b->place]};
+    for (size_t i = step->first_entry; i < f->journal_count; i++) {
+        mw_journal_entry *b = &f->journal[i], now = {.slot = b->slot, .tile.v[0] = MW_NONE};
+        if (b->slot < tiling->tri_count)
+            now = (mw_journal_entry){b->slot, f->mark[b->slot] & MW_FIXED_EDGES, tiling->tri[b->slot]};
         if (b->tile.v[0] != MW_NONE) {
-            tiling->tri[b->place] = b->tile;
-            mw__set_fixed(f, b->place, b->mark);
+            tiling->tri[b->slot] = b->tile;
+            mw__set_fixed(f, b->slot, b->mark);
         }
         *b = now;
     }
     tiling->tri_count = step->tiles;
     tiling->ghost_count = step->ghosts;
     tiling->number_count = step->numbers;
-    for (size_t i = step->journal; i < f->before_count; i++) {
-        uint32_t t = f->before[i].place;
+    for (size_t i = step->first_entry; i < f->journal_count; i++) {
+        uint32_t t = f->journal[i].slot;
         if (t >= tiling->tri_count) continue;
         for (uint32_t k = 0; k < 3; k++) {
             mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
             tiling->tile_at[tiling->tri[t].v[k]] = t;
         }
-        if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+        if (mw__is_users_tile(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
     }
 }
 
-static void restore_vertices(mw_fabric *f, const mw_step *step)
+static void journal_restore_vertices(mw_dynamic_tiling *f, const mw_journal_step *step)
 {
     mw_tiling *tiling = f->tiling;
-    while (f->vertex_count > step->vertices) { /* the last one made first */
+    while (f->vertex_count > step->vertices) { /* the newest first */
         uint32_t v = f->vertex_slot[--f->vertex_count];
         tiling->tile_at[v] = MW_NONE;
-        if (v < step->points) f->free_place[f->free_count++] = v;
+        if (v < step->points) f->free_slot[f->free_count++] = v;
     }
     tiling->point_count = step->points;
-    if (f->free_count > step->free_places) {
-        uint32_t v = f->free_place[--f->free_count];
+    if (f->free_count > step->free_slots) {
+        uint32_t v = f->free_slot[--f->free_count];
         f->vertex_number[v] = step->number;
         f->vertex_slot[step->number] = v;
         tiling->point[v] = step->point;
@@ -109,77 +110,80 @@ static void restore_vertices(mw_fabric *f, const mw_step *step)
     if (f->last >= tiling->tri_count) f->last = 0;
 }
 
-void mw__fabric_rollback(mw_fabric *f)
+void mw__journal_rollback(mw_dynamic_tiling *f)
 {
-    const mw_step *step = &f->step[f->step_count - 1];
-    exchange_tiles(f, step);
-    restore_vertices(f, step);
-    clear_marks(f, f->before + step->journal, f->before_count - step->journal);
-    end(f);
-    mw__fabric_drop(f);
+    const mw_journal_step *step = &f->step[f->step_count - 1];
+    journal_exchange_tiles(f, step);
+    journal_restore_vertices(f, step);
+    journal_clear_marks(f, f->journal + step->first_entry, f->journal_count - step->first_entry);
+    journal_end(f);
+    mw__journal_drop(f);
 }
 
-/* Put the tiles at the end of the array that an edit has made into its journal, for those who ask what was taken back. */
-static bool journal_made(mw_fabric *f, const mw_step *step)
+/* Record the tiles that an edit added at the end of the array, so that the reverted step tells
+ * them. */
+static bool journal_add_made(mw_dynamic_tiling *f, const mw_journal_step *step)
 {
     const mw_tiling *tiling = f->tiling;
     if (tiling->tri_count <= step->tiles) return true;
     if (!mw__journal_room(f, tiling->tri_count - step->tiles)) return false;
     for (uint32_t t = step->tiles; t < tiling->tri_count; t++)
-        f->before[f->before_count++] = (mw_before){t, f->mark[t] & MW_FIXED_EDGES, tiling->tri[t]};
+        f->journal[f->journal_count++] = (mw_journal_entry){t, f->mark[t] & MW_FIXED_EDGES, tiling->tri[t]};
     return true;
 }
 
-bool mw__fabric_revert(mw_fabric *f)
+bool mw__journal_revert(mw_dynamic_tiling *f)
 {
-    const mw_step *step = &f->step[f->step_count - 1];
-    if (!journal_made(f, step)) return false;
-    exchange_tiles(f, step);
-    restore_vertices(f, step);
+    const mw_journal_step *step = &f->step[f->step_count - 1];
+    if (!journal_add_made(f, step)) return false;
+    journal_exchange_tiles(f, step);
+    journal_restore_vertices(f, step);
     f->flips = 0;
     return true;
 }
 
-void mw__fabric_drop(mw_fabric *f)
+void mw__journal_drop(mw_dynamic_tiling *f)
 {
-    f->before_count = f->step[--f->step_count].journal;
+    f->journal_count = f->step[--f->step_count].first_entry;
 }
 
-/* What the journal of many edits at once needed goes when it is forgotten, if that is more than the mesh has tiles. */
-static void shrink_journal(mw_fabric *f)
+/* After a step of many edits was forgotten, release its memory, if that is more than the mesh has
+ * tiles. */
+static void shrink_journal(mw_dynamic_tiling *f)
 {
     enum { FEW = 4096 };
-    size_t room = FEW + 2 * f->before_count;
-    if (f->before_room <= FEW + (size_t)f->tiling->tri_count || room > f->before_room / 2) return;
-    mw_before *before = mw__realloc(f->before, room, sizeof *before);
-    if (!before) return;
-    f->before = before;
-    f->before_room = room;
+    size_t room = FEW + 2 * f->journal_count;
+    if (f->journal_room <= FEW + (size_t)f->tiling->tri_count || room > f->journal_room / 2) return;
+    mw_journal_entry *entries = mw__realloc(f->journal, room, sizeof *entries);
+    if (!entries) return;
+    f->journal = entries;
+    f->journal_room = room;
 }
 
-void mw__fabric_forget(mw_fabric *f, size_t steps)
+void mw__journal_forget(mw_dynamic_tiling *f, size_t steps)
 {
-    if (f->step_count <= steps || f->step_count - steps < steps) return; /* so that each is moved once, on average */
-    size_t gone = f->step_count - steps, entries = steps ? f->step[gone].journal : f->before_count;
-    f->before_count -= entries;
+    /* not before as many steps go as stay: so a step moves once, on average */
+    if (f->step_count <= steps || f->step_count - steps < steps) return;
+    size_t gone = f->step_count - steps, entries = steps ? f->step[gone].first_entry : f->journal_count;
+    f->journal_count -= entries;
     f->step_count = steps;
     if (steps > 0) {
-        memmove(f->before, f->before + entries, f->before_count * sizeof *f->before);
+        memmove(f->journal, f->journal + entries, f->journal_count * sizeof *f->journal);
         memmove(f->step, f->step + gone, steps * sizeof *f->step);
-        for (size_t i = 0; i < steps; i++) f->step[i].journal -= entries;
+        for (size_t i = 0; i < steps; i++) f->step[i].first_entry -= entries;
     }
     shrink_journal(f);
 }
 
-/* --- what changed ----------------------------------------------------------------------------------------------------- */
+/* --- what changed ----------------------------------------------------------------------------- */
 
-static bool is_users(const mw_triangle *tile)
+static bool is_users_triangle(const mw_triangle *tile)
 {
     return tile->v[0] != MW_NONE && !(tile->user & MW_GHOST);
 }
 
-/* The tile that has a number now; NULL if none has. */
-static const mw_triangle *tile_now(const mw_tiling *tiling, uint32_t number)
+/* The tile that has a number now; NULL if no tile has. */
+static const mw_triangle *tile_with_number(const mw_tiling *tiling, uint32_t number)
 {
     if (number >= tiling->number_count || tiling->tile_of[number] & MW_GONE) return NULL;
     return &tiling->tri[tiling->tile_of[number]];
@@ -190,18 +194,18 @@ static mw_changed_triangle made_triangle(const mw_triangle *tile)
     return (mw_changed_triangle){tile->user & MW_USER_MASK, {MW_NONE, MW_NONE, MW_NONE}};
 }
 
-static int by_number(const void *a, const void *b)
+static int compare_by_number(const void *a, const void *b)
 {
     const mw_changed_triangle *s = a, *t = b;
     return (s->triangle > t->triangle) - (s->triangle < t->triangle);
 }
 
-/* By number. Most edits change few, which come nearly in order; others many. */
-static void sort(mw_changed_triangle *list, size_t n)
+/* Most edits change few triangles, which are nearly sorted already. */
+static void sort_by_number(mw_changed_triangle *list, size_t n)
 {
     enum { FEW = 32 };
     if (n > FEW) {
-        qsort(list, n, sizeof *list, by_number);
+        qsort(list, n, sizeof *list, compare_by_number);
         return;
     }
     for (size_t i = 1; i < n; i++) {
@@ -212,65 +216,67 @@ static void sort(mw_changed_triangle *list, size_t n)
     }
 }
 
-/* The triangles of the journal as they were, sorted; returns how many. */
-static size_t list_before(const mw_fabric *f, const mw_before *first, size_t count, mw_changed_triangle *list)
+/* List the triangles of the entries, as they were before the edit, sorted; returns how many. */
+static size_t list_former(const mw_dynamic_tiling *f, const mw_journal_entry *first, size_t count,
+                          mw_changed_triangle *list)
 {
     size_t n = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!is_users(&first[i].tile)) continue;
+        if (!is_users_triangle(&first[i].tile)) continue;
         list[n].triangle = first[i].tile.user & MW_USER_MASK;
-        mw__fabric_corners(f, &first[i].tile, list[n++].before);
+        mw__dynamic_tile_vertices(f, &first[i].tile, list[n++].before);
     }
-    sort(list, n);
+    sort_by_number(list, n);
     return n;
 }
 
-/* Those that are there now and were not: appended, sorted. In places of the journal, and in those after them. */
-static size_t list_made(const mw_fabric *f, const mw_before *first, size_t count, mw_changed_triangle *list,
-                        size_t known)
+/* Append the triangles that exist now and did not before, sorted; returns how many. They are in
+ * slots of entries, and in slots at the end of the array. */
+static size_t list_made(const mw_dynamic_tiling *f, const mw_journal_entry *first, size_t count,
+                        mw_changed_triangle *list, size_t known)
 {
     const mw_tiling *tiling = f->tiling;
     uint32_t tiles = f->step[f->step_count - 1].tiles;
     size_t n = known;
     for (size_t i = 0; i < count; i++) {
-        if (first[i].place >= tiling->tri_count) continue;
-        const mw_triangle *now = &tiling->tri[first[i].place];
+        if (first[i].slot >= tiling->tri_count) continue;
+        const mw_triangle *now = &tiling->tri[first[i].slot];
         mw_changed_triangle made = made_triangle(now);
-        if (is_users(now) && !bsearch(&made, list, known, sizeof *list, by_number)) list[n++] = made;
+        if (is_users_triangle(now) && !bsearch(&made, list, known, sizeof *list, compare_by_number)) list[n++] = made;
     }
     for (uint32_t t = tiles; t < tiling->tri_count; t++)
-        if (is_users(&tiling->tri[t])) list[n++] = made_triangle(&tiling->tri[t]);
-    sort(list + known, n - known);
+        if (is_users_triangle(&tiling->tri[t])) list[n++] = made_triangle(&tiling->tri[t]);
+    sort_by_number(list + known, n - known);
     return n - known;
 }
 
-static bool has_gone(const mw_fabric *f, const mw_changed_triangle *c)
+static bool triangle_is_gone(const mw_dynamic_tiling *f, const mw_changed_triangle *c)
 {
-    return !tile_now(f->tiling, c->triangle);
+    return !tile_with_number(f->tiling, c->triangle);
 }
 
-static bool is_other(const mw_fabric *f, const mw_changed_triangle *c)
+static bool triangle_is_changed(const mw_dynamic_tiling *f, const mw_changed_triangle *c)
 {
     uint32_t now[3];
-    mw__fabric_corners(f, tile_now(f->tiling, c->triangle), now);
+    mw__dynamic_tile_vertices(f, tile_with_number(f->tiling, c->triangle), now);
     return memcmp(now, c->before, sizeof now) != 0;
 }
 
-void mw__fabric_report(const mw_fabric *f, mw_changed_triangle *list, mw_change *change)
+void mw__journal_report(const mw_dynamic_tiling *f, mw_changed_triangle *list, mw_change *change)
 {
-    const mw_before *first;
-    size_t count = mw__fabric_journal(f, &first);
-    mw_changed_triangle *before = list + 2 * mw__fabric_extent(f); /* scratch */
-    size_t were = list_before(f, first, count, before), n = 0;
+    const mw_journal_entry *first;
+    size_t count = mw__journal_entries(f, &first);
+    mw_changed_triangle *before = list + 2 * mw__journal_extent(f); /* scratch */
+    size_t were = list_former(f, first, count, before), n = 0;
     memcpy(list, before, were * sizeof *list);
     change->made = list_made(f, first, count, list, were);
     memmove(list, list + were, change->made * sizeof *list);
     n = change->made;
     for (size_t i = 0; i < were; i++)
-        if (!has_gone(f, &before[i]) && is_other(f, &before[i])) list[n++] = before[i];
+        if (!triangle_is_gone(f, &before[i]) && triangle_is_changed(f, &before[i])) list[n++] = before[i];
     change->reused = n - change->made;
     for (size_t i = 0; i < were; i++)
-        if (has_gone(f, &before[i])) list[n++] = before[i];
+        if (triangle_is_gone(f, &before[i])) list[n++] = before[i];
     change->freed = n - change->made - change->reused;
     change->triangle = list;
     change->flips = f->flips;

@@ -1,23 +1,27 @@
-/* operations.h - what an edit can do to a fabric, each operation in its file. Private.
+/* operations.h - what an edit can do to a dynamic tiling; each operation has a file. Private.
  *
- * They return MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY; then the edit is to be rolled back.
- * Vertices are places. */
+ * They return MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY; the caller then rolls the edit
+ * back. Vertices are slots. */
 #ifndef MW_SRC_OPERATIONS_H
 #define MW_SRC_OPERATIONS_H
 
-#include "edit/fabric.h"
+#include "edit/dynamic_tiling.h"
 
-/* *vertex MW_NONE: a new one, else one that is in no tile. *vertex is set to the vertex at q, which may
- * be another one. `t`: where to begin to look for q (insert.c). There may be no edit under way, if
- * nobody will ask: one begins where this may fail after it has changed something. */
-mw_status mw__fabric_insert(mw_fabric *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
-mw_status mw__fabric_remove(mw_fabric *f, uint32_t vertex, mw_error *error);
-/* `t`: where to begin to look for q if the vertex cannot stay in its star; MW_NONE: there. */
-mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error);
-mw_status mw__fabric_flip(mw_fabric *f, uint32_t from, uint32_t to, mw_error *error);
-mw_status mw__fabric_constrain(mw_fabric *f, uint32_t from, uint32_t to, bool release, uint32_t *pieces,
-                               mw_error *error);
-/* Make all that is not fixed Delaunay. */
-mw_status mw__fabric_mend(mw_fabric *f, mw_error *error);
+/* Insert a vertex at q. *vertex: MW_NONE for a new vertex, else the slot of a vertex that is in no
+ * tile. Sets *vertex to the vertex at q, which may have been there before. `t`: the tile where the
+ * search for q begins. If no edit is under way, none needs to be recorded; the insertion begins one
+ * if it might fail after it has changed a tile. */
+mw_status mw__dynamic_insert(mw_dynamic_tiling *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
+mw_status mw__dynamic_remove(mw_dynamic_tiling *f, uint32_t vertex, mw_error *error);
+/* `t`: the tile where the search for q begins if the vertex leaves its star. MW_NONE: at its
+ * star. */
+mw_status mw__dynamic_move(mw_dynamic_tiling *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error);
+mw_status mw__dynamic_flip(mw_dynamic_tiling *f, uint32_t from, uint32_t to, mw_error *error);
+/* Constrain the segment between two vertices, or release its constraints. *constrained_edges: the
+ * number of edges on the segment. */
+mw_status mw__dynamic_constrain(mw_dynamic_tiling *f, uint32_t from, uint32_t to, bool release,
+                                uint32_t *constrained_edges, mw_error *error);
+/* Flip edges that are not fixed until all are Delaunay. */
+mw_status mw__dynamic_make_delaunay(mw_dynamic_tiling *f, mw_error *error);
 
 #endif

@@ -1,67 +1,69 @@
-/* remove.c - a vertex is taken out of its star, or moved.
+/* remove.c - a vertex is removed from its star, or moved.
  *
- * The tiles round the vertex are replaced by corners cut off their boundary, then edges between these are flipped until they are Delaunay. On
- * the hull corners are cut off until what is left is convex. Where two fixed edges meet at the vertex in line they become one, and the two
- * sides of it are filled each for itself. */
+ * The ring round the vertex is filled by cutting off its corners; then edges between the new tiles
+ * are flipped until they are Delaunay. (A small ring in a Delaunay mesh is filled with Delaunay
+ * tiles at once.) On the hull, corners are cut off until the rest is convex. If two fixed edges
+ * meet at the vertex in line, they become one edge, and each of its sides is filled separately. */
 #include "edit/flip.h"
 #include "edit/operations.h"
-#include "edit/rim.h"
-#include "edit/stitch.h"
+#include "edit/boundary.h"
+#include "edit/tile_links.h"
 #include "edit/vertex_star.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-static mw_status refuse_fixed(const mw_fabric *f, uint32_t v, mw_error *error)
+static mw_status refuse_fixed(const mw_dynamic_tiling *f, uint32_t v, mw_error *error)
 {
     return mw__fail_at(error, -1, f->vertex_number[v], "vertex %" PRIu32 " is on the border or on a constraint",
                        f->vertex_number[v]);
 }
 
-/* Of a tile beside the star. */
-static uint32_t number_beside(const mw_fabric *f, size_t steps)
+/* The number of a user tile beside the star; MW_NONE if there is none. */
+static uint32_t number_beside(const mw_dynamic_tiling *f, size_t steps)
 {
     for (size_t i = 0; i < steps; i++) {
-        uint32_t beyond = f->rim[i].beyond;
-        if (beyond == MW_NONE || !mw__is_users(f, mw__link_triangle(beyond))) continue;
+        uint32_t beyond = f->boundary[i].beyond;
+        if (beyond == MW_NONE || !mw__is_users_tile(f, mw__link_triangle(beyond))) continue;
         return f->tiling->tri[mw__link_triangle(beyond)].user & MW_USER_MASK;
     }
     return MW_NONE;
 }
 
-/* --- the three cases -------------------------------------------------------------------------------------------------- */
+/* --- the three cases -------------------------------------------------------------------------- */
 
-/* The tiles round a star are still Delaunay without its vertex: only the edges within are looked at. */
-static mw_status close_ring(mw_fabric *f, const mw_star *star, mw_point q, mw_error *error)
+/* The tiles around the star are still Delaunay without its vertex: only the edges within are
+ * tested. */
+static mw_status ring_close(mw_dynamic_tiling *f, const mw_vertex_star *star, mw_point q, mw_error *error)
 {
-    enum {
-        FEW = 16
-    }; /* to look for each tile's circle takes time with the square of the steps, flips do not as a rule */
+    enum { FEW = 16 }; /* filling takes time quadratic in the steps; flips seldom do */
     mw_pool pool = {.tile = f->pool, .count = star->n};
     if (!mw__pool_begin_ring(f, &pool)) return mw__fail_memory(error);
     if (f->delaunay && star->n <= FEW)
-        mw__fill_ring(f, f->rim, star->n, &pool);
-    else if (!mw__cut_ring(f, f->rim, star->n, q, &pool) || !mw__legalise_within(f))
+        mw__ring_fill_delaunay(f, f->boundary, star->n, &pool);
+    else if (!mw__ring_cut_corners(f, f->boundary, star->n, q, &pool) || !mw__legalise_within(f))
         return mw__fail_memory(error);
     mw__pool_end(f, &pool, MW_NONE);
     return mw__drop_tiles(f, pool.tile + pool.used, pool.count - pool.used) ? MW_OK : mw__fail_memory(error);
 }
 
-static mw_status shrink_hull(mw_fabric *f, const mw_star *star, mw_error *error)
+static mw_status shrink_hull(mw_dynamic_tiling *f, const mw_vertex_star *star, mw_error *error)
 {
     mw_pool pool = {.tile = f->pool, .count = star->n};
     size_t left = star->n;
     uint32_t heir = number_beside(f, star->n), number = f->step[f->step_count - 1].edit.vertex;
-    if (!mw__pool_begin(f, &pool) || !mw__cut_chain(f, f->rim, &left, &pool)) return mw__fail_memory(error);
+    if (!mw__pool_begin(f, &pool) || !mw__chain_cut_corners(f, f->boundary, &left, &pool))
+        return mw__fail_memory(error);
     if (f->tiling->tri_count == pool.count - pool.used)
         return mw__fail_at(error, -1, number, "without vertex %" PRIu32 " no triangle would be left", number);
     uint32_t *tile_at = f->tiling->tile_at;
-    for (size_t i = 0; i <= left; i++) tile_at[f->rim[i].vertex] = MW_NONE;
+    for (size_t i = 0; i <= left; i++) tile_at[f->boundary[i].vertex] = MW_NONE;
     for (size_t i = 0; i < left; i++) {
-        uint32_t beyond = f->rim[i].beyond;
+        uint32_t beyond = f->boundary[i].beyond;
         if (beyond == MW_NONE) continue;
-        tile_at[f->rim[i].vertex] = tile_at[f->rim[i + 1].vertex] = mw__link_triangle(beyond);
-        if (!mw__journal(f, mw__link_triangle(beyond))) return mw__fail_memory(error); /* all that its ends have left */
+        tile_at[f->boundary[i].vertex] = tile_at[f->boundary[i + 1].vertex] = mw__link_triangle(beyond);
+        if (!mw__journal_tile(f, mw__link_triangle(beyond)))
+            return mw__fail_memory(error); /* its vertices may have no other tile left */
         mw__attach(f, beyond, MW_NONE);
         if (pool.used == 0) f->last = mw__link_triangle(beyond);
     }
@@ -70,37 +72,37 @@ static mw_status shrink_hull(mw_fabric *f, const mw_star *star, mw_error *error)
     return mw__drop_tiles(f, pool.tile + pool.used, pool.count - pool.used) ? MW_OK : mw__fail_memory(error);
 }
 
-/* Fill the tiles on one side of the line: steps[0 .. n - 1] become one, with the line beyond it: *base, MW_NONE where that side has
- * none. */
-static bool close_side(mw_fabric *f, mw_rim_step *steps, size_t n, mw_pool *pool, uint32_t *base)
+/* Fill one side of the line: steps[0 .. n - 1] become one. Sets *base to the half-edge of the line
+ * on this side; MW_NONE if this side has no tile. */
+static bool close_side(mw_dynamic_tiling *f, mw_boundary_step *steps, size_t n, mw_pool *pool, uint32_t *base)
 {
     *base = MW_NONE;
     if (n == 0) return true;
-    if (!mw__pool_begin(f, pool) || !mw__cut_chain(f, steps, &n, pool)) return false;
+    if (!mw__pool_begin(f, pool) || !mw__chain_cut_corners(f, steps, &n, pool)) return false;
     *base = steps[0].beyond;
     f->mark[mw__link_triangle(*base)] |= (uint8_t)(1u << mw__link_edge(*base));
     return true;
 }
 
-static mw_status close_line(mw_fabric *f, const mw_star *star, mw_error *error)
+static mw_status close_line(mw_dynamic_tiling *f, const mw_vertex_star *star, mw_error *error)
 {
     size_t n = star->n, first = star->spoke[0], middle = star->spoke[1] - first, rest = n - middle;
     if (star->open) rest = 0;
-    if (!mw__rim_room(f, 2 * (n + 2))) return mw__fail_memory(error);
-    mw_rim_step *steps = f->rim + n + 2; /* each side with its end */
+    if (!mw__boundary_room(f, 2 * (n + 2))) return mw__fail_memory(error);
+    mw_boundary_step *steps = f->boundary + n + 2; /* the steps of each side, and its end */
     uint32_t *tiles = f->pool + n + 2;
     for (size_t i = 0; i < n; i++) {
         size_t from = (first + i) % n;
-        steps[i + (i >= middle)] = f->rim[from];
+        steps[i + (i >= middle)] = f->boundary[from];
         tiles[i] = f->pool[from];
     }
-    steps[middle].vertex = f->rim[star->spoke[1]].vertex;
-    steps[n + 1].vertex = f->rim[first].vertex;
+    steps[middle].vertex = f->boundary[star->spoke[1]].vertex;
+    steps[n + 1].vertex = f->boundary[first].vertex;
     mw_pool one = {.tile = tiles, .count = middle}, two = {.tile = tiles + middle, .count = rest};
     uint32_t left, right;
-    bool border = star->open ? !f->convex : mw__is_users(f, tiles[0]) != mw__is_users(f, tiles[middle]);
+    bool border = star->open ? !f->convex : mw__is_users_tile(f, tiles[0]) != mw__is_users_tile(f, tiles[middle]);
     if (!close_side(f, steps, middle, &one, &left) || !close_side(f, steps + middle + 1, rest, &two, &right) ||
-        left == MW_NONE) /* the first side has a tile, at least */
+        left == MW_NONE) /* the first side has at least one tile */
         return mw__fail_memory(error);
     mw__attach(f, left, right);
     if (!border) f->fixed_count--;
@@ -112,90 +114,91 @@ static mw_status close_line(mw_fabric *f, const mw_star *star, mw_error *error)
                                                                                                : mw__fail_memory(error);
 }
 
-/* Do the first two fixed edges at v go on in one line? */
-static bool in_line(const mw_fabric *f, const mw_star *star, uint32_t v)
+/* Are the first two fixed edges at v in line? */
+static bool spokes_in_line(const mw_dynamic_tiling *f, const mw_vertex_star *star, uint32_t v)
 {
     const mw_point *p = f->tiling->point;
-    mw_point a = p[f->rim[star->spoke[0]].vertex], b = p[f->rim[star->spoke[1]].vertex];
+    mw_point a = p[f->boundary[star->spoke[0]].vertex], b = p[f->boundary[star->spoke[1]].vertex];
     return mw__orient2d(a, b, p[v]) == 0 && mw__dot2d(p[v], a, b) < 0;
 }
 
-/* Take v out of the tiles, given its star. */
-static mw_status take_out(mw_fabric *f, const mw_star *star, uint32_t v, mw_error *error)
+/* Remove v from the tiling, given its star. */
+static mw_status vertex_take_out(mw_dynamic_tiling *f, const mw_vertex_star *star, uint32_t v, mw_error *error)
 {
-    if (star->spokes == 2 && in_line(f, star, v)) return close_line(f, star, error);
+    if (star->spokes == 2 && spokes_in_line(f, star, v)) return close_line(f, star, error);
     if (star->spokes > 0) return refuse_fixed(f, v, error);
-    return star->open ? shrink_hull(f, star, error) : close_ring(f, star, f->tiling->point[v], error);
+    return star->open ? shrink_hull(f, star, error) : ring_close(f, star, f->tiling->point[v], error);
 }
 
-mw_status mw__fabric_remove(mw_fabric *f, uint32_t vertex, mw_error *error)
+mw_status mw__dynamic_remove(mw_dynamic_tiling *f, uint32_t vertex, mw_error *error)
 {
-    mw_star star;
-    if (!mw__collect_star(f, vertex, &star)) return mw__fail_memory(error);
-    mw_step *step = &f->step[f->step_count - 1];
+    mw_vertex_star star;
+    if (!mw__vertex_star_collect(f, vertex, &star)) return mw__fail_memory(error);
+    mw_journal_step *step = &f->step[f->step_count - 1];
     step->vertex = vertex;
     step->number = f->vertex_number[vertex];
     step->point = f->tiling->point[vertex];
-    mw_status status = take_out(f, &star, vertex, error);
+    mw_status status = vertex_take_out(f, &star, vertex, error);
     if (!status && !mw__free_vertex(f, vertex)) status = mw__fail_memory(error);
     return status;
 }
 
-/* --- moving ----------------------------------------------------------------------------------------------------------- */
+/* --- moving ----------------------------------------------------------------------------------- */
 
-/* Does the hull stay convex if its vertex, between rim vertices w[n] and w[0], moves to q? */
-static bool keeps_hull(const mw_fabric *f, const mw_star *star, mw_point q)
+/* Does the hull stay convex if its vertex, between boundary vertices n and 0, moves to q? */
+static bool move_keeps_hull(const mw_dynamic_tiling *f, const mw_vertex_star *star, mw_point q)
 {
     const mw_point *p = f->tiling->point;
-    uint32_t after = f->rim[0].vertex, before = f->rim[star->n].vertex;
+    uint32_t after = f->boundary[0].vertex, before = f->boundary[star->n].vertex;
     bool open;
-    uint32_t out = mw__star_first(f, after, &open); /* the hull edge that leaves it */
+    uint32_t out = mw__vertex_star_first(f, after, &open); /* the hull edge that leaves it */
     mw_point beyond = p[mw__corner(f, mw__half_next(out))];
-    uint32_t in =
-        mw__half_prev(mw__star_first(f, before, &open)); /* turned round to its last tile, where the hull comes in */
+    /* from the first tile of `before` to its last one, where the hull comes in */
+    uint32_t in = mw__half_prev(mw__vertex_star_first(f, before, &open));
     while (mw__beyond(f, in) != MW_NONE) in = mw__half_prev(mw__beyond(f, in));
     return mw__orient2d(p[before], q, p[after]) >= 0 && mw__orient2d(q, p[after], beyond) >= 0 &&
            mw__orient2d(p[mw__corner(f, in)], p[before], q) >= 0;
 }
 
-static bool stays_valid(const mw_fabric *f, const mw_star *star, mw_point q)
+static bool move_keeps_star(const mw_dynamic_tiling *f, const mw_vertex_star *star, mw_point q)
 {
     const mw_point *p = f->tiling->point;
     for (size_t i = 0; i < star->n; i++) {
-        uint32_t to = mw__corner(f, mw__half_next(f->rim[i].half));
-        if (!(mw__orient2d(p[f->rim[i].vertex], p[to], q) > 0)) return false;
+        uint32_t to = mw__corner(f, mw__half_next(f->boundary[i].half));
+        if (!(mw__orient2d(p[f->boundary[i].vertex], p[to], q) > 0)) return false;
     }
-    return !star->open || keeps_hull(f, star, q);
+    return !star->open || move_keeps_hull(f, star, q);
 }
 
-/* In place; all edges of the star may have to be flipped. */
-static mw_status shift(mw_fabric *f, const mw_star *star, uint32_t v, mw_point q, mw_error *error)
+/* Move the vertex within its star. All edges of the star may have to be flipped. */
+static mw_status vertex_shift(mw_dynamic_tiling *f, const mw_vertex_star *star, uint32_t v, mw_point q, mw_error *error)
 {
     f->tiling->point[v] = q;
     f->last = f->pool[0];
     if (!f->delaunay) return MW_OK;
     for (size_t i = 0; i < star->n; i++) {
-        uint32_t across = f->rim[i].half;
-        if (!mw__push(f, across) || !mw__push(f, mw__half_next(across)) || !mw__push(f, mw__half_prev(across)))
+        uint32_t across = f->boundary[i].half;
+        if (!mw__stack_push(f, across) || !mw__stack_push(f, mw__half_next(across)) ||
+            !mw__stack_push(f, mw__half_prev(across)))
             return mw__fail_memory(error);
     }
     return mw__legalise(f) ? MW_OK : mw__fail_memory(error);
 }
 
-mw_status mw__fabric_move(mw_fabric *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error)
+mw_status mw__dynamic_move(mw_dynamic_tiling *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error)
 {
-    mw_step *step = &f->step[f->step_count - 1];
-    mw_star star;
-    if (!mw__collect_star(f, vertex, &star)) return mw__fail_memory(error);
+    mw_journal_step *step = &f->step[f->step_count - 1];
+    mw_vertex_star star;
+    if (!mw__vertex_star_collect(f, vertex, &star)) return mw__fail_memory(error);
     step->vertex = vertex;
     step->point = f->tiling->point[vertex];
-    if (stays_valid(f, &star, q)) return shift(f, &star, vertex, q, error);
+    if (move_keeps_star(f, &star, q)) return vertex_shift(f, &star, vertex, q, error);
     if (star.spokes > 0) return refuse_fixed(f, vertex, error);
-    mw_status status = take_out(f, &star, vertex, error);
+    mw_status status = vertex_take_out(f, &star, vertex, error);
     if (status) return status;
     f->tiling->point[vertex] = q;
     uint32_t at = vertex;
-    status = mw__fabric_insert(f, q, t < f->tiling->tri_count ? t : f->last, &at, error);
+    status = mw__dynamic_insert(f, q, t < f->tiling->tri_count ? t : f->last, &at, error);
     if (!status && at != vertex)
         status =
             mw__fail_at(error, -1, f->vertex_number[at], "vertex %" PRIu32 " lies there already", f->vertex_number[at]);

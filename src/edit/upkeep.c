@@ -1,32 +1,34 @@
-/* upkeep.c - keeping guide and indices near, edit by edit. */
+/* upkeep.c - keeps the guide and the indices useful, edit by edit. */
 #include "edit/upkeep.h"
 
 #include "base/clock.h"
 #include "edit/journal.h"
 #include "locate/spread.h"
 
-/* --- building ---------------------------------------------------------------------------------------------------------- */
+/* --- building --------------------------------------------------------------------------------- */
 
-static uint32_t live_vertices(const mw_fabric *f)
+static uint32_t vertices_in_use(const mw_dynamic_tiling *f)
 {
     return f->tiling->point_count - f->free_count;
 }
 
-static bool is_built(const mw_upkeep *u, mw_start_kind start)
+static bool index_is_built(const mw_upkeep *u, mw_start_kind start)
 {
-    return u->since[start].built;
+    return u->staleness[start].built;
 }
 
-/* The guide does not follow edits. Insertions lengthen the walks from it, to twice as many tiles where there are three times as many vertices; other edits
- * wear its names out, too. Built anew after two insertions for each vertex, or one other edit, it takes a seventh as long as these, if they come in an order of
- * space; a twentieth of insertions anywhere in a large mesh. */
-static void begin_anew(mw_upkeep *u, mw_start_kind start)
+/* Start counting again, after a rebuild. The guide does not follow edits: insertions lengthen the
+ * walks from it (to twice as many tiles when there are three times as many vertices), and other
+ * edits make its names outdated. With these limits rebuilding the guide takes a seventh of the time
+ * of insertions in spatial order, and a twentieth of that of insertions anywhere in a large
+ * mesh. */
+static void staleness_reset(mw_upkeep *u, mw_start_kind start)
 {
     enum { FEW = 64, EDITS_PER_VERTEX = 4, INSERTIONS_PER_VERTEX = 2, OUTSIDERS = 4 };
     const bool guide = start == MW_START_AUTO;
-    uint64_t n = live_vertices(u->fabric);
-    if (!is_built(u, start) && start != MW_START_CURVE) u->kept[u->kept_count++] = start;
-    u->since[start] = (mw_since){
+    uint64_t n = vertices_in_use(u->dynamic);
+    if (!index_is_built(u, start) && start != MW_START_CURVE) u->kept[u->kept_count++] = start;
+    u->staleness[start] = (mw_staleness){
         .built = true,
         .most_edits = FEW + (guide ? INSERTIONS_PER_VERTEX : EDITS_PER_VERTEX) * n,
         .weight = guide ? INSERTIONS_PER_VERTEX : 1,
@@ -36,19 +38,19 @@ static void begin_anew(mw_upkeep *u, mw_start_kind start)
     };
 }
 
-/* Only layers are more than a room below builds. */
-static mw_status build(mw_upkeep *u, mw_index *fresh, mw_live_layers *live, const mw_index_options *options,
-                       mw_error *error)
+/* Build an index. Layers are the only ones that the editor builds itself. */
+static mw_status upkeep_build_index(mw_upkeep *u, mw_index *fresh, mw_live_layers *live,
+                                    const mw_index_options *options, mw_error *error)
 {
     const mw_locator *locator = u->locator;
     if (fresh->start != MW_START_LAYERS)
         return mw__index_build(fresh, &locator->tiling, locator->low, locator->high, options, error);
     const mw_layers_options own = {
         .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
-    return mw__live_layers_create(live, &fresh->layers, u->fabric, &own, error);
+    return mw__live_layers_create(live, &fresh->layers, u->dynamic, &own, error);
 }
 
-static void release(mw_index *index, mw_live_layers *live)
+static void upkeep_index_release(mw_index *index, mw_live_layers *live)
 {
     if (index->start == MW_START_LAYERS)
         mw__live_layers_release(live);
@@ -64,31 +66,32 @@ mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_opt
     mw_index fresh = {.start = start};
     mw_live_layers live = {0};
     double begin = mw__seconds();
-    mw_status status = build(u, &fresh, &live, options, error);
+    mw_status status = upkeep_build_index(u, &fresh, &live, options, error);
     if (status) {
-        release(&fresh, &live);
+        upkeep_index_release(&fresh, &live);
         return status;
     }
     fresh.seconds = mw__seconds() - begin;
-    release(&u->index[start], &u->live);
+    upkeep_index_release(&u->index[start], &u->live);
     u->index[start] = fresh;
     u->options[start] = *options;
     if (start == MW_START_LAYERS) {
         u->live = live;
         mw__live_layers_attach(&u->live, &u->index[start].layers);
     }
-    begin_anew(u, start);
+    staleness_reset(u, start);
     return MW_OK;
 }
 
-/* The guide, and what else follows from a look at the tiling. Returns false when out of memory; the old guide stays then. */
+/* Build the guide, and find what else follows from measuring the tiling. False when out of memory;
+ * the old guide stays then. */
 static bool build_guide(mw_upkeep *u)
 {
     mw_index fresh;
     const mw_caches caches = mw__caches();
     mw__locator_survey(u->locator);
     u->large = mw__room_of_all(u->locator, &caches) == MW_ROOM_BEYOND;
-    begin_anew(u, MW_START_AUTO);
+    staleness_reset(u, MW_START_AUTO);
     bool done = mw__locator_guide(u->locator, &fresh);
     if (done) {
         mw__index_release(&u->locator->guide);
@@ -99,15 +102,15 @@ static bool build_guide(mw_upkeep *u)
     return done;
 }
 
-mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_fabric *fabric, mw_error *error)
+mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_dynamic_tiling *dynamic, mw_error *error)
 {
-    *u = (mw_upkeep){.locator = locator, .fabric = fabric};
+    *u = (mw_upkeep){.locator = locator, .dynamic = dynamic};
     return build_guide(u) ? MW_OK : mw__fail_memory(error);
 }
 
 void mw__upkeep_release(mw_upkeep *u)
 {
-    for (int start = 0; start < MW_START_COUNT; start++) release(&u->index[start], &u->live);
+    for (int start = 0; start < MW_START_COUNT; start++) upkeep_index_release(&u->index[start], &u->live);
     if (u->locator) mw__index_release(&u->locator->guide);
     *u = (mw_upkeep){0};
 }
@@ -119,77 +122,79 @@ size_t mw__upkeep_bytes(const mw_upkeep *u)
     return bytes;
 }
 
-/* --- refreshing -------------------------------------------------------------------------------------------------------- */
+/* --- refreshing ------------------------------------------------------------------------------- */
 
-static bool is_due(const mw_since *s, uint32_t vertices)
+static bool staleness_is_due(const mw_staleness *s, uint32_t vertices)
 {
     return s->edits > s->most_edits || s->outsiders > s->most_outsiders || vertices > s->most || vertices < s->fewest;
 }
 
-/* Build anew what is built. Without memory the old one stays, and it is tried again when it is due again. */
-static void refresh(mw_upkeep *u, mw_start_kind start)
+/* Rebuild an index, or the guide, if there is one. When out of memory the old one stays until it is
+ * due again. */
+static void upkeep_refresh(mw_upkeep *u, mw_start_kind start)
 {
-    if (!is_built(u, start)) return;
+    if (!index_is_built(u, start)) return;
     const mw_index_options options = u->options[start];
-    begin_anew(u, start);
+    staleness_reset(u, start);
     bool done = start == MW_START_AUTO ? build_guide(u) : mw__upkeep_build(u, start, &options, NULL) == MW_OK;
     u->refreshes += done;
 }
 
-/* --- grids ------------------------------------------------------------------------------------------------------------- */
+/* --- grids ------------------------------------------------------------------------------------ */
 
-static void put(mw_index *index, const mw_entry *e)
+static void grid_put(mw_index *index, const mw_entry *e)
 {
     if (index->start == MW_START_GRID) mw__lattice_put(&index->grid.lattice, index->grid.tile, e);
     if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_put(&index->two_level_grid, e);
 }
 
-static void put_in_indices(mw_upkeep *u, const mw_entry *e)
+static void grids_put(mw_upkeep *u, const mw_entry *e)
 {
-    put(&u->index[MW_START_GRID], e);
-    put(&u->index[MW_START_TWO_LEVEL_GRID], e);
+    grid_put(&u->index[MW_START_GRID], e);
+    grid_put(&u->index[MW_START_TWO_LEVEL_GRID], e);
 }
 
-bool mw__upkeep_asks(const mw_upkeep *u)
+bool mw__upkeep_needs_report(const mw_upkeep *u)
 {
-    return u->kept_count > 1; /* there is more than the guide */
+    return u->kept_count > 1; /* the guide needs no report */
 }
 
 static void note_tile(mw_upkeep *u, uint32_t t)
 {
-    const mw_tiling *tiling = u->fabric->tiling;
-    put_in_indices(u, &(mw_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
+    const mw_tiling *tiling = u->dynamic->tiling;
+    grids_put(u, &(mw_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
 }
 
-/* The tiles that an edit changed, as they are now: for the indices that were asked for. The guide has to do with the names it was built of,
- * since to find the cells of six tiles would cost a fifth of an insertion. */
-static void note_tiles(mw_upkeep *u, const mw_step *step, const mw_before *first, size_t count)
+/* Put the tiles that an edit changed, as they are now, into the grids. The guide keeps the names it
+ * was built from: finding the cells of six tiles would take a fifth of the time of an insertion. */
+static void note_tiles(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first, size_t count)
 {
-    const mw_tiling *tiling = u->fabric->tiling;
-    if (!is_built(u, MW_START_GRID) && !is_built(u, MW_START_TWO_LEVEL_GRID)) return;
+    const mw_tiling *tiling = u->dynamic->tiling;
+    if (!index_is_built(u, MW_START_GRID) && !index_is_built(u, MW_START_TWO_LEVEL_GRID)) return;
     for (size_t i = 0; i < count; i++)
-        if (first[i].place < tiling->tri_count) note_tile(u, first[i].place);
+        if (first[i].slot < tiling->tri_count) note_tile(u, first[i].slot);
     for (uint32_t t = step->tiles; t < tiling->tri_count; t++) note_tile(u, t);
 }
 
-static bool covers(const mw_index *index, mw_point p)
+static bool index_covers(const mw_index *index, mw_point p)
 {
     if (index->start == MW_START_GRID) return mw__lattice_covers(&index->grid.lattice, p);
     return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_covers(&index->two_level_grid, p);
 }
 
-static const mw_index *index_of(const mw_upkeep *u, mw_start_kind start)
+static const mw_index *kept_index(const mw_upkeep *u, mw_start_kind start)
 {
     return start == MW_START_AUTO ? &u->locator->guide : &u->index[start];
 }
 
-static bool is_there(const mw_fabric *f, uint32_t v)
+static bool vertex_is_used(const mw_dynamic_tiling *f, uint32_t v)
 {
     return v < f->tiling->point_count && f->tiling->tile_at[v] != MW_NONE;
 }
 
-/* The locator's extent is that of all places where vertices are or were; an index knows but what it was built for. */
-static MW_INLINE void note_place(mw_upkeep *u, mw_point p)
+/* The extent of the locator contains all points where vertices are or were. An index keeps the
+ * extent that it was built for. */
+static MW_INLINE void extent_include(mw_upkeep *u, mw_point p)
 {
     double *low = u->locator->low, *high = u->locator->high;
     if (p.x < low[0]) low[0] = p.x;
@@ -198,18 +203,18 @@ static MW_INLINE void note_place(mw_upkeep *u, mw_point p)
     if (p.y > high[1]) high[1] = p.y;
 }
 
-static void note_places(mw_upkeep *u, const uint32_t *vertices, uint32_t n)
+static void note_vertices(mw_upkeep *u, const uint32_t *vertices, uint32_t n)
 {
-    const mw_point *p = u->fabric->tiling->point;
+    const mw_point *p = u->dynamic->tiling->point;
     for (uint32_t i = 0; i < n; i++) {
-        if (!is_there(u->fabric, vertices[i])) continue;
+        if (!vertex_is_used(u->dynamic, vertices[i])) continue;
         for (uint32_t k = 0; k < u->kept_count; k++)
-            u->since[u->kept[k]].outsiders += !covers(index_of(u, u->kept[k]), p[vertices[i]]);
-        note_place(u, p[vertices[i]]);
+            u->staleness[u->kept[k]].outsiders += !index_covers(kept_index(u, u->kept[k]), p[vertices[i]]);
+        extent_include(u, p[vertices[i]]);
     }
 }
 
-/* A tile that there is now, beside one that there was before an edit was undone. */
+/* A tile that exists now, beside one that existed before an edit was undone. */
 static uint32_t tile_beside(const mw_tiling *tiling, const mw_triangle *gone)
 {
     for (uint32_t k = 0; k < 3; k++)
@@ -218,11 +223,11 @@ static uint32_t tile_beside(const mw_tiling *tiling, const mw_triangle *gone)
     return 0;
 }
 
-/* Numbers that were given out by an edit that was undone lead to triangles beside those that had them; and as they will be given out again, for
- * triangles anywhere, cells do not keep them. */
-static void redirect_names(mw_upkeep *u, const mw_step *step, const mw_before *first, size_t count)
+/* Redirect the numbers that an undone edit had given out to triangles beside those that had them.
+ * These numbers will be given out again, to triangles anywhere, so the cells must not keep them. */
+static void redirect_names(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first, size_t count)
 {
-    mw_tiling *tiling = u->fabric->tiling;
+    mw_tiling *tiling = u->dynamic->tiling;
     for (size_t i = 0; i < count; i++) {
         const mw_triangle *gone = &first[i].tile;
         uint32_t number = gone->user & MW_USER_MASK;
@@ -235,18 +240,18 @@ static void redirect_names(mw_upkeep *u, const mw_step *step, const mw_before *f
             p[k] = moved ? (mw_point){step->edit.x, step->edit.y} : tiling->point[gone->v[k]];
         }
         const mw_entry e = {.p = mw__middle(p[0], p[1], p[2]), .name = heir, .anyway = true};
-        put(&u->locator->guide, &e);
-        put_in_indices(u, &e);
+        grid_put(&u->locator->guide, &e);
+        grids_put(u, &e);
     }
 }
 
-/* --- layers ------------------------------------------------------------------------------------------------------------ */
+/* --- layers ----------------------------------------------------------------------------------- */
 
-/* What an edit did to a vertex: the layers follow it. */
-static bool follow(mw_upkeep *u, const mw_step *step, uint32_t v)
+/* Let the layers follow what an edit did to vertex v. */
+static bool layers_follow(mw_upkeep *u, const mw_journal_step *step, uint32_t v)
 {
-    const mw_fabric *f = u->fabric;
-    bool there = is_there(f, v);
+    const mw_dynamic_tiling *f = u->dynamic;
+    bool there = vertex_is_used(f, v);
     switch (step->edit.kind) {
     case MW_EDIT_INSERT:
     case MW_EDIT_REMOVE:
@@ -256,80 +261,82 @@ static bool follow(mw_upkeep *u, const mw_step *step, uint32_t v)
     }
 }
 
-/* --- after an edit ----------------------------------------------------------------------------------------------------- */
+/* --- after an edit ---------------------------------------------------------------------------- */
 
-/* The vertices that an edit made, or the one that it moved or took out: an insertion where there was one did nothing. */
-static void follow_vertices(mw_upkeep *u, const mw_step *step)
+/* Follow the vertices that an edit inserted, moved or removed. An insertion at an existing vertex
+ * changed nothing. */
+static void follow_vertices(mw_upkeep *u, const mw_journal_step *step)
 {
     bool made = step->edit.kind == MW_EDIT_INSERT;
-    const uint32_t *vertices = made ? u->fabric->vertex_slot + step->vertices : &step->vertex;
+    const uint32_t *vertices = made ? u->dynamic->vertex_slot + step->vertices : &step->vertex;
     const uint32_t n = made ? step->made : step->vertex != MW_NONE;
-    note_places(u, vertices, n);
+    note_vertices(u, vertices, n);
     if (!u->live.layers) return;
-    bool even = true; /* what is built anew knows all vertices already */
-    for (uint32_t i = 0; i < n && even; i++) even = follow(u, step, vertices[i]) && mw__live_layers_even(&u->live);
-    if (!even) refresh(u, MW_START_LAYERS);
+    bool even = true; /* rebuilt layers contain all of them already */
+    for (uint32_t i = 0; i < n && even; i++)
+        even = layers_follow(u, step, vertices[i]) && mw__live_layers_even(&u->live);
+    if (!even) upkeep_refresh(u, MW_START_LAYERS);
 }
 
-/* Something changed: cursors look anew, and there may be new names. */
-static void begin(mw_upkeep *u)
+/* Raise the epoch, so cursors look again; and account for new names. */
+static void upkeep_begin(mw_upkeep *u)
 {
-    mw_tiling *tiling = u->fabric->tiling;
+    mw_tiling *tiling = u->dynamic->tiling;
     u->locator->epoch++;
     if (tiling->name_count < tiling->number_count) tiling->name_count = tiling->number_count;
 }
 
 static MW_INLINE void count_edits(mw_upkeep *u, mw_start_kind start, uint64_t edits)
 {
-    mw_since *since = &u->since[start];
-    since->edits += edits;
-    if (MW_UNLIKELY(is_due(since, live_vertices(u->fabric)))) refresh(u, start);
+    mw_staleness *staleness = &u->staleness[start];
+    staleness->edits += edits;
+    if (MW_UNLIKELY(staleness_is_due(staleness, vertices_in_use(u->dynamic)))) upkeep_refresh(u, start);
 }
 
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
 {
-    const mw_fabric *f = u->fabric;
-    const mw_step *step = &f->step[f->step_count - 1];
-    const mw_before *first;
-    size_t count = mw__fabric_journal(f, &first);
+    const mw_dynamic_tiling *f = u->dynamic;
+    const mw_journal_step *step = &f->step[f->step_count - 1];
+    const mw_journal_entry *first;
+    size_t count = mw__journal_entries(f, &first);
     if (step->edit.kind == MW_EDIT_VALUE) return;
-    begin(u);
+    upkeep_begin(u);
     if (undone) redirect_names(u, step, first, count);
     note_tiles(u, step, first, count);
     follow_vertices(u, step);
     for (uint32_t i = 0; i < u->kept_count; i++) {
         const bool puts_in = (step->edit.kind == MW_EDIT_INSERT) != undone;
-        const uint32_t weight = puts_in ? 1 : u->since[u->kept[i]].weight;
+        const uint32_t weight = puts_in ? 1 : u->staleness[u->kept[i]].weight;
         count_edits(u, u->kept[i], weight * step->edits);
     }
 }
 
 void mw__upkeep_insertion(mw_upkeep *u, uint32_t v)
 {
-    begin(u);
-    if (v != MW_NONE) { /* as nobody asks there is the guide only */
-        const mw_point p = u->fabric->tiling->point[v];
-        u->since[MW_START_AUTO].outsiders += !covers(&u->locator->guide, p);
-        note_place(u, p);
+    upkeep_begin(u);
+    if (v != MW_NONE) { /* only the guide exists */
+        const mw_point p = u->dynamic->tiling->point[v];
+        u->staleness[MW_START_AUTO].outsiders += !index_covers(&u->locator->guide, p);
+        extent_include(u, p);
     }
     count_edits(u, MW_START_AUTO, 1);
 }
 
 void mw__upkeep_grow(mw_upkeep *u)
 {
-    if (live_vertices(u->fabric) > u->since[MW_START_AUTO].most) refresh(u, MW_START_AUTO);
+    if (vertices_in_use(u->dynamic) > u->staleness[MW_START_AUTO].most) upkeep_refresh(u, MW_START_AUTO);
 }
 
 void mw__upkeep_rolled_back(mw_upkeep *u)
 {
-    refresh(u, MW_START_AUTO);
+    upkeep_refresh(u, MW_START_AUTO);
 }
 
 void mw__upkeep_compact(mw_upkeep *u)
 {
     u->locator->epoch = ((u->locator->epoch >> 32) + 1) << 32;
-    u->fabric->tiling->name_count = u->fabric->tiling->number_count;
-    mw__live_layers_drop(&u->live); /* they know vertices by places that are others now */
-    for (uint32_t i = 0; i < u->kept_count; i++) refresh(u, u->kept[i]);
-    refresh(u, MW_START_CURVE);
+    u->dynamic->tiling->name_count = u->dynamic->tiling->number_count;
+    mw__live_layers_drop(&u->live); /* they hold slots of vertices, which have changed */
+    for (uint32_t i = 0; i < u->kept_count; i++) upkeep_refresh(u, u->kept[i]);
+    upkeep_refresh(u, MW_START_CURVE);
 }

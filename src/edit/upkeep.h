@@ -1,74 +1,88 @@
-/* upkeep.h - what leads queries to a first tile, while the mesh changes. Private.
+/* upkeep.h - keeps the guide and the indices useful while the mesh changes. Private.
  *
- * A locator of a mesh that changes has a guide, a grid or, where vertices are crowded, one of two levels; and its editor may have an index for
- * each start. They name tiles that edits take away or reshape:
+ * The locator of an editor has a guide (a grid, or a grid of two levels where vertices are
+ * crowded). The editor may have an index for each start, too. They name tiles that edits delete or
+ * reshape:
  *
- *   grids    hold names of tiles. A name leads to the triangle of that number, or to one that took its place, so it never goes wrong,
- *            only farther off. A triangle that an edit changed is put into the cell of its middle, if near the middle of that.
+ *   grids    hold names of tiles. A name leads to the triangle of that number, or to one that
+ *            replaced it. So a name is never wrong; it may only lead farther off. A triangle that
+ *            an edit changed is put into the cell of its centroid if it is near the centre of the
+ *            cell.
  *   layers   follow each vertex [Devillers 2002]: see live_layers.h.
- *   a curve  holds places of tiles, which say less and less. It is built anew only on request.
+ *   a curve  holds slots of tiles, which edits make less and less useful. It is rebuilt only on
+ *            request.
  *
- * The guide is not told of edits. Grids and layers are built anew, in O(n), when there are twice as many vertices as when they were built,
- * or half, or after four edits for each vertex there was; the guide when there are three times as many, or half, or after two insertions for each, other
- * edits counting twice; guide and grids also when a quarter as many vertices were put
- * beyond their rims; layers when one has half or twice as many vertices as its chance of them lets expect. That is O(1) for each edit.
- * Where memory is short the old ones stay, and layers that cannot follow are dropped: all of this is only a guide, no answer depends on it. */
+ * The guide does not follow edits.
+ *
+ * Grids and layers are rebuilt in O(n) when there are twice as many vertices as when they were
+ * built, or half; or after four edits for each vertex of that time. The guide is rebuilt when there
+ * are three times as many vertices, or half; or after two insertions for each vertex, where other
+ * edits count twice. Guide and grids are also rebuilt when a quarter as many vertices were put
+ * outside their extent; layers, when one has half or twice its expected number of vertices. That is
+ * O(1) for each edit. When memory is short, the old ones stay, and layers that cannot follow are
+ * dropped. No answer depends on any of this. */
 #ifndef MW_SRC_UPKEEP_H
 #define MW_SRC_UPKEEP_H
 
-#include "edit/fabric.h"
+#include "edit/dynamic_tiling.h"
 #include "edit/live_layers.h"
 #include "locate/locator.h"
 
-/* When is it to be built anew? */
-typedef struct mw_since {
+/* How far an index has fallen behind the mesh, and when it is rebuilt. */
+typedef struct mw_staleness {
     bool built;
-    uint64_t edits, outsiders;           /* since it was built: edits; vertices put where it has no cells */
-    uint64_t most_edits, most_outsiders; /* as many are borne                                             */
-    uint64_t fewest, most;               /* vertices                                                      */
-    uint32_t weight;                     /* an edit that is no insertion counts as so many                */
-} mw_since;
+    uint64_t edits, outsiders;           /* since then: edits; vertices outside its extent */
+    uint64_t most_edits, most_outsiders; /* more lead to a rebuild                         */
+    uint64_t fewest, most;               /* vertices: fewer or more lead to a rebuild      */
+    uint32_t weight;                     /* of an edit that is no insertion                */
+} mw_staleness;
 
 typedef struct mw_upkeep {
     mw_locator *locator;
-    const mw_fabric *fabric;        /* whose tiling is the locator's */
-    mw_index index[MW_START_COUNT]; /* by start; its own start is MW_START_AUTO where there is none */
+    const mw_dynamic_tiling *dynamic; /* its tiling is the locator's     */
+    mw_index index[MW_START_COUNT];   /* by start; .start is MW_START_AUTO if there is none */
     mw_index_options options[MW_START_COUNT];
-    mw_since since[MW_START_COUNT];     /* that of MW_START_AUTO is the guide's */
-    mw_start_kind kept[MW_START_COUNT]; /* those that follow edits: the guide, and what is built but for a curve */
+    mw_staleness staleness[MW_START_COUNT]; /* [MW_START_AUTO] is the guide's */
+    mw_start_kind kept[MW_START_COUNT];     /* those that edits keep up: the guide, grids, layers */
     uint32_t kept_count;
-    mw_live_layers live; /* what follows the vertices of index[MW_START_LAYERS] */
-    uint64_t refreshes;  /* times that something was built anew */
-    bool large;          /* the mesh is more than caches hold as a rule: found out with the guide */
+    mw_live_layers live; /* follows the vertices for index[MW_START_LAYERS] */
+    uint64_t refreshes;  /* how often something was rebuilt */
+    bool large;          /* the mesh is larger than the caches; found with the guide */
 } mw_upkeep;
 
-/* Take a locator whose `tiling` is the fabric's, and all else is zero: find its extent, walks, guide, and what else it keeps. None of the three may
- * move from then on, but what the fabric holds may be exchanged (mw__upkeep_compact). MW_ERROR_MEMORY; release in either case. */
-mw_status mw__upkeep_create(mw_upkeep *upkeep, mw_locator *locator, const mw_fabric *fabric, mw_error *error);
-void mw__upkeep_release(mw_upkeep *upkeep);       /* the guide too */
+/* Take a locator whose `tiling` is that of `dynamic`, and which is zero otherwise. Find its extent
+ * and default walks, and build its guide. None of the three may move in memory afterwards, but the
+ * contents of `dynamic` may be exchanged (mw__upkeep_compact). MW_ERROR_MEMORY; release in either
+ * case. */
+mw_status mw__upkeep_create(mw_upkeep *upkeep, mw_locator *locator, const mw_dynamic_tiling *dynamic, mw_error *error);
+void mw__upkeep_release(mw_upkeep *upkeep);       /* the guide, too */
 size_t mw__upkeep_bytes(const mw_upkeep *upkeep); /* of indices and guide */
 
-/* Build the index of a start, or build it anew, at &upkeep->index[start]. options: NULL = all zero. Errors as mw_index_create; then nothing
- * has changed. */
+/* Build or rebuild the index of a start, &upkeep->index[start]. options: NULL = all zero. Errors as
+ * mw_index_create; then nothing has changed. */
 mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_index_options *options, mw_error *error);
 
-/* Has an insertion to be recorded for mw__upkeep_edit? */
-bool mw__upkeep_asks(const mw_upkeep *upkeep);
+/* Does mw__upkeep_edit need the journal of an insertion? */
+bool mw__upkeep_needs_report(const mw_upkeep *upkeep);
 
-/* After an edit was committed, or (undone) reverted, and before its step is forgotten or dropped: its journal tells what changed. Raises the
- * locator's epoch, by which cursors know that their tile has another place. */
+/* Call after an edit was committed, or (undone) reverted, while its step can still be read. Raises
+ * the locator's epoch, which tells cursors that the slot of their tile may have changed. */
 void mw__upkeep_edit(mw_upkeep *upkeep, bool undone);
 
-/* The same after an insertion that was no step, as nobody asked: of vertex v, or MW_NONE where there was one. */
+/* Call after an insertion without a journal step: of vertex v, or MW_NONE if one was there
+ * already. */
 void mw__upkeep_insertion(mw_upkeep *upkeep, uint32_t v);
 
-/* In the middle of an edit that puts in many vertices: the guide is built anew if there are three times as many as when it was. */
+/* Call during an edit that inserts many vertices: rebuilds the guide when there are three times as
+ * many as when it was built. */
 void mw__upkeep_grow(mw_upkeep *upkeep);
 
-/* After an edit in which the guide was built anew failed, and was rolled back: it names tiles that are not there. */
+/* Call after an edit that rebuilt the guide was rolled back: the guide names tiles that do not
+ * exist. */
 void mw__upkeep_rolled_back(mw_upkeep *upkeep);
 
-/* After everything was numbered anew: all is built anew. Raises the epoch so that cursors know that names are other ones. */
+/* Call after everything was renumbered: rebuilds all. Raises the epoch, which tells cursors that
+ * the numbers have changed. */
 void mw__upkeep_compact(mw_upkeep *upkeep);
 
 #endif

@@ -1,14 +1,14 @@
 /* vertex_star.c - going round a vertex. */
 #include "edit/vertex_star.h"
 
-#include "edit/fabric_memory.h"
+#include "edit/dynamic_tiling_memory.h"
 
-uint32_t mw__star_first(const mw_fabric *f, uint32_t v, bool *open)
+uint32_t mw__vertex_star_first(const mw_dynamic_tiling *f, uint32_t v, bool *open)
 {
-    return mw__star_from(f, v, mw__fabric_tile(f, v), open);
+    return mw__vertex_star_first_from(f, v, mw__dynamic_lowest_tile(f, v), open);
 }
 
-uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t first, bool *open)
+uint32_t mw__vertex_star_first_from(const mw_dynamic_tiling *f, uint32_t v, uint32_t first, bool *open)
 {
     const mw_tiling *tiling = f->tiling;
     uint32_t at = mw__link(first, mw__corner_of(&tiling->tri[first], v));
@@ -21,9 +21,9 @@ uint32_t mw__star_from(const mw_fabric *f, uint32_t v, uint32_t first, bool *ope
     }
 }
 
-/* The edges round v from `first` on, until they close or end at the hull, onto the stack; *lowest: which of them is one of the lowest of its
- * triangles. */
-static bool go_round(mw_fabric *f, uint32_t first, mw_star *star, size_t *lowest)
+/* Push the edges round v from `first` on, until they close or end at the hull. *lowest: which of
+ * them is an edge of the lowest tile. */
+static bool star_push_edges(mw_dynamic_tiling *f, uint32_t first, mw_vertex_star *star, size_t *lowest)
 {
     const mw_triangle *tri = f->tiling->tri;
     uint32_t at = first, best = MW_NONE;
@@ -33,27 +33,28 @@ static bool go_round(mw_fabric *f, uint32_t first, mw_star *star, size_t *lowest
         uint32_t number = tile->user & ~MW_REVERSED;
         *lowest = number < best ? f->stack_count : *lowest;
         best = number < best ? number : best;
-        if (!mw__push(f, at)) return false;
+        if (!mw__stack_push(f, at)) return false;
         at = tile->link[mw__prev(mw__link_edge(at))]; /* which begins at v */
     } while (at != MW_NONE && at != first);
-    *star = (mw_star){.n = f->stack_count, .open = at == MW_NONE};
-    return mw__rim_room(f, star->n + 2);
+    *star = (mw_vertex_star){.n = f->stack_count, .open = at == MW_NONE};
+    return mw__boundary_room(f, star->n + 2);
 }
 
-static void note_spoke(mw_star *star, size_t at)
+static void note_spoke(mw_vertex_star *star, size_t at)
 {
     if (star->spokes++ < 2) star->spoke[star->spokes - 1] = at;
 }
 
-/* The steps across from v, one for each edge on the stack, of which `first` is the first. What filling them will touch is fetched meanwhile. */
-static void set_steps(mw_fabric *f, mw_star *star, size_t first)
+/* Set the steps opposite of v, one for each edge on the stack; begin with edge `first`. Prefetches
+ * what filling the star will touch. */
+static void star_set_steps(mw_dynamic_tiling *f, mw_vertex_star *star, size_t first)
 {
     const mw_triangle *tri = f->tiling->tri;
     size_t from = first;
     for (size_t i = 0; i < star->n; i++) {
         uint32_t at = f->stack[from], t = mw__link_triangle(at), k = mw__link_edge(at), next = mw__next(k);
         uint32_t marks = f->mark[t];
-        mw_rim_step *step = &f->rim[i];
+        mw_boundary_step *step = &f->boundary[i];
         step->vertex = tri[t].v[next];
         step->beyond = tri[t].link[next];
         step->half = mw__link(t, next);
@@ -67,29 +68,29 @@ static void set_steps(mw_fabric *f, mw_star *star, size_t first)
         if (++from == star->n) from = 0;
     }
     uint32_t end = mw__half_prev(f->stack[from > 0 ? from - 1 : star->n - 1]);
-    f->rim[star->n].vertex = mw__corner(f, end);
+    f->boundary[star->n].vertex = mw__corner(f, end);
     if (star->open && mw__is_fixed(f, end)) note_spoke(star, star->n);
     f->stack_count = 0;
 }
 
-bool mw__collect_star(mw_fabric *f, uint32_t v, mw_star *star)
+bool mw__vertex_star_collect(mw_dynamic_tiling *f, uint32_t v, mw_vertex_star *star)
 {
     uint32_t tile = f->tiling->tile_at[v];
     size_t first = 0;
     bool open;
-    if (!go_round(f, mw__link(tile, mw__corner_of(&f->tiling->tri[tile], v)), star, &first)) return false;
+    if (!star_push_edges(f, mw__link(tile, mw__corner_of(&f->tiling->tri[tile], v)), star, &first)) return false;
     if (star->open) {
-        if (!go_round(f, mw__star_from(f, v, tile, &open), star, &first)) return false;
+        if (!star_push_edges(f, mw__vertex_star_first_from(f, v, tile, &open), star, &first)) return false;
         first = 0;
     }
-    set_steps(f, star, first);
+    star_set_steps(f, star, first);
     return true;
 }
 
-uint32_t mw__fabric_edge(const mw_fabric *f, uint32_t from, uint32_t to)
+uint32_t mw__dynamic_edge(const mw_dynamic_tiling *f, uint32_t from, uint32_t to)
 {
     bool open;
-    uint32_t first = mw__star_first(f, from, &open), at = first;
+    uint32_t first = mw__vertex_star_first(f, from, &open), at = first;
     do {
         if (mw__corner(f, mw__half_next(at)) == to) return at;
         uint32_t last = mw__half_prev(at);

@@ -17,7 +17,7 @@
 #include "oracle/edit_apply.h"
 #include "support/meshes.h"
 
-/* --- small meshes on places of a lattice --------------------------------------------------------------------------------- */
+/* --- small meshes on points of a lattice --------------------------------------------------------------------------------- */
 
 static arrays one_triangle(void)
 {
@@ -52,7 +52,7 @@ static arrays mixed_lattice(void)
     return a;
 }
 
-/* Eight places round one, in no special position but for the integers. */
+/* Eight points round one, in no special position but for the integers. */
 static arrays hub(void)
 {
     static const double p[9][2] = {{2, 2}, {4, 1}, {4, 3}, {3, 4}, {1, 4}, {0, 3}, {0, 1}, {1, 0}, {3, 0}};
@@ -99,7 +99,7 @@ static arrays bent(void)
 }
 
 /* Two squares that share a vertex, and one for itself. */
-static arrays pieces(void)
+static arrays components(void)
 {
     return cells("#.#"
                  ".#."
@@ -130,7 +130,7 @@ static const edit_scene scenes[] = {
     {"ring", ring, MW_DELAUNAY_AUTO, 0, {0}},
     {"bent", bent, MW_DELAUNAY_MAKE, 0, {0}},
     {"bent, not to be flipped", bent, MW_DELAUNAY_NEVER, 0, {0}},
-    {"pieces", pieces, MW_DELAUNAY_AUTO, 0, {0}},
+    {"components", components, MW_DELAUNAY_AUTO, 0, {0}},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -325,12 +325,12 @@ static void test_rows(void **state)
 /* Some on a lattice, so that ways meet vertices, the others anywhere. */
 static mw_mesh *spread_mesh(uint64_t *random, uint32_t n)
 {
-    double places[2 * 120];
+    double points[2 * 120];
     uint32_t span = mw__random_below(random, 2) ? 12 : 1 << 20;
     mw_mesh *mesh;
     mw_error error;
-    for (uint32_t i = 0; i < 2 * n; i++) places[i] = mw__random_below(random, span);
-    expect_ok(mw_delaunay(places, n, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
+    for (uint32_t i = 0; i < 2 * n; i++) points[i] = mw__random_below(random, span);
+    expect_ok(mw_delaunay(points, n, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     return mesh;
 }
 
@@ -347,7 +347,7 @@ static void lay_constraints(uint64_t seed)
     for (edit_case.step = 0; edit_case.step < 60 && done < MOST; edit_case.step++) {
         mw_edit e = {.kind = MW_EDIT_CONSTRAIN, .vertex = mw__random_below(&random, 120)};
         e.other = mw__random_below(&random, 120);
-        if (edit_case.step % 4 == 3 && t.fixed_count) { /* a piece, or more */
+        if (edit_case.step % 4 == 3 && t.fixed_count) { /* one constrained edge, or more */
             e.kind = MW_EDIT_RELEASE;
             e.vertex = t.fixed[0];
             e.other = t.fixed[1];
@@ -368,8 +368,8 @@ static void lay_constraints(uint64_t seed)
     twin_close(&t);
 }
 
-/* A way of two pieces, the first of which turns over the lowest triangle of the vertex between them. */
-static void lay_two_pieces(void)
+/* A segment of two constrained edges, the first of which turns over the lowest triangle of the vertex between them. */
+static void lay_two_edges(void)
 {
     const double p[] = {5.5, 3.5, 7.5, 1, 2.5, 3.5, 1.5, 3, 4.5, 0.5, 3.5, 7, 2, 3.5, 5, 4.5, 7.5, 0, 2.5, 6, 3, 5.5};
     mw_mesh *mesh;
@@ -388,7 +388,7 @@ static void test_long_constraints(void **state)
     (void)state;
     print_message("seeds 1 to 30\n");
     for (uint64_t seed = 1; seed <= 30; seed++) lay_constraints(seed);
-    lay_two_pieces();
+    lay_two_edges();
 }
 
 /* --- what is refused, and how it is said ---------------------------------------------------------------------------------------- */
@@ -431,7 +431,7 @@ static void test_bad_meshes(void **state)
     assert_int_equal(create(&a, (mw_editor_options){0}, &error), MW_ERROR_INPUT);
     assert_true(error.triangle >= 0);
     arrays_free(&a);
-    a = pieces(); /* two vertices at one place, both used */
+    a = components(); /* coincident vertices, both used */
     uint32_t twice = arrays_point(&a, a.points[2 * 5], a.points[2 * 5 + 1]);
     int changed = 0;
     for (uint32_t i = 0; i < 3 * a.triangle_count; i++)
@@ -591,18 +591,18 @@ static void test_hub(void **state)
 }
 
 /* From one triangle to many, all of them outside of what is there; then down to one again. */
-static void grow_and_shrink(uint32_t count, const double *places)
+static void grow_and_shrink(uint32_t count, const double *points)
 {
     mw_mesh *mesh;
     mw_error error;
     twin t;
     mw_editor_options options = {.undo = 5};
-    expect_ok(mw_delaunay(places, 3, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(points, 3, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     twin_open(&t, mesh, &options);
     twin_cursors r;
     twin_cursors_open(&r, &t, true, 9);
     for (uint32_t i = 3; i < count; i++) {
-        mw_edit e = {.x = places[2 * i], .y = places[2 * i + 1], .value = NAN};
+        mw_edit e = {.x = points[2 * i], .y = points[2 * i + 1], .value = NAN};
         assert_int_equal(twin_apply(&t, &e, true), MW_OK);
         if ((i & (i - 1)) == 0) twin_check_all(&t);
     }
@@ -624,28 +624,28 @@ enum { GROWN = 1500 };
 static void test_grow(void **state)
 {
     (void)state;
-    double places[2 * GROWN];
+    double points[2 * GROWN];
     edit_case.name = "spiral";
     for (uint32_t i = 0; i < GROWN; i++) {
-        places[2 * i] = (5 + i) * cos(i);
-        places[2 * i + 1] = (5 + i) * sin(i);
+        points[2 * i] = (5 + i) * cos(i);
+        points[2 * i + 1] = (5 + i) * sin(i);
     }
-    grow_and_shrink(GROWN, places);
+    grow_and_shrink(GROWN, points);
     edit_case.name = "growing triangles";
     for (uint32_t i = 0; i < 150; i++) {
         static const double corner[3][2] = {{0, 1}, {-1, -1}, {1, -1}};
-        for (int k = 0; k < 2; k++) places[2 * i + (uint32_t)k] = ldexp(corner[i % 3][k], (int)(i / 3));
+        for (int k = 0; k < 2; k++) points[2 * i + (uint32_t)k] = ldexp(corner[i % 3][k], (int)(i / 3));
     }
-    grow_and_shrink(150, places);
+    grow_and_shrink(150, points);
     edit_case.name = "lattice, from the middle";
     for (uint32_t i = 0, n = 0; n < 400; i++) { /* by turns to all sides, so that hull sides are full of vertices */
         int x = (int)(i * 7 % 20), y = (int)(i / 20 % 20);
-        places[2 * n] = x;
-        places[2 * n++ + 1] = (y + 7 * x) % 20;
+        points[2 * n] = x;
+        points[2 * n++ + 1] = (y + 7 * x) % 20;
     }
-    places[0] = places[1] = places[3] = places[4] = 0;
-    places[2] = places[5] = 1;
-    grow_and_shrink(400, places);
+    points[0] = points[1] = points[3] = points[4] = 0;
+    points[2] = points[5] = 1;
+    grow_and_shrink(400, points);
 }
 
 /* Coordinates so far apart, so small or so large that products of them are no doubles. */
@@ -654,17 +654,17 @@ static void test_magnitudes(void **state)
     (void)state;
     const double scales[] = {1, 1e-300, 1e300, 0x1p-1070, 1e15};
     for (int i = 0; i < 5; i++) {
-        double places[2 * 60];
+        double points[2 * 60];
         uint64_t random = 5;
         edit_case.name = "magnitudes";
         edit_case.seed = (uint64_t)i;
         for (uint32_t k = 0; k < 120; k++) {
-            places[k] = (double)mw__random_below(&random, 12) * scales[i];
-            if (i == 4 && k % 5) places[k] = (double)mw__random_below(&random, 12) - 4;
+            points[k] = (double)mw__random_below(&random, 12) * scales[i];
+            if (i == 4 && k % 5) points[k] = (double)mw__random_below(&random, 12) - 4;
         }
-        places[0] = places[1] = places[3] = places[4] = 0;
-        places[2] = places[5] = scales[i];
-        grow_and_shrink(60, places);
+        points[0] = points[1] = points[3] = points[4] = 0;
+        points[2] = points[5] = scales[i];
+        grow_and_shrink(60, points);
     }
 }
 

@@ -347,7 +347,7 @@ static void check_layer(const mw_live_layers *live, uint32_t i)
         assert_true(mw__orient2d(p[tile->v[0]], p[tile->v[1]], p[tile->v[2]]) > 0);
         for (uint32_t k = 0; k < 3; k++) {
             if (tile->link[k] == MW_NONE) continue;
-            uint32_t across = mw__apex(&live->fabric[i], tile->link[k]);
+            uint32_t across = mw__apex(&live->dynamic[i], tile->link[k]);
             assert_true(mw__incircle(p[tile->v[0]], p[tile->v[1]], p[tile->v[2]], p[across]) <= 0);
         }
     }
@@ -442,7 +442,7 @@ static void insert_within(mw_editor *editor, double x, double y, double side, ui
 }
 
 /* A cursor stays in a corner of the mesh. Its triangle goes by removals round about, by insertions that are undone, by flips; far away much
- * happens, so that tiles change their places. It begins where its triangle was. */
+ * happens, so that tiles move to other slots. It begins where its triangle was. */
 static void test_cursors_recover(void **state)
 {
     (void)state;

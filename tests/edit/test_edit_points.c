@@ -1,5 +1,5 @@
 /* test_edit_points.c - many points at once: mesh, numbers, values, report, undo and log are held against insertions one by one in the
- * order that the log tells, and against a comparison of all that was there before and after. MW_TEST_SEED=n: other places. */
+ * order that the log tells, and against a comparison of all that was there before and after. MW_TEST_SEED=n: other points. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@
 #include "support/environment.h"
 #include "support/meshes.h"
 
-/* --- places in a square of 16 ------------------------------------------------------------------------------------------------ */
+/* --- points in a square of 16 ------------------------------------------------------------------------------------------------ */
 
 static void uniform(uint64_t *random, double *q)
 {
@@ -52,7 +52,7 @@ static void clustered(uint64_t *random, double *q)
     for (int k = 0; k < 2; k++) q[k] = c[k] + mw__random_below(random, 1 << 16) * 0x1p-36;
 }
 
-/* At lattice places, but for a rounding. */
+/* Points of a lattice, except for a rounding. */
 static void near_lattice(uint64_t *random, double *q)
 {
     lattice(random, q);
@@ -85,7 +85,7 @@ static void subnormal(uint64_t *random, double *q)
 
 typedef struct points_session {
     const char *name;
-    void (*place)(uint64_t *random, double *q);
+    void (*draw_point)(uint64_t *random, double *q);
     mw_delaunay_mode delaunay; /* as in the options                              */
     bool constraints;          /* a few edges are fixed                          */
     bool hole;                 /* the mesh is a lattice that has one             */
@@ -117,8 +117,8 @@ static mw_mesh *first_mesh(const points_session *s, uint64_t *random)
     enum { FEW = 24 };
     if (!s->hole) {
         double points[2 * FEW];
-        for (int i = 0; i < FEW; i++) s->place(random, points + 2 * i);
-        if (s->place == in_line) points[0] = points[1] = 4;
+        for (int i = 0; i < FEW; i++) s->draw_point(random, points + 2 * i);
+        if (s->draw_point == in_line) points[0] = points[1] = 4;
         return mesh_delaunay(points, FEW);
     }
     return mesh_with_hole(8, random);
@@ -189,7 +189,7 @@ static points make_points(const points_session *s, const twin *t, size_t n, bool
         double *q = p.at + i * step;
         uint32_t chance = mw__random_below(random, 12), v = mw__random_below(random, t->vertex_range);
         do {
-            s->place(random, q);
+            s->draw_point(random, q);
             if (chance == 0 && t->state[v] == TWIN_USED) memcpy(q, twin_point(t, v), 2 * sizeof *q);
             if (chance == 1 && i > 0)
                 memcpy(q, p.at + (size_t)mw__random_below(random, (uint32_t)i) * step, 2 * sizeof *q);
@@ -323,14 +323,14 @@ static void undo_all(twin *t, const twin *then)
     twin_check_same(t);
 }
 
-/* Some places of all kinds. */
+/* Some points of all kinds. */
 static void ask_some(const points_session *s, const twin *t, twin_cursors *r, uint64_t *random)
 {
     for (int i = 0; i < 60; i++) {
         double q[2];
         uint32_t v = mw__random_below(random, t->vertex_range), around[8];
         size_t n = mw_editor_adjacent_vertices(t->editor, v, around, 8);
-        s->place(random, q);
+        s->draw_point(random, q);
         for (int k = 0; k < 2 && n > 0 && i % 3 < 2; k++)
             q[k] =
                 i % 3 ? twin_point(t, v)[k] : twin_point(t, v)[k] / 2 + twin_point(t, around[n < 8 ? n - 1 : 7])[k] / 2;
@@ -344,7 +344,7 @@ static void mix(const points_session *s, twin *t, mw_editor *plain, uint64_t *ra
     for (int i = 0; i < 12; i++) {
         mw_edit e = {.kind = i % 3 ? MW_EDIT_REMOVE : MW_EDIT_MOVE, .value = NAN};
         double q[2];
-        s->place(random, q);
+        s->draw_point(random, q);
         e.vertex = mw__random_below(random, t->vertex_range);
         e.x = q[0];
         e.y = q[1];

@@ -20,7 +20,7 @@
 #include "support/environment.h"
 #include "support/meshes.h"
 
-/* --- places: multiples of a power of two, so that the middle between two of them is exact ------------------------------------ */
+/* --- points: multiples of a power of two, so that the middle between two of them is exact ------------------------------------ */
 
 static void uniform(uint64_t *random, double *q)
 {
@@ -44,7 +44,7 @@ static void cocircular(uint64_t *random, double *q)
     q[1] = (turn == 0 ? y : turn == 1 ? x : turn == 2 ? -y : -x) / 64 + 8;
 }
 
-/* Within about 2^-20 of a few places. */
+/* Within about 2^-20 of a few points. */
 static void clustered(uint64_t *random, double *q)
 {
     static const double centre[5][2] = {{1, 2}, {15, 3}, {14, 14}, {3, 13}, {7, 8}};
@@ -80,7 +80,7 @@ static void scattered(uint64_t *random, double *q)
 
 typedef struct edit_stream {
     const char *name;
-    void (*place)(uint64_t *random, double *q);
+    void (*draw_point)(uint64_t *random, double *q);
     uint32_t vertices; /* about so many are there           */
     int delaunay;      /* as in the options                 */
     bool constraints;  /* are set and released              */
@@ -109,10 +109,10 @@ static mw_mesh *first_mesh(const edit_stream *s, uint64_t *random)
     mw_mesh *mesh;
     mw_error error;
     if (s->hole) return mesh_with_hole(10, random);
-    double *places = require_room(2 * (size_t)s->vertices, sizeof *places);
-    for (uint32_t i = 0; i < s->vertices; i++) s->place(random, places + 2 * (size_t)i);
-    expect_ok(mw_delaunay(places, s->vertices, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
-    free(places);
+    double *points = require_room(2 * (size_t)s->vertices, sizeof *points);
+    for (uint32_t i = 0; i < s->vertices; i++) s->draw_point(random, points + 2 * (size_t)i);
+    expect_ok(mw_delaunay(points, s->vertices, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
+    free(points);
     return mesh;
 }
 
@@ -165,7 +165,7 @@ static mw_edit any_edit(const edit_stream *s, const twin *t, uint64_t *random)
     if (mw__random_below(random, 3) == 0)
         near_place(t, e.vertex, random, q);
     else
-        s->place(random, q);
+        s->draw_point(random, q);
     if (mw__random_below(random, 50) == 0 && !s->hole) q[0] = q[0] * 2 - 8;
     e.x = q[0];
     e.y = q[1];
@@ -181,7 +181,7 @@ static mw_edit any_edit(const edit_stream *s, const twin *t, uint64_t *random)
     return e;
 }
 
-/* A vertex, the middle of an edge, or any place. */
+/* A vertex, the middle of an edge, or any point. */
 static void any_query(const edit_stream *s, const twin *t, uint64_t *random, double *q)
 {
     uint32_t v = any_vertex(t, random), w = near_vertex(t, v, random);
@@ -190,7 +190,7 @@ static void any_query(const edit_stream *s, const twin *t, uint64_t *random, dou
     case 1:
         for (int k = 0; k < 2; k++) q[k] = twin_point(t, v)[k] / 2 + twin_point(t, w)[k] / 2;
         break;
-    default: s->place(random, q);
+    default: s->draw_point(random, q);
     }
 }
 
@@ -258,7 +258,7 @@ static void test_streams(void **state)
 
 /* --- large meshes: too large for brute force at each edit -------------------------------------------------------------------- */
 
-/* The triangle that an answer names holds the place, and of those round the edge or vertex that it is on none is lower. */
+/* The triangle that an answer names contains the point, and of those round the edge or vertex that it is on none is lower. */
 static void check_answer(const twin *t, const mw_location *l, const double *q)
 {
     location_answer answer;

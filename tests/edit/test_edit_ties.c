@@ -20,7 +20,7 @@
 
 typedef struct ties_scene {
     const char *name;
-    uint32_t span; /* places are multiples of 16 / span                  */
+    uint32_t span; /* points are multiples of 16 / span                  */
     bool near;     /* but for a rounding                                 */
     uint32_t hub;  /* this degree and less: vertices on a circle round one */
     double scale;  /* of all coordinates                                 */

@@ -290,7 +290,7 @@ static mw_status call_edit(mw_editor *editor, const mw_edit *e, bool direct, mw_
     }
 }
 
-/* Refused: the place is named, where there is one, and the text says something. */
+/* Refused: the vertex or triangle is named, if there is one, and the text says something. */
 static void check_refusal(const twin *t, const mw_edit *e, const mw_error *error)
 {
     const double q[2] = {e->x, e->y};

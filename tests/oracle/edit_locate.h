@@ -27,7 +27,7 @@ void twin_cursors_open(twin_cursors *cursors, const twin *t, bool indexed, uint6
  * weights, values. */
 void twin_cursors_check(twin_cursors *cursors, const twin *t, const double *q, location_answer expected);
 
-/* Queries at all vertices, the middles of all edges and of all triangles, and places round
+/* Queries at all vertices, the middles of all edges and of all triangles, and points round
  * about, one by one, in a batch, and as a path. */
 void twin_check_queries(const twin *t, twin_cursors *cursors);
 

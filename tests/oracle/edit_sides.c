@@ -127,7 +127,7 @@ static void check_border_fixed(const twin *t, const twin_side *sides, size_t cou
 }
 
 /* The border is one convex polygon: a loop that never turns right, and turns once. With that and
- * triangles that all turn the same way, with no two on one side of an edge, each place in the
+ * triangles that all turn the same way, with no two on one side of an edge, each point in the
  * polygon is covered once. */
 static void check_border_convex(const twin *t, const twin_side *sides, size_t count)
 {

@@ -1,9 +1,9 @@
-/* stitch.c - tiles and vertices go, and ghosts come. */
-#include "edit/stitch.h"
+/* tile_links.c - delete tiles and vertices, and add ghosts. */
+#include "edit/tile_links.h"
 
 #include <stdlib.h>
 
-void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles)
+void mw__add_ghosts(mw_dynamic_tiling *f, uint32_t like, uint32_t n, uint32_t *tiles)
 {
     mw_tiling *tiling = f->tiling;
     for (uint32_t i = 0; i < n; i++) {
@@ -14,22 +14,22 @@ void mw__add_ghosts(mw_fabric *f, uint32_t like, uint32_t n, uint32_t *tiles)
     tiling->ghost_count += n;
 }
 
-void mw__free_number(mw_fabric *f, uint32_t t, uint32_t heir)
+void mw__free_number(mw_dynamic_tiling *f, uint32_t t, uint32_t heir)
 {
-    if (mw__is_users(f, t)) f->tiling->tile_of[f->tiling->tri[t].user & MW_USER_MASK] = MW_GONE | heir;
+    if (mw__is_users_tile(f, t)) f->tiling->tile_of[f->tiling->tri[t].user & MW_USER_MASK] = MW_GONE | heir;
 }
 
-static int descending(const void *a, const void *b)
+static int compare_descending(const void *a, const void *b)
 {
     uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
     return (s < t) - (s > t);
 }
 
-/* Most often there are two. */
-static void sort_down(uint32_t *tiles, size_t count)
+/* Usually there are two. */
+static void sort_descending(uint32_t *tiles, size_t count)
 {
     if (count > 2) {
-        qsort(tiles, count, sizeof *tiles, descending);
+        qsort(tiles, count, sizeof *tiles, compare_descending);
     } else if (count == 2 && tiles[0] < tiles[1]) {
         uint32_t lower = tiles[0];
         tiles[0] = tiles[1];
@@ -37,15 +37,15 @@ static void sort_down(uint32_t *tiles, size_t count)
     }
 }
 
-bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
+bool mw__drop_tiles(mw_dynamic_tiling *f, uint32_t *tiles, size_t count)
 {
     mw_tiling *tiling = f->tiling;
-    sort_down(tiles, count); /* so that the last tile is none that has yet to go */
+    sort_descending(tiles, count); /* so the last tile is never one to be deleted later */
     for (size_t i = 0; i < count; i++) {
         uint32_t t = tiles[i], last = tiling->tri_count - 1;
-        if (!mw__is_users(f, t)) tiling->ghost_count--;
+        if (!mw__is_users_tile(f, t)) tiling->ghost_count--;
         if (t != last) {
-            if (!mw__journal(f, last)) return false;
+            if (!mw__journal_tile(f, last)) return false;
             tiling->tri[t] = tiling->tri[last];
             mw__set_fixed(f, t, f->mark[last] & MW_FIXED_EDGES);
             for (uint32_t k = 0; k < 3; k++) {
@@ -53,7 +53,7 @@ bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
                 if (tiling->tile_at[v] == last) tiling->tile_at[v] = t;
                 mw__attach(f, mw__link(t, k), tiling->tri[t].link[k]);
             }
-            if (mw__is_users(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+            if (mw__is_users_tile(f, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
             if (f->last == last) f->last = t;
         }
         tiling->tri_count--;
@@ -61,10 +61,10 @@ bool mw__drop_tiles(mw_fabric *f, uint32_t *tiles, size_t count)
     return true;
 }
 
-bool mw__free_vertex(mw_fabric *f, uint32_t v)
+bool mw__free_vertex(mw_dynamic_tiling *f, uint32_t v)
 {
-    if (!mw__free_place_room(f)) return false;
-    f->free_place[f->free_count++] = v;
+    if (!mw__free_slot_room(f)) return false;
+    f->free_slot[f->free_count++] = v;
     f->vertex_slot[f->vertex_number[v]] = MW_NONE;
     f->tiling->tile_at[v] = MW_NONE;
     return true;
