@@ -27,8 +27,7 @@ __attribute__((format(printf, 2, 3))) static mw_status geojson_fail(const geojso
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    for (char *c = message; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?'; /* words of the input may be in it */
+    mw__message_clean(message);
     return mw__fail(g->error, MW_ERROR_INPUT, "%.200s: feature %" PRIu32 ": %s", mw__source_name(g->builder->source),
                     g->feature, message);
 }

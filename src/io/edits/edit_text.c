@@ -61,8 +61,7 @@ static mw_status edit_fail(const edit_scan *s, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?'; /* pieces of the line may be in it */
+    mw__message_clean(text);
     return s->form ? mw__fail(s->error, MW_ERROR_INPUT, "%s: %s", s->form->word, text)
                    : mw__fail(s->error, MW_ERROR_INPUT, "%s", text);
 }

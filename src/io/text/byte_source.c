@@ -35,14 +35,19 @@ uint64_t mw__source_position(const mw_source *source)
     return source->line > 0 ? (uint64_t)source->line : 1;
 }
 
+void mw__message_clean(char *message)
+{
+    for (char *c = message; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+}
+
 static mw_status source_fail_at(const mw_source *source, uint64_t position, mw_error *error, const char *format,
                                 va_list arguments)
 {
     if (!error) return MW_ERROR_INPUT;
     char message[256];
     vsnprintf(message, sizeof message, format, arguments);
-    for (char *c = message; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?'; /* pieces of the input may be in it */
+    mw__message_clean(message);
     const char *name = mw__source_name(source);
     if (source->binary)
         mw__fail(error, MW_ERROR_INPUT, "%.240s: at byte %" PRIu64 ": %s", name, position, message);

@@ -91,6 +91,9 @@ typedef struct mw_excerpt {
 mw_excerpt mw__excerpt(const char *text);
 mw_excerpt mw__excerpt_of(const char *text, size_t length);
 
+/* Control characters in a message, which pieces of the input may have brought there, become '?'. */
+void mw__message_clean(char *message);
+
 static MW_INLINE bool mw__is_blank(char c)
 {
     return c == ' ' || c == '\t';

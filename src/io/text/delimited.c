@@ -3,28 +3,28 @@
 
 #include <string.h>
 
-static bool cell_is_gap(char c, char separator)
+static bool char_is_gap(char c, char separator)
 {
     return c == ' ' || (c == '\t' && separator != '\t');
 }
 
 static void cell_trim(mw_text_cell *cell, char separator)
 {
-    while (cell->length > 0 && cell_is_gap(cell->text[0], separator)) cell->text++, cell->length--;
-    while (cell->length > 0 && cell_is_gap(cell->text[cell->length - 1], separator)) cell->length--;
+    while (cell->length > 0 && char_is_gap(cell->text[0], separator)) cell->text++, cell->length--;
+    while (cell->length > 0 && char_is_gap(cell->text[cell->length - 1], separator)) cell->length--;
 }
 
 bool mw__delimited_cell(const char **row, char separator, bool *more, mw_text_cell *cell)
 {
     const char *p = *row;
     if (separator == ' ')
-        while (cell_is_gap(*p, separator)) p++;
+        while (char_is_gap(*p, separator)) p++;
     if (!*more || (separator == ' ' && !*p)) return false;
     const char *begin = p;
     bool quoted = false;
     for (; *p; p++) {
         if (*p == '"') quoted = !quoted;
-        if (!quoted && (separator == ' ' ? cell_is_gap(*p, separator) : *p == separator)) break;
+        if (!quoted && (separator == ' ' ? char_is_gap(*p, separator) : *p == separator)) break;
     }
     *cell = (mw_text_cell){begin, (size_t)(p - begin)};
     cell_trim(cell, separator);
