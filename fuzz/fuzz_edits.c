@@ -1,5 +1,5 @@
 /* Any bytes as a stream of edits. What is taken comes back when it is written and read again; what is refused names its line. */
-#include "io/edits.h"
+#include "io/edits/edit_text.h"
 #include "reader.h"
 
 static const char *const names[] = {"temp", "z", "wind speed", "a#b"};
@@ -27,7 +27,7 @@ static void fuzz(const mw_edit_text_options *options, const uint8_t *data, size_
     mw_edit_line line = {.kind = MW_EDIT_LINE_UNDO}, again;
     char text[MW_EDIT_TEXT_SIZE];
     if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
-    if (mw__edits_start(source, options, &reader, &error) != MW_OK) return;
+    if (mw__edit_reader_start(source, options, &reader, &error) != MW_OK) return;
     int64_t before = 0;
     for (bool more = true; more;) {
         mw_status status = mw_edit_reader_read(reader, &line, &error);

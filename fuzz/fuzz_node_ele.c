@@ -18,7 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_error error = {0};
     mw_source node, ele;
     mw_mesh_file file;
-    mw_builder builder;
+    mw_mesh_builder builder;
     if (mw__source_memory(&node, "input.node", data, node_size, &error) != MW_OK) return 0;
     if (mw__source_memory(&ele, "input.ele", data + skipped, size - skipped, &error) != MW_OK) {
         mw__source_close(&node);

@@ -18,7 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_source source;
     mw_error error = {0};
     if (mw__source_memory(&source, "input.txt", "", 0, &error) != MW_OK) return 0;
-    bool sound = mw__points_start(source, &options, &reader, &error) == MW_OK;
+    bool sound = mw__point_reader_start(source, &options, &reader, &error) == MW_OK;
     mw_point_reader_close(reader);
     if (!sound) options.columns = NULL;
     fuzz_points("input.txt", &options, data + skipped, size - skipped);

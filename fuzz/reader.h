@@ -3,12 +3,13 @@
 #ifndef MW_FUZZ_READER_H
 #define MW_FUZZ_READER_H
 
-#include "io/builder.h"
-#include "io/geojson.h"
-#include "io/mesh_readers.h"
-#include "io/points.h"
-#include "io/poly.h"
-#include "io/source.h"
+#include "io/constraints/geojson.h"
+#include "io/constraints/poly.h"
+#include "io/mesh/mesh_builder.h"
+#include "io/mesh/mesh_readers.h"
+#include "io/mesh/node_ele.h"
+#include "io/points/point_file.h"
+#include "io/text/byte_source.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +48,7 @@ static inline void require_mesh(const mw_mesh_file *file, size_t size)
     for (size_t f = 0; f < file->field_count; f++) require_values(file->fields[f], file->point_count);
 }
 
-typedef mw_status mesh_reader(mw_source *source, mw_builder *builder, mw_error *error);
+typedef mw_status mesh_reader(mw_source *source, mw_mesh_builder *builder, mw_error *error);
 
 /* Run one reader on the input. */
 static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const uint8_t *data, size_t size)
@@ -55,7 +56,7 @@ static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const u
     mw_error error = {0};
     mw_source source;
     mw_mesh_file file;
-    mw_builder builder;
+    mw_mesh_builder builder;
     if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
     mw__build_start(&builder, &file, &source);
     mw_status status = read(&source, &builder, &error);
@@ -112,7 +113,7 @@ static inline void fuzz_points(const char *name, const mw_point_reader_options *
     mw_source source;
     mw_point_reader *reader = NULL;
     if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
-    mw_status status = mw__points_start(source, options, &reader, &error);
+    mw_status status = mw__point_reader_start(source, options, &reader, &error);
     if (!status) {
         size_t width = mw_point_reader_width(reader), count = BLOCK, total = 0;
         require(width >= 2 && width <= MW_COLUMN_LIMIT);

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 /* wrap: malloc calloc realloc aligned_alloc */
-#include "io/geojson.h"
+#include "io/constraints/geojson.h"
 #include "support/allocations.h"
 #include "support/files.h"
 
@@ -173,7 +173,7 @@ static void test_other_files(void **state)
 
 static bool no_geojson(void)
 {
-    return !mw__geojson_is_read();
+    return !mw__geojson_known();
 }
 
 /* Without Jansson a GeoJSON file is known for what it is, and refused. */

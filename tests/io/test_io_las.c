@@ -5,7 +5,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "io/little.h"
+#include "io/text/byte_order.h"
 #include "support/files.h"
 
 #include <math.h>

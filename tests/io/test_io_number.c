@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "io/number.h"
+#include "io/text/number_text.h"
 
 #include <locale.h>
 #include <math.h>

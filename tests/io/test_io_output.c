@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 /* wrap: access */
-#include "io/output.h"
+#include "io/text/output.h"
 #include "support/files.h"
 
 #include <errno.h>

@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "io/source.h"
+#include "io/text/byte_source.h"
 #include "support/mesh_files.h"
 
 #include <stdbool.h>

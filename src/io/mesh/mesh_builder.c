@@ -1,0 +1,184 @@
+#include "io/mesh/mesh_builder.h"
+#include "io/text/number_text.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+void mw__build_start(mw_mesh_builder *builder, mw_mesh_file *file, mw_source *source)
+{
+    *file = (mw_mesh_file){0};
+    *builder = (mw_mesh_builder){.file = file, .source = source, .highest = -1};
+}
+
+mw_status mw__build_field(mw_mesh_builder *builder, const char *name, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (file->field_count == MW_COLUMN_LIMIT)
+        return mw__source_fail(builder->source, error, "more than %d values per vertex", MW_COLUMN_LIMIT);
+    size_t count = file->field_count + 1;
+    char **names = mw__realloc(file->field_names, count, sizeof *names);
+    if (!names) return mw__fail_memory(error);
+    file->field_names = names;
+    double **fields = mw__realloc(file->fields, count, sizeof *fields);
+    if (!fields) return mw__fail_memory(error);
+    file->fields = fields;
+    fields[count - 1] = NULL;
+    names[count - 1] = strdup(name);
+    if (!names[count - 1]) return mw__fail_memory(error);
+    file->field_count = count;
+    return MW_OK;
+}
+
+/* Half as much again, at least 16. */
+static size_t room_after(size_t room)
+{
+    return room < 16 ? 16 : room + room / 2;
+}
+
+static bool points_resize(mw_mesh_builder *builder, size_t room)
+{
+    mw_mesh_file *file = builder->file;
+    double *points = mw__realloc(file->points, room, 3 * sizeof *points);
+    if (!points) return false;
+    file->points = points;
+    for (size_t f = 0; f < file->field_count; f++) {
+        double *field = mw__realloc(file->fields[f], room, sizeof *field);
+        if (!field) return false;
+        file->fields[f] = field;
+    }
+    builder->point_room = room;
+    return true;
+}
+
+mw_status mw__build_point(mw_mesh_builder *builder, double x, double y, double z, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (file->point_count == builder->point_room) {
+        if (file->point_count >= MW_MAX_VERTICES)
+            return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " vertices",
+                            mw__source_name(builder->source), MW_MAX_VERTICES);
+        size_t room = room_after(file->point_count);
+        if (!points_resize(builder, room < MW_MAX_VERTICES ? room : MW_MAX_VERTICES)) return mw__fail_memory(error);
+    }
+    double *point = file->points + 3 * file->point_count++;
+    point[0] = x;
+    point[1] = y;
+    point[2] = z;
+    return MW_OK;
+}
+
+mw_status mw__read_xyz(const mw_source *source, const char *text, double xyz[3], mw_error *error)
+{
+    for (int k = 0; k < 3; k++) {
+        text = mw__skip_blanks(text);
+        const char *end = mw__read_double(text, &xyz[k]);
+        if (!*text) return mw__source_fail(source, error, "a vertex with %d coordinates; 3 are needed", k);
+        if (!end || !mw__at_gap(end))
+            return mw__source_fail(source, error, "'%s' is not a number", mw__excerpt(text).text);
+        text = end;
+    }
+    return MW_OK;
+}
+
+mw_status mw__build_point_text(mw_mesh_builder *builder, const char *text, mw_error *error)
+{
+    double xyz[3];
+    mw_status status = mw__read_xyz(builder->source, text, xyz, error);
+    return status ? status : mw__build_point(builder, xyz[0], xyz[1], xyz[2], error);
+}
+
+void mw__build_value(mw_mesh_builder *builder, size_t field, double value)
+{
+    builder->file->fields[field][builder->file->point_count - 1] = value;
+}
+
+mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (file->triangle_count == builder->triangle_room) {
+        if (file->triangle_count >= MW_MAX_TRIANGLES)
+            return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " triangles",
+                            mw__source_name(builder->source), MW_MAX_TRIANGLES);
+        size_t room = room_after(file->triangle_count);
+        uint32_t *triangles = mw__realloc(file->triangles, room, 3 * sizeof *triangles);
+        if (!triangles) return mw__fail_memory(error);
+        file->triangles = triangles;
+        builder->triangle_room = room;
+    }
+    uint32_t *triangle = file->triangles + 3 * file->triangle_count++;
+    triangle[0] = a;
+    triangle[1] = b;
+    triangle[2] = c;
+    return MW_OK;
+}
+
+void mw__build_face(mw_mesh_builder *builder)
+{
+    builder->corners = 0;
+}
+
+static mw_status no_such_vertex(const mw_mesh_builder *builder, uint64_t position, int64_t number, mw_error *error)
+{
+    return mw__source_fail_at(builder->source, position, error,
+                              "vertex %" PRId64 " does not exist: there are %zu, numbered from %" PRId64, number,
+                              builder->file->point_count, builder->first_number);
+}
+
+mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *vertex, mw_error *error)
+{
+    uint64_t position = mw__source_position(builder->source);
+    int64_t limit = builder->points_complete ? (int64_t)builder->file->point_count : (int64_t)MW_MAX_VERTICES;
+    if (number < builder->first_number || number - builder->first_number >= limit) {
+        if (builder->points_complete) return no_such_vertex(builder, position, number, error);
+        return mw__source_fail(builder->source, error, "%" PRId64 " is no number of a vertex", number);
+    }
+    *vertex = (uint32_t)(number - builder->first_number);
+    if (*vertex > builder->highest) {
+        builder->highest = *vertex;
+        builder->highest_position = position;
+    }
+    return MW_OK;
+}
+
+mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *error)
+{
+    uint32_t vertex = 0;
+    mw_status status = mw__build_vertex(builder, number, &vertex, error);
+    if (status) return status;
+    if (builder->corners >= 2) status = mw__build_triangle(builder, builder->first, builder->last, vertex, error);
+    if (builder->corners == 0) builder->first = vertex;
+    builder->last = vertex;
+    builder->corners += builder->corners < UINT32_MAX;
+    return status;
+}
+
+mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error)
+{
+    if (builder->corners >= 3) return MW_OK;
+    return mw__source_fail(builder->source, error, "a face of %" PRIu32 " corners; at least 3 are needed",
+                           builder->corners);
+}
+
+mw_status mw__build_finish(mw_mesh_builder *builder, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (builder->highest >= (int64_t)file->point_count)
+        return no_such_vertex(builder, builder->highest_position, builder->highest + builder->first_number, error);
+    if (file->point_count < builder->point_room && !points_resize(builder, file->point_count))
+        return mw__fail_memory(error);
+    uint32_t *triangles = mw__realloc(file->triangles, file->triangle_count, 3 * sizeof *triangles);
+    if (!triangles) return mw__fail_memory(error);
+    file->triangles = triangles;
+    return MW_OK;
+}
+
+void mw__fields_release(char **names, double **fields, size_t count)
+{
+    for (size_t f = 0; f < count; f++) {
+        free(names[f]);
+        free(fields[f]);
+    }
+    free(names);
+    free(fields);
+}

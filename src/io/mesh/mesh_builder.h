@@ -1,0 +1,53 @@
+/* mesh_builder.h - a mesh_file that grows while a reader reads. Private.
+ *
+ * Nothing is allocated by what a file announces, only by what it holds. A reader adds points,
+ * and values of fields for the point added last, and faces corner by corner. Vertex numbers are
+ * checked at once where all points are known, else in the end, with the position of the face. */
+#ifndef MW_SRC_IO_MESH_MESH_BUILDER_H
+#define MW_SRC_IO_MESH_MESH_BUILDER_H
+
+#include "io/text/byte_source.h"
+
+#include <meshwalk/io.h>
+
+typedef struct mw_mesh_builder {
+    mw_mesh_file *file;
+    mw_source *source; /* what is read from: for messages */
+    size_t point_room, triangle_room;
+    int64_t first_number; /* number of the first vertex: 0 or 1 */
+    bool points_complete;
+    int64_t highest; /* largest vertex (counted from 0) named so far, -1 if none, and where */
+    uint64_t highest_position;
+    uint32_t corners; /* of the present face (saturating), its first and its last corner */
+    uint32_t first, last;
+} mw_mesh_builder;
+
+/* `file` is emptied; on failure the caller releases it. */
+void mw__build_start(mw_mesh_builder *builder, mw_mesh_file *file, mw_source *source);
+
+/* Add a field; before the first point. Its value for the point added last is set with
+ * mw__build_value. */
+mw_status mw__build_field(mw_mesh_builder *builder, const char *name, mw_error *error);
+mw_status mw__build_point(mw_mesh_builder *builder, double x, double y, double z, mw_error *error);
+/* A point from the three numbers that a text begins with; reading them alone. */
+mw_status mw__build_point_text(mw_mesh_builder *builder, const char *text, mw_error *error);
+mw_status mw__read_xyz(const mw_source *source, const char *text, double xyz[3], mw_error *error);
+void mw__build_value(mw_mesh_builder *builder, size_t field, double value);
+
+/* A face: start, its corners as the file numbers them, end. Fewer than three corners are an
+ * error. */
+void mw__build_face(mw_mesh_builder *builder);
+mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *error);
+mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error);
+/* Check a number of a vertex and count it from 0. */
+mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *vertex, mw_error *error);
+/* One triangle of vertices counted from 0 that exist. */
+mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c, mw_error *error);
+
+/* Release the fields of a file, names and values. */
+void mw__fields_release(char **names, double **fields, size_t count);
+
+/* Check what is left to check and give back memory not needed. */
+mw_status mw__build_finish(mw_mesh_builder *builder, mw_error *error);
+
+#endif

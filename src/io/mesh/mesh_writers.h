@@ -1,0 +1,31 @@
+/* mesh_writers.h - the writers of meshes, each in the file of its format, and what they share.
+ * Private. */
+#ifndef MW_SRC_IO_MESH_MESH_WRITERS_H
+#define MW_SRC_IO_MESH_MESH_WRITERS_H
+
+#include "io/text/output.h"
+
+mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_obj(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_stl(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_vtk(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_csv(const char *path, const mw_mesh_file *file, mw_error *error);
+
+/* Write one file: open it, let `body` fill it, close it. */
+typedef void mw_write_body(mw_output *output, const mw_mesh_file *file);
+mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_error *error);
+
+/* What several formats share: lines "x y z" of the vertices, and lines "3 a b c" of the
+ * triangles, numbered from 0. */
+void mw__output_points(mw_output *output, const mw_mesh_file *file);
+void mw__output_triangles(mw_output *output, const mw_mesh_file *file);
+
+/* The name of a field as one word that no other field of the file has, nor x, y, z: what is no
+ * letter, digit or byte of UTF-8 becomes '_', and the number of the field follows where that
+ * gives a word already taken. */
+void mw__output_field_name(mw_output *output, const mw_mesh_file *file, size_t field);
+
+#endif

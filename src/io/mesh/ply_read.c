@@ -1,0 +1,261 @@
+/* PLY, the Stanford polygon format: text, and binary in both byte orders. Read are the element
+ * "vertex", with its properties x, y, (z) and its other numbers as fields, the element "face",
+ * and the element "tristrips" (strips of triangles parted by -1); other elements and lists are
+ * passed over. */
+#include "io/mesh/mesh_readers.h"
+#include "io/mesh/ply_header.h"
+#include "io/text/byte_order.h"
+#include "io/text/number_text.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct ply_reader {
+    mw_source *source;
+    mw_mesh_builder *builder;
+    mw_ply_kind kind;
+    const char *p; /* text: what is left of the line */
+} ply_reader;
+
+/* What to do with the values of one property. */
+typedef enum ply_use { SKIP, COORDINATE, FIELD, CORNERS, STRIP } ply_use;
+typedef struct ply_plan {
+    ply_use use;
+    size_t index; /* of the coordinate or the field */
+} ply_plan;
+
+/* The numbers of a strip: the two corners before, and how many since the last -1. */
+typedef struct ply_strip {
+    uint32_t before[2];
+    uint64_t count;
+} ply_strip;
+
+static int64_t sign_extend(uint64_t bits, size_t size)
+{
+    unsigned shift = (unsigned)(64 - 8 * size);
+    return (int64_t)(bits << shift) >> shift;
+}
+
+/* An integer; a number of the type float is none. */
+static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *value, mw_error *error)
+{
+    if (r->kind == MW_PLY_ASCII) {
+        r->p = mw__skip_blanks(r->p);
+        const char *end = mw__read_integer(r->p, value);
+        if (!*r->p) return mw__source_fail(r->source, error, "the line ends before its last value");
+        if (!end || !mw__at_gap(end))
+            return mw__source_fail(r->source, error, "'%s' is no integer", mw__excerpt(r->p).text);
+        r->p = end;
+        return MW_OK;
+    }
+    const unsigned char *bytes;
+    mw_status status = mw__source_bytes(r->source, number.size, &bytes, error);
+    if (status) return status;
+    uint64_t bits = mw__get_bytes(bytes, number.size, r->kind == MW_PLY_BIG);
+    if (number.type == MW_PLY_SIGNED)
+        *value = sign_extend(bits, number.size);
+    else
+        *value = bits > INT64_MAX ? INT64_MAX : (int64_t)bits;
+    return MW_OK;
+}
+
+static mw_status ply_read_number(ply_reader *r, mw_ply_number number, double *value, mw_error *error)
+{
+    if (r->kind == MW_PLY_ASCII) {
+        r->p = mw__skip_blanks(r->p);
+        const char *end = mw__read_double(r->p, value);
+        if (!*r->p) return mw__source_fail(r->source, error, "the line ends before its last value");
+        if (!end || !mw__at_gap(end))
+            return mw__source_fail(r->source, error, "'%s' is not a number", mw__excerpt(r->p).text);
+        r->p = end;
+        return MW_OK;
+    }
+    const unsigned char *bytes;
+    mw_status status = mw__source_bytes(r->source, number.size, &bytes, error);
+    if (status) return status;
+    uint64_t bits = mw__get_bytes(bytes, number.size, r->kind == MW_PLY_BIG);
+    if (number.type == MW_PLY_SIGNED)
+        *value = (double)sign_extend(bits, number.size);
+    else if (number.type == MW_PLY_UNSIGNED)
+        *value = (double)bits;
+    else
+        *value = number.size == 4 ? (double)mw__float_of_bits((uint32_t)bits) : mw__double_of_bits(bits);
+    return MW_OK;
+}
+
+static mw_status ply_read_strip_item(ply_reader *r, ply_strip *s, int64_t number, mw_error *error)
+{
+    if (number == -1) {
+        s->count = 0;
+        return MW_OK;
+    }
+    uint32_t c = 0;
+    mw_status status = mw__build_vertex(r->builder, number, &c, error);
+    if (status) return status;
+    uint32_t a = s->before[0], b = s->before[1];
+    /* every second triangle is turned; those with a repeated corner only join strips */
+    if (s->count >= 2 && a != b && b != c && a != c)
+        status = s->count % 2 == 0 ? mw__build_triangle(r->builder, a, b, c, error)
+                                   : mw__build_triangle(r->builder, b, a, c, error);
+    s->before[0] = b;
+    s->before[1] = c;
+    s->count++;
+    return status;
+}
+
+static mw_status ply_read_list(ply_reader *r, const mw_ply_property *property, ply_use what, mw_error *error)
+{
+    int64_t count, number;
+    double ignored;
+    ply_strip s = {0};
+    mw_status status = ply_read_integer(r, property->count, &count, error);
+    if (!status && count < 0) status = mw__source_fail(r->source, error, "a list of %" PRId64 " values", count);
+    if (what == CORNERS) mw__build_face(r->builder);
+    for (int64_t i = 0; !status && i < count; i++) {
+        if (what == SKIP) {
+            status = ply_read_number(r, property->number, &ignored, error);
+            continue;
+        }
+        status = ply_read_integer(r, property->number, &number, error);
+        if (status) break;
+        status =
+            what == STRIP ? ply_read_strip_item(r, &s, number, error) : mw__build_corner(r->builder, number, error);
+    }
+    return !status && what == CORNERS ? mw__build_face_end(r->builder, error) : status;
+}
+
+static mw_status ply_read_instance(ply_reader *r, const mw_ply_element *element, const ply_plan *plans, mw_error *error)
+{
+    mw_mesh_file *file = r->builder->file;
+    for (size_t i = 0; i < element->property_count; i++) {
+        const mw_ply_property *property = &element->properties[i];
+        mw_status status;
+        double value;
+        if (property->list)
+            status = ply_read_list(r, property, plans[i].use, error);
+        else
+            status = ply_read_number(r, property->number, &value, error);
+        if (status) return status;
+        if (plans[i].use == COORDINATE) file->points[3 * (file->point_count - 1) + plans[i].index] = value;
+        if (plans[i].use == FIELD) mw__build_value(r->builder, plans[i].index, value);
+    }
+    return MW_OK;
+}
+
+/* Text: go to the next line that is not blank. */
+static mw_status ply_next_line(ply_reader *r, const mw_ply_element *element, uint64_t have, mw_error *error)
+{
+    char *line;
+    do {
+        mw_status status = mw__source_line(r->source, &line, error);
+        if (status) return status;
+        if (!line)
+            return mw__source_fail(r->source, error, "the file ends after %" PRIu64 " of %" PRIu64 " elements '%s'",
+                                   have, element->count, mw__excerpt(element->name).text);
+        r->p = mw__skip_blanks(line);
+    } while (!*r->p);
+    return MW_OK;
+}
+
+/* All instances of one element. One without properties has no data, whatever its count. */
+static mw_status ply_read_element(ply_reader *r, const mw_ply_element *element, const ply_plan *plans, bool vertices,
+                                  mw_error *error)
+{
+    if (element->property_count == 0) return MW_OK;
+    for (uint64_t i = 0; i < element->count; i++) {
+        mw_status status = r->kind == MW_PLY_ASCII ? ply_next_line(r, element, i, error) : MW_OK;
+        if (!status && vertices) status = mw__build_point(r->builder, 0, 0, 0, error);
+        if (!status) status = ply_read_instance(r, element, plans, error);
+        if (!status && r->kind == MW_PLY_ASCII && *mw__skip_blanks(r->p))
+            status = mw__source_fail(r->source, error, "'%s' follows the last value of the line",
+                                     mw__excerpt(mw__skip_blanks(r->p)).text);
+        if (status) return status;
+    }
+    return MW_OK;
+}
+
+static mw_status ply_plan_vertex(ply_reader *r, const mw_ply_element *element, ply_plan *plans, mw_error *error)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    for (size_t i = 0; i < element->property_count; i++) {
+        const mw_ply_property *property = &element->properties[i];
+        if (property->list) continue;
+        plans[i] = (ply_plan){FIELD, r->builder->file->field_count};
+        for (size_t k = 0; k < 3; k++)
+            if (strcmp(property->name, names[k]) == 0) plans[i] = (ply_plan){COORDINATE, k};
+        mw_status status = plans[i].use == FIELD ? mw__build_field(r->builder, property->name, error) : MW_OK;
+        if (status) return status;
+    }
+    for (size_t k = 0; k < 3; k++) {
+        size_t i = mw__ply_property(element, names[k]);
+        bool found = i < element->property_count && plans[i].use == COORDINATE;
+        if (k == 2)
+            r->builder->file->has_z = found;
+        else if (!found)
+            return mw__source_fail(r->source, error, "the vertices have no property '%s'", names[k]);
+    }
+    return MW_OK;
+}
+
+static mw_status ply_plan_faces(ply_reader *r, const mw_ply_element *element, ply_use what, ply_plan *plans,
+                                mw_error *error)
+{
+    size_t i = mw__ply_property(element, "vertex_indices");
+    if (i == element->property_count) i = mw__ply_property(element, "vertex_index");
+    if (i < element->property_count && element->properties[i].list &&
+        element->properties[i].number.type != MW_PLY_FLOAT)
+        plans[i].use = what;
+    else if (element->count > 0)
+        return mw__source_fail(r->source, error, "element '%s' has no list of integers 'vertex_indices'",
+                               mw__excerpt(element->name).text);
+    return MW_OK;
+}
+
+static mw_status ply_read_elements(ply_reader *r, const mw_ply_header *header, mw_error *error)
+{
+    bool vertices = false;
+    for (size_t e = 0; e < header->element_count; e++) {
+        const mw_ply_element *element = &header->elements[e];
+        ply_plan *plans = mw__calloc(element->property_count, sizeof *plans);
+        if (!plans) return mw__fail_memory(error);
+        bool is_vertex = strcmp(element->name, "vertex") == 0;
+        mw_status status = MW_OK;
+        if (is_vertex)
+            status = ply_plan_vertex(r, element, plans, error);
+        else if (strcmp(element->name, "face") == 0)
+            status = ply_plan_faces(r, element, CORNERS, plans, error);
+        else if (strcmp(element->name, "tristrips") == 0)
+            status = ply_plan_faces(r, element, STRIP, plans, error);
+        if (!status) status = ply_read_element(r, element, plans, is_vertex, error);
+        free(plans);
+        if (status) return status;
+        vertices |= is_vertex;
+        r->builder->points_complete = vertices;
+    }
+    return vertices ? MW_OK : mw__source_fail(r->source, error, "no element 'vertex' in this file");
+}
+
+static mw_status ply_check_end(ply_reader *r, const mw_ply_header *header, mw_error *error)
+{
+    if (r->kind != MW_PLY_ASCII) return mw__source_check_end(r->source, header->element_count, "elements", error);
+    char *line;
+    do {
+        mw_status status = mw__source_line(r->source, &line, error);
+        if (status) return status;
+    } while (line && !*mw__skip_blanks(line));
+    return line ? mw__source_fail(r->source, error, "more data than the header announces") : MW_OK;
+}
+
+mw_status mw__read_ply(mw_source *source, mw_mesh_builder *builder, mw_error *error)
+{
+    mw_ply_header header;
+    mw_status status = mw__ply_read_header(source, &header, error);
+    ply_reader r = {.source = source, .builder = builder, .kind = header.kind};
+    source->binary = !status && header.kind != MW_PLY_ASCII;
+    if (!status) status = ply_read_elements(&r, &header, error);
+    if (!status) status = ply_check_end(&r, &header, error);
+    mw__ply_release_header(&header);
+    return status;
+}

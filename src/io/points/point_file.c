@@ -1,0 +1,89 @@
+/* Points in files: telling the format, and the stream. */
+#include "io/points/point_file.h"
+
+#include "io/mesh/mesh_formats.h"
+#include "io/points/las.h"
+#include "io/points/point_table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A selection names at least two columns, and none of its items is empty. */
+static mw_status selection_check(const char *columns, mw_error *error)
+{
+    size_t count = 0, length;
+    for (const char *rest = columns; mw__selection_item(&rest, &length); count++)
+        if (length == 0) return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': an empty name", columns);
+    if (count < 2 || count > MW_COLUMN_LIMIT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': two are needed at least, x and y", columns);
+    return MW_OK;
+}
+
+static mw_status point_reader_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
+{
+    const char *head;
+    size_t size;
+    mw_status status = options->columns ? selection_check(options->columns, error) : MW_OK;
+    if (!status) status = mw__source_peek(&reader->source, 1024, &head, &size, error);
+    if (status) return status;
+    if (size >= 4 && memcmp(head, "LASF", 4) == 0) return mw__las_start(reader, options, error);
+    const mw_mesh_format *format = mw__mesh_format_by_content(head, size);
+    if (format && (!format->common_words || mw__mesh_format_by_path(reader->source.path) == format))
+        return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is a mesh ('%s'), not a table of points",
+                        mw__source_name(&reader->source), format->name);
+    return mw__point_table_start(reader, options, error);
+}
+
+mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options *options, mw_point_reader **out,
+                                 mw_error *error)
+{
+    static const mw_point_reader_options none;
+    mw_point_reader *reader = mw__calloc(1, sizeof *reader);
+    if (!reader) {
+        mw__source_close(&source);
+        return mw__fail_memory(error);
+    }
+    reader->source = source;
+    mw_status status = point_reader_start(reader, options ? options : &none, error);
+    if (status)
+        mw_point_reader_close(reader);
+    else
+        *out = reader;
+    return status;
+}
+
+mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options, mw_point_reader **out,
+                               mw_error *error)
+{
+    if (out) *out = NULL;
+    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_open: NULL");
+    mw_source source;
+    mw_status status = mw__source_open(&source, path, error);
+    return status ? status : mw__point_reader_start(source, options, out, error);
+}
+
+size_t mw_point_reader_width(const mw_point_reader *reader)
+{
+    return reader->width;
+}
+
+const char *mw_point_reader_column(const mw_point_reader *reader, size_t column)
+{
+    return column < reader->width ? reader->names[column] : NULL;
+}
+
+mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error)
+{
+    *count = 0;
+    return reader->read(reader, values, capacity, count, error);
+}
+
+void mw_point_reader_close(mw_point_reader *reader)
+{
+    if (!reader) return;
+    mw__source_close(&reader->source);
+    for (size_t i = 0; i < reader->width; i++) free(reader->names[i]);
+    free(reader->names);
+    free(reader->state);
+    free(reader);
+}

@@ -1,0 +1,151 @@
+#include "io/points/table_header.h"
+#include "io/text/delimited.h"
+#include "io/text/number_text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+void mw__table_header_release(mw_table_header *c)
+{
+    for (size_t i = 0; c->names && i < c->count; i++) free(c->names[i]);
+    free(c->names);
+    free(c->numbers);
+}
+
+mw_status mw__table_row(mw_source *source, char **row, mw_error *error)
+{
+    for (;;) {
+        mw_status status = mw__source_line(source, row, error);
+        if (status || !*row) return status;
+        const char *p = mw__skip_blanks(*row);
+        if (*p && *p != '#') return MW_OK;
+    }
+}
+
+static mw_status header_keep_names(mw_table_header *c, const char *row, char separator, mw_error *error)
+{
+    c->names = mw__calloc(c->count, sizeof *c->names);
+    if (!c->names) return mw__fail_memory(error);
+    mw_text_cell cell;
+    bool more = true;
+    for (size_t i = 0; mw__delimited_cell(&row, separator, &more, &cell); i++) {
+        c->names[i] = strndup(cell.text, cell.length);
+        if (!c->names[i]) return mw__fail_memory(error);
+    }
+    return MW_OK;
+}
+
+/* Which columns the first row of data has numbers in. */
+static void header_note_numbers(mw_table_header *c, const char *row, char separator)
+{
+    mw_text_cell cell;
+    bool more = true;
+    for (size_t i = 0; i < c->count && mw__delimited_cell(&row, separator, &more, &cell); i++) {
+        bool named = c->names && *c->names[i];
+        c->numbers[i] = cell.length == 0 ? named : mw__cell_is_number(cell, separator);
+    }
+}
+
+/* Numbers like 1,5 between blanks are refused: they could as well be two. */
+static mw_status header_refuse_decimal_commas(const mw_source *source, const char *row, char *separator,
+                                              mw_error *error)
+{
+    bool decimal_comma;
+    *separator = mw__delimited_separator(row, &decimal_comma);
+    if (!decimal_comma) return MW_OK;
+    return mw__source_fail(source, error,
+                           "decimal commas: write points, or separate the columns by semicolons or tabs");
+}
+
+mw_status mw__table_header_detect(mw_source *source, mw_table_header *c, char *separator, mw_error *error)
+{
+    char *row, other;
+    mw_status status = mw__table_row(source, &row, error);
+    if (status || !row) return status;
+    status = header_refuse_decimal_commas(source, row, separator, error);
+    if (status) return status;
+    c->count = mw__delimited_count(row, *separator);
+    if (c->count > MW_COLUMN_LIMIT) return mw__source_fail(source, error, "more than %d columns", MW_COLUMN_LIMIT);
+    c->numbers = mw__calloc(c->count, sizeof *c->numbers);
+    if (!c->numbers) return mw__fail_memory(error);
+    if (mw__delimited_is_header(row, *separator)) {
+        status = header_keep_names(c, row, *separator, error);
+        if (!status) status = mw__table_row(source, &row, error);
+        if (!status && row && !mw__delimited_takes_comma(*separator))
+            status = header_refuse_decimal_commas(source, row, &other, error);
+        if (status) return status;
+    }
+    for (size_t i = 0; !row && i < c->count; i++) c->numbers[i] = true;
+    if (!row) return MW_OK;
+    header_note_numbers(c, row, *separator);
+    mw__source_unread_line(source);
+    return MW_OK;
+}
+
+static mw_status header_name_column(mw_table_header *c, const char *name, size_t number, mw_error *error)
+{
+    char **names = mw__realloc(c->names, c->count + 1, sizeof *names);
+    if (!names) return mw__fail_memory(error);
+    c->names = names;
+    char text[32];
+    snprintf(text, sizeof text, number ? "%s%zu" : "%s", name, number);
+    names[c->count] = strdup(text);
+    if (!names[c->count]) return mw__fail_memory(error);
+    c->count++;
+    return MW_OK;
+}
+
+mw_status mw__table_header_of_node(mw_source *source, mw_table_header *c, mw_error *error)
+{
+    char *row;
+    int64_t values[4] = {0, 2, 0, 0};
+    mw_status status = mw__source_content_line(source, &row, error);
+    if (status) return status;
+    const char *p = row;
+    for (int i = 0; i < 4 && p && *p; i++) {
+        p = mw__read_integer(p, &values[i]);
+        if (p) p = mw__at_gap(p) ? mw__skip_blanks(p) : NULL;
+    }
+    if (!p || *p || values[0] < 0 || values[1] < 2 || values[1] > 3 || values[2] < 0 ||
+        values[2] > MW_COLUMN_LIMIT - 8 || values[3] < 0 || values[3] > 1)
+        return mw__source_fail(source, error, "a .node file begins with 'count dimension attributes markers'");
+    c->expected = (uint64_t)values[0];
+    static const char *const letters[] = {"x", "y", "z"};
+    status = header_name_column(c, "number", 0, error);
+    for (int64_t k = 0; !status && k < values[1]; k++) status = header_name_column(c, letters[k], 0, error);
+    for (int64_t k = 0; !status && k < values[2]; k++)
+        status = header_name_column(c, "attribute", (size_t)k + 1, error);
+    if (!status && values[3]) status = header_name_column(c, "marker", 0, error);
+    if (status) return status;
+    c->numbers = mw__calloc(c->count, sizeof *c->numbers);
+    if (!c->numbers) return mw__fail_memory(error);
+    for (size_t i = 1; i < c->count; i++) c->numbers[i] = i <= (size_t)(values[1] + values[2]);
+    return MW_OK;
+}
+
+size_t mw__table_header_find(const mw_table_header *c, const char *name, size_t length)
+{
+    static const char *const letters[] = {"x", "y", "z"};
+    for (size_t i = 0; i < c->count; i++) {
+        const char *known = c->names ? c->names[i] : i < 3 ? letters[i] : "";
+        if (strlen(known) == length && strncasecmp(known, name, length) == 0) return i;
+    }
+    return c->count;
+}
+
+bool mw__table_header_coordinates(const mw_table_header *c, size_t found[3])
+{
+    static const char *const pairs[][2] = {
+        {"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}, {"easting", "northing"}};
+    for (size_t i = 0; c->names && i < sizeof pairs / sizeof *pairs; i++) {
+        for (int k = 0; k < 2; k++) found[k] = mw__table_header_find(c, pairs[i][k], strlen(pairs[i][k]));
+        if (found[0] < c->count && found[1] < c->count && c->numbers[found[0]] && c->numbers[found[1]]) {
+            found[2] = mw__table_header_find(c, "z", 1);
+            if (found[2] < c->count && !c->numbers[found[2]]) found[2] = c->count;
+            return true;
+        }
+    }
+    return false;
+}

@@ -1,0 +1,17 @@
+/* output.h - what writers of several files need beyond the public mw_output. Private. */
+#ifndef MW_SRC_IO_TEXT_OUTPUT_H
+#define MW_SRC_IO_TEXT_OUTPUT_H
+
+#include "base/base.h"
+
+#include <meshwalk/io.h>
+
+/* Write out what is buffered, so that mw_output_failed tells whether all of it arrived. */
+void mw__output_flush(mw_output *output);
+
+/* A text without format. */
+void mw__output_text(mw_output *output, const char *text);
+void mw__output_char(mw_output *output, char c);
+void mw__output_integer(mw_output *output, uint64_t value);
+
+#endif
