@@ -1,12 +1,12 @@
 /* insert_points.c - many points at once: one step, whose journal has each tile once, or which needs none. */
 #include "edit/editor.h"
 #include "edit/fabric_memory.h"
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "edit/hole.h"
 #include "edit/journal.h"
 
 #include "mesh/point_order.h"
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "walk/remembering_fast.h"
 
 #include <stdlib.h>
@@ -91,7 +91,7 @@ static MW_INLINE void fetch_corners(const mw_tiling *tiling, const traveller *on
     const mw_triangle *tile = &tiling->tri[one->tile];
     for (int k = 0; k < 3; k++) {
         __builtin_prefetch(&tiling->point[tile->v[k]]);
-        mw__fetch_tile(tiling, tile->link[k]);
+        mw__prefetch_tile(tiling, tile->link[k]);
     }
 }
 
@@ -104,8 +104,8 @@ static MW_INLINE void go_nearer(const mw_tiling *tiling, traveller *one)
     one->tile = mw__link_triangle(link);
     const mw_triangle *tile = &tiling->tri[one->tile];
     __builtin_prefetch(&tiling->point[tile->v[mw__prev(e)]]);
-    mw__fetch_tile(tiling, tile->link[mw__next(e)]);
-    mw__fetch_tile(tiling, tile->link[mw__prev(e)]);
+    mw__prefetch_tile(tiling, tile->link[mw__next(e)]);
+    mw__prefetch_tile(tiling, tile->link[mw__prev(e)]);
 }
 
 static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one)
@@ -118,8 +118,8 @@ static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one
         uint32_t e = mw__link_edge(tile->link[k]);
         __builtin_prefetch(&tiling->point[other->v[mw__prev(e)]]);
         __builtin_prefetch(&tiling->tile_at[other->v[mw__prev(e)]], 1);
-        mw__fetch_tile(tiling, other->link[mw__next(e)]);
-        mw__fetch_tile(tiling, other->link[mw__prev(e)]);
+        mw__prefetch_tile(tiling, other->link[mw__next(e)]);
+        mw__prefetch_tile(tiling, other->link[mw__prev(e)]);
     }
 }
 
@@ -127,8 +127,8 @@ static MW_INLINE void fetch_beyond(const mw_tiling *tiling, const traveller *one
 static MW_INLINE void fetch_far(const outlook *o, size_t i)
 {
     const mw_tiling *tiling = &o->editor->locator.tiling;
-    mw__fetch_tiles_round(tiling, o->on_way[(i + NAMED) % AHEAD].tile);
-    mw__fetch_points_round(tiling, tiling->tri[o->on_way[(i + CORNERS) % AHEAD].tile].v[0]);
+    mw__prefetch_tiles_round(tiling, o->on_way[(i + NAMED) % AHEAD].tile);
+    mw__prefetch_points_round(tiling, tiling->tri[o->on_way[(i + CORNERS) % AHEAD].tile].v[0]);
     fetch_beyond(tiling, &o->on_way[(i + BEYOND) % AHEAD]);
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "edit/journal.h"
-#include "locate/spread.h"
+#include "locate/batch_profile.h"
 
 /* --- building ---------------------------------------------------------------------------------------------------------- */
 
@@ -86,8 +86,8 @@ static bool build_guide(mw_upkeep *u)
 {
     mw_index fresh;
     const mw_caches caches = mw__caches();
-    mw__locator_survey(u->locator);
-    u->large = mw__room_of_all(u->locator, &caches) == MW_ROOM_BEYOND;
+    mw__locator_measure(u->locator);
+    u->large = mw__cache_level_of_mesh(u->locator, &caches) == MW_CACHE_NONE;
     begin_anew(u, MW_START_AUTO);
     bool done = mw__locator_guide(u->locator, &fresh);
     if (done) {
@@ -138,13 +138,13 @@ static void refresh(mw_upkeep *u, mw_start_kind start)
 
 /* --- grids ------------------------------------------------------------------------------------------------------------- */
 
-static void put(mw_index *index, const mw_entry *e)
+static void put(mw_index *index, const mw_cell_entry *e)
 {
     if (index->start == MW_START_GRID) mw__lattice_put(&index->grid.lattice, index->grid.tile, e);
     if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_put(&index->two_level_grid, e);
 }
 
-static void put_in_indices(mw_upkeep *u, const mw_entry *e)
+static void put_in_indices(mw_upkeep *u, const mw_cell_entry *e)
 {
     put(&u->index[MW_START_GRID], e);
     put(&u->index[MW_START_TWO_LEVEL_GRID], e);
@@ -158,7 +158,7 @@ bool mw__upkeep_asks(const mw_upkeep *u)
 static void note_tile(mw_upkeep *u, uint32_t t)
 {
     const mw_tiling *tiling = u->fabric->tiling;
-    put_in_indices(u, &(mw_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
+    put_in_indices(u, &(mw_cell_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
 }
 
 /* The tiles that an edit changed, as they are now: for the indices that were asked for. The guide has to do with the names it was built of,
@@ -234,7 +234,7 @@ static void redirect_names(mw_upkeep *u, const mw_step *step, const mw_before *f
             bool moved = gone->v[k] == step->vertex && step->edit.kind == MW_EDIT_MOVE;
             p[k] = moved ? (mw_point){step->edit.x, step->edit.y} : tiling->point[gone->v[k]];
         }
-        const mw_entry e = {.p = mw__middle(p[0], p[1], p[2]), .name = heir, .anyway = true};
+        const mw_cell_entry e = {.p = mw__middle(p[0], p[1], p[2]), .name = heir, .anyway = true};
         put(&u->locator->guide, &e);
         put_in_indices(u, &e);
     }

@@ -24,11 +24,11 @@ static MW_INLINE bool mw__has_fast_path(const mw_tiling *tiling, const mw_query_
 /* Write the answer of a fast walk that has ended in no triangle of the user's: inside the ghost `tile`
  * or, if it left, beyond an edge of it that is on the hull. False: it needs the exact conclusion, or
  * the border nearby. */
-static MW_INLINE bool mw__fast_outside(const mw_tiling *tiling, const mw_cursor *cursor, const mw_triangle *tile,
-                                       bool inside, bool left, mw_location *location)
+static MW_INLINE bool mw__fast_path_outside(const mw_tiling *tiling, const mw_cursor *cursor, const mw_triangle *tile,
+                                            bool inside, bool left, mw_location *location)
 {
     if (cursor->tolerance > 0 || !tiling->embedding || !(inside || left)) return false;
-    mw__put_in_none(location, inside ? tile->user : 0);
+    mw__location_write_outside(location, inside ? tile->user : 0);
     return true;
 }
 

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 /* The key of the lowest vertex: by that tiles of a mesh that is laid out are in order (mesh/layout.h). */
-static uint32_t key_of(const mw_curve *curve, const mw_tiling *tiling, uint32_t t)
+static uint32_t tile_key(const mw_curve *curve, const mw_tiling *tiling, uint32_t t)
 {
     const uint32_t *v = tiling->tri[t].v;
     uint32_t low = v[0] < v[1] ? v[0] : v[1];
@@ -31,11 +31,11 @@ static uint32_t curve_buckets(const mw_curve *curve)
 }
 
 /* Put all tiles of the sample, every `stride`-th, between the two ends of the curve. */
-static void take_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch)
+static void curve_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch)
 {
     uint32_t n = curve->count - 2, follow = 0;
     mw_key *sample = curve->sample + 1;
-    for (uint32_t i = 0; i < n; i++) sample[i] = (mw_key){key_of(curve, tiling, i * stride), i * stride};
+    for (uint32_t i = 0; i < n; i++) sample[i] = (mw_key){tile_key(curve, tiling, i * stride), i * stride};
     mw__sort_keys(sample, scratch, n);
     sample[-1] = (mw_key){0, sample[0].item};
     sample[n] = (mw_key){UINT32_MAX, sample[n - 1].item};
@@ -43,7 +43,7 @@ static void take_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t strid
     curve->regular = follow >= n - n / 8 - 1;
 }
 
-static void fill_buckets(mw_curve *curve)
+static void curve_fill_buckets(mw_curve *curve)
 {
     for (uint32_t b = 0, i = 0; b <= curve_buckets(curve); b++) {
         while (i < curve->count - 1 && curve->sample[i].key < (uint64_t)b << curve->shift) i++;
@@ -63,8 +63,8 @@ bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low
     mw_key *scratch = mw__alloc_lines(n, sizeof *scratch);
     bool done = curve->sample && curve->from && scratch;
     if (done) {
-        take_sample(curve, tiling, stride, scratch);
-        fill_buckets(curve);
+        curve_sample(curve, tiling, stride, scratch);
+        curve_fill_buckets(curve);
     }
     free(scratch);
     return done;

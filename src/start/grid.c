@@ -70,7 +70,7 @@ static void cell_join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, in
     grid->tile[cell] = site->tile;
 }
 
-static void look_together(mw_grid *grid, const mw_grid_plan *plan, int shares)
+static void shares_look_together(mw_grid *grid, const mw_grid_plan *plan, int shares)
 {
 #ifdef _OPENMP
 #pragma omp parallel num_threads(shares) if (shares > 1)
@@ -111,7 +111,7 @@ static void plan_choose(mw_grid_plan *plan, uint32_t cells)
 }
 
 /* Look at the tiles that are in the cells of a lattice. */
-static bool look_at_cells(mw_grid *grid, mw_grid_plan *plan)
+static bool grid_look(mw_grid *grid, mw_grid_plan *plan)
 {
     uint32_t count = mw__lattice_cells(&grid->lattice);
     int shares = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
@@ -122,7 +122,7 @@ static bool look_at_cells(mw_grid *grid, mw_grid_plan *plan)
         free(plan->site);
         return false;
     }
-    look_together(grid, plan, shares);
+    shares_look_together(grid, plan, shares);
     return true;
 }
 
@@ -130,7 +130,7 @@ bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], cons
 {
     if (cells == 0) cells = mw__lattice_choose(plan->tiling);
     grid->lattice = mw__lattice_of(plan->tiling, low, high, cells);
-    if (!look_at_cells(grid, plan)) return false;
+    if (!grid_look(grid, plan)) return false;
     plan_choose(plan, mw__lattice_cells(&grid->lattice));
     return true;
 }
@@ -146,13 +146,13 @@ static uint32_t cell_settled(const mw_grid *grid, const mw_grid_plan *plan, uint
     return cell;
 }
 
-static bool is_outermost(const mw_lattice *lattice, uint32_t x, uint32_t y)
+static bool cell_is_outermost(const mw_lattice *lattice, uint32_t x, uint32_t y)
 {
     return x == 0 || y == 0 || x + 1 == lattice->columns || y + 1 == lattice->rows;
 }
 
 /* Does tile t have p? In plain doubles. */
-static MW_INLINE bool has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
+static MW_INLINE bool tile_has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
 {
     const uint32_t *v = tiling->tri[t].v;
     const mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
@@ -165,17 +165,17 @@ static MW_INLINE bool has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
 /* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long, as far as the fuel goes. Where the walk
  * leaves the hull, and tiles are beside, one of these: the hull may cross the cell, and from a long tile along it walks into the
  * mesh are long. */
-static void fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t, uint32_t fuel)
+static void cell_fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t, uint32_t fuel)
 {
     uint32_t cell = y * grid->lattice.columns + x, beside = cell;
     mw_point middle = mw__lattice_middle(&grid->lattice, x, y);
-    if (has_point(plan->tiling, t, middle)) {
+    if (tile_has_point(plan->tiling, t, middle)) {
         grid->tile[cell] = t;
         return;
     }
     mw_walk walk = mw__walk_begin(plan->tiling, middle, t, fuel, 0, NULL);
     bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_LEFT;
-    if (left && !is_outermost(&grid->lattice, x, y)) beside = cell_settled(grid, plan, x, y);
+    if (left && !cell_is_outermost(&grid->lattice, x, y)) beside = cell_settled(grid, plan, x, y);
     grid->tile[cell] = beside != cell ? grid->tile[beside] : walk.t;
 }
 
@@ -206,7 +206,7 @@ static uint32_t tile_after(const mw_grid *grid, const mw_grid_plan *plan, uint32
 }
 
 /* The cells within the outermost ones. */
-static void fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
+static void grid_fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
 {
     uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows;
     for (uint32_t y = first; y < first + BAND && y + 1 < rows; y++)
@@ -214,7 +214,7 @@ static void fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
             if (!cell_is_gap(plan, y * columns + x)) continue;
             uint32_t t = cell_tile_beside(grid, plan, x, y, first);
             bool near = t != MW_NONE;
-            fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x), near ? FUEL : FAR);
+            cell_fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x), near ? FUEL : FAR);
         }
 }
 
@@ -226,7 +226,7 @@ static uint32_t line_inwards(uint32_t line, uint32_t lines)
 
 /* The outermost cells come last, each from the one further in: tiles along the hull are long, so that near the one of the last
  * cell there may be none of the next. */
-static void fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
+static void grid_fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 {
     uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows, bands = rows > 2 ? (rows - 3) / BAND + 1 : 0;
     int team = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
@@ -234,18 +234,18 @@ static void fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
 #endif
-    for (uint32_t b = 0; b < bands; b++) fill_band(grid, plan, 1 + b * BAND);
+    for (uint32_t b = 0; b < bands; b++) grid_fill_band(grid, plan, 1 + b * BAND);
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < columns; x++) {
-            if (!is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x)) continue;
+            if (!cell_is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x)) continue;
             uint32_t t = grid->tile[line_inwards(y, rows) * columns + line_inwards(x, columns)];
-            fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
+            cell_fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
         }
 }
 
 void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
 {
-    fill_gaps(grid, plan);
+    grid_fill_gaps(grid, plan);
     for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells; c++)
         grid->tile[c] = sparse && cell_has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);
     free(plan->site);
@@ -256,7 +256,7 @@ void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
     mw_grid fine = {.lattice = mw__lattice_finer(&grid->lattice)};
     mw_grid_plan plan = {.tiling = tiling, .stride = stride};
     if (!mw__lattice_is_finite(&fine.lattice)) return;
-    if (!look_at_cells(&fine, &plan)) {
+    if (!grid_look(&fine, &plan)) {
         mw__grid_release(&fine);
         return;
     }

@@ -78,14 +78,14 @@ static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_poi
 }
 
 /* What an entry is given by who follows edits. */
-typedef struct mw_entry {
+typedef struct mw_cell_entry {
     mw_point p;    /* a place in or at the tile            */
     uint32_t name; /* its name                             */
     bool anyway;   /* even if p is not near a cell's middle */
-} mw_entry;
+} mw_cell_entry;
 
 /* Give the cell of e->p another tile, if that is near its middle: else what it has is likely to be nearer. */
-static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry, const mw_entry *e)
+static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry, const mw_cell_entry *e)
 {
     const float near = 1.0f / 16; /* a quarter of a cell's width, squared */
     float off;

@@ -25,7 +25,7 @@ typedef struct mw_two_level_grid {
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
                                const double high[2], uint32_t cells);
 /* See mw__lattice_put. */
-void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_entry *e);
+void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_cell_entry *e);
 /* Does p lie in a cell of its own level, and not beyond the rim of a grid? */
 bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p);
 void mw__two_level_grid_release(mw_two_level_grid *grid);

@@ -19,11 +19,11 @@ static MW_INLINE mw_verdict barycentric_step(mw_walk *w, mw_policy P)
 {
     mw_point t0 = corner(w, 0), t1 = corner(w, 1), t2 = corner(w, 2);
     double off = 0;
-    double area = value(w, t0, t1, t2, &off, P);
-    double b0 = value(w, t1, t2, w->q, &off, P) / area;
-    double b1 = value(w, t2, t0, w->q, &off, P) / area;
+    double area = area_value(w, t0, t1, t2, &off, P);
+    double b0 = area_value(w, t1, t2, w->q, &off, P) / area;
+    double b1 = area_value(w, t2, t0, w->q, &off, P) / area;
     double b2 = 1 - b0 - b1;
-    off = off / fabs(area) + rounding(1, b0, b1, P);
+    off = off / fabs(area) + sum_rounding(1, b0, b1, P);
     double least = b0;
     uint32_t e = 1;
     if (b1 < least) {

@@ -13,7 +13,7 @@
 #include "walk/drive.h"
 
 /* Cross edge e, the first of the chain, or the next edge if q lies round the corner between them. */
-static MW_INLINE mw_verdict cross_chain(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict celestial_cross_chain(mw_walk *w, uint32_t e, mw_policy P)
 {
     uint32_t next = mw__next(e);
     mw_point a = corner(w, e), c = corner(w, next), b = apex(w, e);
@@ -25,11 +25,11 @@ static MW_INLINE mw_verdict celestial_step(mw_walk *w, mw_policy P)
 {
     if (MW_UNLIKELY(w->e == MW_NO_EDGE)) {
         /* Where q lies beyond edges 0 and 2, the chain begins with 2. */
-        if (beyond(w, 0, P)) return cross_chain(w, beyond(w, 2, P) ? 2 : 0, P);
+        if (beyond(w, 0, P)) return celestial_cross_chain(w, beyond(w, 2, P) ? 2 : 0, P);
         w->e = 0; /* as if entered there: the rest is the same */
     }
     uint32_t next = mw__next(w->e);
-    if (beyond(w, next, P)) return cross_chain(w, next, P);
+    if (beyond(w, next, P)) return celestial_cross_chain(w, next, P);
     return leave(w, mw__prev(w->e), P);
 }
 

@@ -21,13 +21,13 @@
 
 static MW_INLINE double direct_side(mw_walk *w, uint32_t e, double *off, mw_policy P)
 {
-    return value(w, corner(w, e), corner(w, e + 1), w->q, off, P);
+    return area_value(w, corner(w, e), corner(w, e + 1), w->q, off, P);
 }
 
 /* Twice the area of the tile. */
 static MW_INLINE double direct_double_area(mw_walk *w, bool stored, double *off, mw_policy P)
 {
-    if (!stored) return value(w, corner(w, 0), corner(w, 1), corner(w, 2), off, P);
+    if (!stored) return area_value(w, corner(w, 0), corner(w, 1), corner(w, 2), off, P);
     double area = w->tiling->area[w->t];
     if (P.exact) *off += MW_AREA_ERROR * area;
     return area;
@@ -42,7 +42,7 @@ static MW_INLINE mw_verdict direct_step_with(mw_walk *w, bool stored, mw_policy 
     double tested = direct_side(w, next, &off, P);
     double area = direct_double_area(w, stored, &off, P);
     double last = area - known - tested;
-    off += rounding(area, known, tested, P);
+    off += sum_rounding(area, known, tested, P);
     bool turn = last < tested;
     double least = turn ? last : tested;
     uint32_t out = turn ? mw__prev(e) : next;

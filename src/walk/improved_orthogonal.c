@@ -32,8 +32,8 @@ enum { START, SET_OUT, FOLLOW }; /* phases */
 /* The tile is past the end of the leg. */
 static MW_INLINE mw_verdict improved_arrive(mw_walk *w, mw_policy P)
 {
-    if (is_vertical(w)) return MW_CLOSE;
-    turn_upright(w, P);
+    if (axis_is_vertical(w)) return MW_CLOSE;
+    axis_turn_upright(w, P);
     w->phase = SET_OUT;
     return MW_GO;
 }
@@ -42,8 +42,8 @@ static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, mw_
 {
     mw_verdict verdict = cross(w, e, P);
     if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
-    if (is_vertical(w)) return MW_CLOSE;
-    head_upright(w, inner_point(w), P);
+    if (axis_is_vertical(w)) return MW_CLOSE;
+    axis_head_upright(w, tile_inner_point(w), P);
     w->phase = SET_OUT;
     return MW_GO;
 }
@@ -60,7 +60,7 @@ static MW_INLINE mw_point improved_farthest(mw_walk *w, mw_policy P)
 /* In the first tile of a leg. */
 static MW_INLINE mw_verdict improved_set_out(mw_walk *w, mw_policy P)
 {
-    if (is_past(w, improved_farthest(w, P), P)) return improved_arrive(w, P);
+    if (axis_is_past(w, improved_farthest(w, P), P)) return improved_arrive(w, P);
     uint32_t e = axis_exit_edge(w, P);
     if (e == MW_NO_EDGE) return MW_CLOSE;
     w->phase = FOLLOW;
@@ -71,10 +71,10 @@ static MW_INLINE mw_verdict improved_orthogonal_step(mw_walk *w, mw_policy P)
 {
     if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
         mw_point s = apex(w, w->e);
-        if (MW_UNLIKELY(is_past(w, s, P))) return improved_arrive(w, P);
+        if (MW_UNLIKELY(axis_is_past(w, s, P))) return improved_arrive(w, P);
         return improved_cross_or_detour(w, axis_is_left(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
     }
-    if (w->phase == START) head_across(w, inner_point(w), P);
+    if (w->phase == START) axis_head_across(w, tile_inner_point(w), P);
     return improved_set_out(w, P);
 }
 

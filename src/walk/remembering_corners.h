@@ -18,7 +18,7 @@
 #ifndef MW_SRC_REMEMBERING_CORNERS_H
 #define MW_SRC_REMEMBERING_CORNERS_H
 
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "walk/lifted.h"
 #include "walk/walk.h"
 
@@ -57,8 +57,8 @@ static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw
         t = mw__link_triangle(link);
         if (MW_UNLIKELY(fuel-- == 0)) return mw__corners_surely(tiling, q, t, corner);
         e = mw__link_edge(link);
-        mw__fetch_tile(tiling, tri[t].link[mw__next(e)]);
-        mw__fetch_tile(tiling, tri[t].link[mw__prev(e)]);
+        mw__prefetch_tile(tiling, tri[t].link[mw__next(e)]);
+        mw__prefetch_tile(tiling, tri[t].link[mw__prev(e)]);
         c = mw__lift_vertex(tiling, tri[t].v[mw__prev(e)], q);
         exit = MW_NONE;
         ab = 1; /* it came over this edge */

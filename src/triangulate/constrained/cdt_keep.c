@@ -8,7 +8,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-static uint32_t piece_at(const mw_cdt *m, uint32_t half)
+static uint32_t subsegment_at(const mw_cdt *m, uint32_t half)
 {
     return m->net.subsegment[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
 }
@@ -18,7 +18,7 @@ static uint32_t piece_at(const mw_cdt *m, uint32_t half)
 /* The polygons as they were given have any numbers: here they count from 0. */
 typedef struct parity {
     const mw_cdt *m;
-    mw_runs runs;
+    mw_subsegment_owners owners;
     uint32_t *rank; /* per segment: its polygon, MW_NONE */
     uint8_t *odd;   /* per polygon: has an odd number of its segments been crossed? */
     uint32_t odd_count;
@@ -26,7 +26,7 @@ typedef struct parity {
 
 static void parity_release(parity *p)
 {
-    mw__runs_release(&p->runs);
+    mw__subsegment_owners_release(&p->owners);
     free(p->rank);
     free(p->odd);
 }
@@ -87,7 +87,7 @@ static mw_status parity_prepare(parity *p, mw_error *error)
     size_t count;
     mw_key *key = sort_by_polygon(p->m->given, &count);
     mw_status status = key ? check_closed(p->m, key, count, error) : mw__fail_memory(error);
-    if (status == MW_OK && !(rank_polygons(p, key, count) && mw__runs_create(&p->runs, p->m)))
+    if (status == MW_OK && !(rank_polygons(p, key, count) && mw__subsegment_owners_create(&p->owners, p->m)))
         status = mw__fail_memory(error);
     free(key);
     return status;
@@ -96,10 +96,10 @@ static mw_status parity_prepare(parity *p, mw_error *error)
 /* Cross a half-edge, either way. */
 static void parity_cross(parity *p, uint32_t half)
 {
-    uint32_t piece = piece_at(p->m, half);
-    if (piece == MW_NONE) return;
-    for (size_t i = p->runs.first[piece]; i < p->runs.first[piece + 1]; i++) {
-        uint32_t rank = p->rank[p->runs.segment[i]];
+    uint32_t subsegment = subsegment_at(p->m, half);
+    if (subsegment == MW_NONE) return;
+    for (size_t i = p->owners.first[subsegment]; i < p->owners.first[subsegment + 1]; i++) {
+        uint32_t rank = p->rank[p->owners.segment[i]];
         if (rank == MW_NONE) continue;
         p->odd[rank] ^= 1;
         p->odd_count += p->odd[rank] ? 1 : UINT32_MAX; /* less one */
@@ -176,7 +176,7 @@ static void flood_spread(flood *f)
         uint32_t t = f->stack[--f->top];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = f->m->tri[t].link[k];
-            if (link != MW_NONE && piece_at(f->m, mw__link(t, k)) == MW_NONE)
+            if (link != MW_NONE && subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
                 remove_triangle(f, mw__link_triangle(link));
         }
     }
@@ -186,7 +186,8 @@ static void remove_outside(flood *f)
 {
     for (uint32_t t = 0; t < f->m->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++)
-            if (f->m->tri[t].link[k] == MW_NONE && piece_at(f->m, mw__link(t, k)) == MW_NONE) remove_triangle(f, t);
+            if (f->m->tri[t].link[k] == MW_NONE && subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
+                remove_triangle(f, t);
     flood_spread(f);
 }
 

@@ -66,11 +66,11 @@ static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_const
     size_t made = 0;
     for (uint32_t t = 0; t < m->tri_count; t++)
         for (uint32_t k = 0; k < 3 && m->kept[t]; k++) {
-            uint32_t piece = m->net.subsegment[3 * (size_t)t + k], link = m->tri[t].link[k];
-            if (piece == MW_NONE) continue;
+            uint32_t subsegment = m->net.subsegment[3 * (size_t)t + k], link = m->tri[t].link[k];
+            if (subsegment == MW_NONE) continue;
             if (link != MW_NONE && mw__link_triangle(link) < t && m->kept[mw__link_triangle(link)]) continue;
             if (out) {
-                const mw_stretch *p = &m->pieces.item[piece];
+                const mw_segment_part *p = &m->subsegments.item[subsegment];
                 out->edge[2 * made] = vertex[p->from];
                 out->edge[2 * made + 1] = vertex[p->to];
                 out->segment[made] = p->segment;
@@ -80,7 +80,7 @@ static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_const
     return made;
 }
 
-static bool give_pieces(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
+static bool give_subsegments(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
 {
     if (!out) return true;
     out->edge = mw__alloc(2 * count, sizeof *out->edge);
@@ -120,7 +120,7 @@ static bool give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edg
         report->triangles_removed = m->tri_count - mesh->tri_count;
         report->vertices_added = mesh->point_count - m->given->point_count;
         report->constrained_edges = list_subsegments(m, vertex, NULL);
-        done = give_pieces(m, vertex, report->constrained_edges, edges) && give_triangles(m, number, vertex, mesh);
+        done = give_subsegments(m, vertex, report->constrained_edges, edges) && give_triangles(m, number, vertex, mesh);
     }
     if (done) give_points(m, vertex, mesh);
     free(vertex);

@@ -10,19 +10,19 @@
 #include <meshwalk/triangulate.h>
 
 /* Part of a segment, between two points; as a piece, of the lowest segment that runs along it. */
-typedef struct mw_stretch {
+typedef struct mw_segment_part {
     uint32_t from, to, segment;
-} mw_stretch;
+} mw_segment_part;
 
-typedef struct mw_stretches {
-    mw_stretch *item;
+typedef struct mw_segment_parts {
+    mw_segment_part *item;
     size_t count, capacity;
-} mw_stretches;
+} mw_segment_parts;
 
 /* A segment runs along a piece. */
-typedef struct mw_run {
-    uint32_t piece, segment;
-} mw_run;
+typedef struct mw_subsegment_owner {
+    uint32_t subsegment, segment;
+} mw_subsegment_owner;
 
 typedef struct mw_cdt {
     const mw_constraints *given;
@@ -33,17 +33,17 @@ typedef struct mw_cdt {
     mw_triangle *tri; /* of the points, with the stretches */
     uint32_t tri_count;
     mw_segment_insertion net;
-    mw_stretches stretches; /* to be forced in                                               */
-    mw_stretches pieces;    /* by number                                                     */
-    mw_stretches crossing;  /* what could not be forced in of some of them: it crosses pieces */
-    mw_run *run;
-    size_t run_count, run_capacity;
+    mw_segment_parts parts;       /* to be forced in                                               */
+    mw_segment_parts subsegments; /* by number                                                     */
+    mw_segment_parts crossing;    /* what could not be forced in of some of them: it crosses pieces */
+    mw_subsegment_owner *owner;
+    size_t owner_count, owner_capacity;
     uint64_t crossed; /* triangles: by the stretches of all rounds, those that crossed others too */
     uint8_t *kept;    /* per triangle */
 } mw_cdt;
 
 /* Append; false when out of memory. */
-bool mw__stretches_add(mw_stretches *list, mw_stretch stretch);
+bool mw__segment_parts_add(mw_segment_parts *list, mw_segment_part part);
 
 /* Point p, or the lowest-numbered one at its place. */
 static MW_INLINE uint32_t mw__vertex_of(const mw_cdt *m, uint32_t p)
@@ -52,12 +52,13 @@ static MW_INLINE uint32_t mw__vertex_of(const mw_cdt *m, uint32_t p)
 }
 
 /* The runs along each piece: those of piece p have the segments segment[first[p]] .. segment[first[p + 1] - 1]. */
-typedef struct mw_runs {
+typedef struct mw_subsegment_owners {
     size_t *first;
     uint32_t *segment;
-} mw_runs;
-bool mw__run_add(mw_cdt *m, mw_run run);              /* false when out of memory */
-bool mw__runs_create(mw_runs *runs, const mw_cdt *m); /* false when out of memory; release anyway */
-void mw__runs_release(mw_runs *runs);
+} mw_subsegment_owners;
+bool mw__subsegment_owner_add(mw_cdt *m, mw_subsegment_owner owner); /* false when out of memory */
+bool mw__subsegment_owners_create(mw_subsegment_owners *owners,
+                                  const mw_cdt *m); /* false when out of memory; release anyway */
+void mw__subsegment_owners_release(mw_subsegment_owners *owners);
 
 #endif

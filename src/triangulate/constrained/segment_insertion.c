@@ -92,7 +92,7 @@ static uint32_t *link_field(const mw_segment_insertion *c, uint32_t half)
     return &c->tri[mw__link_triangle(half)].link[mw__link_edge(half)];
 }
 
-static double vertex_side(const mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t p)
+static double segment_vertex_side(const mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t p)
 {
     return mw__orient2d(c->point[a], c->point[b], c->point[p]);
 }
@@ -110,7 +110,7 @@ typedef struct vertex_rotor {
 /* On which side of v->p the target lies. Where p is the target no test is made: it would be decided exactly, slowly. */
 static double target_side(const mw_segment_insertion *c, uint32_t v, uint32_t p, uint32_t target)
 {
-    return p == target ? 0 : vertex_side(c, v, p, target);
+    return p == target ? 0 : segment_vertex_side(c, v, p, target);
 }
 
 static vertex_rotor segment_rotor(const mw_segment_insertion *c, uint32_t vertex, uint32_t target)
@@ -171,10 +171,10 @@ static bool channel_reserve(mw_segment_insertion *c, size_t count)
 }
 
 /* The right boundary in order from a to w; the left boundary in the opposite order, from a to w, too. */
-typedef struct channel {
+typedef struct segment_channel {
     uint32_t a, w;
     size_t right_count, left_count, triangle_count;
-} channel;
+} segment_channel;
 
 static void add_boundary(const mw_segment_insertion *c, mw_channel_step *boundary, size_t *count, uint32_t half)
 {
@@ -187,10 +187,10 @@ static void add_boundary(const mw_segment_insertion *c, mw_channel_step *boundar
 }
 
 /* Follow the segment from a through edge `half` to the first vertex on it. Changes no triangle. */
-static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, channel *ch,
-                                         uint32_t *crossed)
+static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half,
+                                         segment_channel *ch, uint32_t *crossed)
 {
-    *ch = (channel){.a = a};
+    *ch = (segment_channel){.a = a};
     if (!channel_reserve(c, 2)) return MW_SUBSEGMENT_MEMORY;
     add_boundary(c, c->right, &ch->right_count, mw__half_prev(half));
     add_boundary(c, c->left, &ch->left_count, mw__half_next(half));
@@ -203,7 +203,7 @@ static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, ui
         half = *link_field(c, half); /* its end is on the right now, its start on the left */
         c->channel[ch->triangle_count++] = mw__link_triangle(half);
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
-        double s = w == b ? 0 : vertex_side(c, a, b, w);
+        double s = w == b ? 0 : segment_vertex_side(c, a, b, w);
         if (s <= 0) add_boundary(c, c->right, &ch->right_count, mw__half_next(half));
         if (s >= 0) add_boundary(c, c->left, &ch->left_count, mw__half_prev(half));
         if (s == 0) {
@@ -215,7 +215,7 @@ static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, ui
 }
 
 /* Steps of the boundary whose outer half-edge lies in the channel too: find it. Overwrites the vertices of the triangles. */
-static void channel_find_mates(mw_segment_insertion *c, const channel *ch)
+static void channel_find_mates(mw_segment_insertion *c, const segment_channel *ch)
 {
     mw_channel_step *boundaries[2] = {c->right, c->left};
     size_t counts[2] = {ch->right_count, ch->left_count};
@@ -325,7 +325,7 @@ static void note_ear(mw_segment_insertion *c, uint32_t i)
     drop_ear(c, i);
     if (step->after == MW_NONE) return;
     uint32_t to = c->ring[step->after].to;
-    if (vertex_side(c, step->from, step->to, to) <= 0) return;
+    if (segment_vertex_side(c, step->from, step->to, to) <= 0) return;
     double dx = c->point[to].x - c->point[step->from].x, dy = c->point[to].y - c->point[step->from].y;
     add_ear(c, i, dx * dx + dy * dy);
 }
@@ -478,7 +478,7 @@ static bool cut_through_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uin
 {
     if (*subsegment_of(c, half) != MW_NONE) return false;
     *w = mw__half_start(c->tri, mw__half_prev(*link_field(c, half)));
-    if (*w != b && vertex_side(c, a, b, *w) != 0) return false;
+    if (*w != b && segment_vertex_side(c, a, b, *w) != 0) return false;
     channel_flip(c, half);
     half_mark(c, mw__link(mw__link_triangle(half), 1), number);
     c->crossed += 2;
@@ -490,7 +490,7 @@ static mw_subsegment_result cut_through(mw_segment_insertion *c, uint32_t a, uin
                                         uint32_t *number)
 {
     if (cut_through_one(c, a, b, half, w, number)) return MW_SUBSEGMENT_DONE;
-    channel ch;
+    segment_channel ch;
     mw_subsegment_result result = open_channel(c, a, b, half, &ch, number);
     if (result != MW_SUBSEGMENT_DONE) {
         c->wasted += ch.triangle_count;
@@ -544,7 +544,7 @@ static uint32_t follow_through(const mw_segment_insertion *c, uint32_t from, uin
         if (subsegment != MW_NONE && !meet(context, subsegment, MW_NONE)) return MW_NONE;
         half = *link_field(c, half);
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
-        double s = w == to ? 0 : vertex_side(c, from, to, w);
+        double s = w == to ? 0 : segment_vertex_side(c, from, to, w);
         if (s == 0) return w;
         half = s > 0 ? mw__half_next(half) : mw__half_prev(half);
     }

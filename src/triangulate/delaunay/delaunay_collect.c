@@ -21,7 +21,7 @@ typedef struct slice {
 } slice;
 
 typedef struct collector {
-    const mw_patch_arrays *ground;
+    const mw_patch_arrays *arrays;
     uint32_t *number; /* of each facet: MW_NONE: it is no triangle                                   */
     uint32_t *next;   /* of each place: triangles whose lowest it is, then the number of the next one */
     slice *slices;
@@ -38,7 +38,7 @@ static MW_INLINE uint32_t facet_lowest(const mw_facet *f)
 
 static MW_INLINE bool is_ghost(const collector *h, const mw_facet *f)
 {
-    return f->v[0] == h->ground->n || f->v[1] == h->ground->n || f->v[2] == h->ground->n;
+    return f->v[0] == h->arrays->n || f->v[1] == h->arrays->n || f->v[2] == h->arrays->n;
 }
 
 static void slice_count(collector *h, slice *s)
@@ -46,7 +46,7 @@ static void slice_count(collector *h, slice *s)
     s->foreign = NO_MORE;
     for (uint32_t i = s->from; i < s->to; i++) h->next[i] = 0;
     for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
-        const mw_facet *facet = &h->ground->facet[f];
+        const mw_facet *facet = &h->arrays->facet[f];
         uint32_t low = facet_lowest(facet);
         if (is_ghost(h, facet)) {
             h->number[f] = MW_NONE;
@@ -63,7 +63,7 @@ static void slice_count(collector *h, slice *s)
 static void count_foreign(collector *h, slice *s)
 {
     for (uint32_t f = s->foreign; f != NO_MORE; f = h->number[f - FOREIGN])
-        h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
+        h->next[facet_lowest(&h->arrays->facet[f - FOREIGN])]++;
 }
 
 static void sum_up(collector *h, slice *s)
@@ -89,7 +89,7 @@ static void number_foreign(collector *h, slice *s)
 {
     for (uint32_t f = s->foreign, after; f != NO_MORE; f = after) {
         after = h->number[f - FOREIGN];
-        h->number[f - FOREIGN] = h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
+        h->number[f - FOREIGN] = h->next[facet_lowest(&h->arrays->facet[f - FOREIGN])]++;
     }
 }
 
@@ -97,7 +97,7 @@ static void slice_copy(collector *h, slice *s)
 {
     for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
         if (h->number[f] == MW_NONE) continue;
-        const mw_facet *from = &h->ground->facet[f];
+        const mw_facet *from = &h->arrays->facet[f];
         mw_triangle *t = &h->tri[h->number[f]];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t other = h->number[mw__link_triangle(from->link[k])];
@@ -129,7 +129,7 @@ static bool list_slices(collector *h, const mw_patches *patches)
 }
 
 /* The slices lie in any order: that of parts. Numbers go along the places. */
-static int by_place(const void *left, const void *right)
+static int by_slot(const void *left, const void *right)
 {
     uint32_t i = ((const slice *)left)->from, j = ((const slice *)right)->from;
     return (i > j) - (i < j);
@@ -138,7 +138,7 @@ static int by_place(const void *left, const void *right)
 static uint32_t number_all(collector *h, int team)
 {
     uint32_t sum = 0;
-    qsort(h->slices, (size_t)h->slice_count, sizeof *h->slices, by_place);
+    qsort(h->slices, (size_t)h->slice_count, sizeof *h->slices, by_slot);
     for_each_slice(h, slice_count, team);
     for_each_slice(h, count_foreign, 1);
     for_each_slice(h, sum_up, team);
@@ -152,11 +152,11 @@ static uint32_t number_all(collector *h, int team)
     return sum;
 }
 
-bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *ground, bool places, uint32_t threads,
+bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots, uint32_t threads,
                           uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count)
 {
-    collector h = {.ground = ground, .number = scratch, .next = scratch + 2 * (size_t)ground->n};
-    if (!places) h.vertex = ground->order;
+    collector h = {.arrays = arrays, .number = scratch, .next = scratch + 2 * (size_t)arrays->n};
+    if (!slots) h.vertex = arrays->order;
     if (!list_slices(&h, patches)) return false;
     int team = mw__team(threads, h.slice_count);
     *tri_count = number_all(&h, team);

@@ -7,7 +7,7 @@
 
 /* Hand out all facets that are no ghosts: *tri is set to *tri_count records as of mw__delaunay_triangles, on so many
  * threads; with `places` vertices are named by those. `scratch` has room for 12 n + 4 bytes. Returns false when out of memory, with *tri NULL. */
-bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *ground, bool places, uint32_t threads,
+bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots, uint32_t threads,
                           uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count);
 
 #endif

@@ -24,7 +24,7 @@ typedef struct mw_patches {
 
 /* Cut the places, whose keys are sorted along the curve, until no part has more than `most` of them; a part of equal points
  * may. Spoils the keys. Returns false when out of memory; either way release with free(patches->patch). */
-bool mw__cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n, uint32_t most);
+bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n, uint32_t most);
 
 /* What all parts grow from and into: place i, whose point has the number order[i], lies at point[i]. Of equal points the
  * vertex gets the lowest number; the others get, in the place of their coordinates, a twin. */
@@ -39,7 +39,7 @@ typedef struct mw_patch_arrays {
 
 /* Grow and merge all patches, on so many threads, 0 as OpenMP gives. Where all points lie on one line no facet is made, and
  * the ghost of part 0 is MW_NONE. */
-void mw__grow_patches(mw_patches *patches, const mw_patch_arrays *ground, uint32_t threads);
+void mw__patches_grow(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t threads);
 
 /* Is the place no vertex but equal to that of `twin`? */
 static inline bool mw__get_twin(mw_point point, uint32_t *twin)

@@ -161,10 +161,10 @@ static bool add_changes(greedy *g, uint32_t half)
 static bool greedy_take(greedy *g, mw_greedy_edge edge)
 {
     uint32_t from = edge.low, to = edge.high, taken = g->net.subsegment_count;
-    mw_subsegment piece;
-    if (mw__insert_subsegment(&g->net, &from, &to, &piece) == MW_SUBSEGMENT_MEMORY) return false;
+    mw_subsegment subsegment;
+    if (mw__insert_subsegment(&g->net, &from, &to, &subsegment) == MW_SUBSEGMENT_MEMORY) return false;
     if (g->net.subsegment_count == taken) return true;
-    uint32_t half = half_between(g, piece.from, piece.to), twin = mw__half_link(g->net.tri, half);
+    uint32_t half = half_between(g, subsegment.from, subsegment.to), twin = mw__half_link(g->net.tri, half);
     return add_corners(g, half) && (twin == MW_NONE || add_corners(g, twin)) && add_changes(g, half);
 }
 

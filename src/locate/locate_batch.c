@@ -9,10 +9,10 @@
 #include "locate/index.h"
 #include "locate/interleaved.h"
 #include "locate/query.h"
-#include "locate/spread.h"
+#include "locate/batch_profile.h"
 #include "start/start.h"
 
-typedef struct batch {
+typedef struct locate_batch {
     mw_batch queries;
     const mw_locator *locator;
     mw_cursor cursor;      /* resolved options */
@@ -20,19 +20,19 @@ typedef struct batch {
     bool chained;          /* each query begins where the one before it in its lane ended */
     bool guided;           /* the locator's guide was chosen for the start                */
     bool fast;             /* interleaved.c answers them                                  */
-} batch;
+} locate_batch;
 
 /* The queries of one chunk, shared out to the lanes: lane i answers from next[i] to before end[i]. */
-typedef struct chunk {
+typedef struct batch_chunk {
     mw_feed feed;
-    const batch *batch;
+    const locate_batch *batch;
     uint32_t next[MW_MAX_LANES], end[MW_MAX_LANES], query[MW_MAX_LANES], last[MW_MAX_LANES];
     mw_work work[MW_MAX_LANES];
     mw_counters counters;
-} chunk;
+} batch_chunk;
 
 /* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their way. */
-static MW_INLINE void fetch_ahead(const mw_batch *b, uint32_t query, uint32_t end)
+static MW_INLINE void chunk_prefetch_query(const mw_batch *b, uint32_t query, uint32_t end)
 {
     enum { AHEAD = 8 };
     if (query + AHEAD >= end) return;
@@ -42,52 +42,52 @@ static MW_INLINE void fetch_ahead(const mw_batch *b, uint32_t query, uint32_t en
 }
 
 /* Put the next query of a lane into *walk; queries that are no points are answered on the way. */
-static bool depart(chunk *c, uint32_t lane, mw_walk *walk)
+static bool chunk_next_query(batch_chunk *c, uint32_t lane, mw_walk *walk)
 {
-    const batch *b = c->batch;
+    const locate_batch *b = c->batch;
     const mw_batch *queries = &b->queries;
     while (c->next[lane] < c->end[lane]) {
         uint32_t query = c->next[lane]++;
         if (queries->order) {
-            fetch_ahead(queries, query, c->end[lane]);
+            chunk_prefetch_query(queries, query, c->end[lane]);
             query = queries->order[query].item;
         }
         mw_point q = {queries->points[query * queries->stride], queries->points[query * queries->stride + 1]};
         if (MW_UNLIKELY(!isfinite(q.x) || !isfinite(q.y))) {
-            queries->locations[query] = mw__nowhere(MW_BAD);
+            queries->locations[query] = mw__location_nowhere(MW_BAD);
             continue;
         }
         uint64_t random = mw__random_seed(queries->seed, query);
-        *walk = mw__depart(b->locator, &b->cursor, c->last[lane], q, &random, &c->work[lane]);
+        *walk = mw__query_begin(b->locator, &b->cursor, c->last[lane], q, &random, &c->work[lane]);
         c->query[lane] = query;
         return true;
     }
     return false;
 }
 
-static bool deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verdict)
+static bool chunk_deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verdict)
 {
-    chunk *c = (chunk *)feed; /* the feed is its first member */
-    const batch *b = c->batch;
+    batch_chunk *c = (batch_chunk *)feed; /* the feed is its first member */
+    const locate_batch *b = c->batch;
     if (verdict != MW_GO) {
-        b->queries.locations[c->query[lane]] = mw__conclude(b->locator, &b->cursor, walk, verdict, &c->counters);
+        b->queries.locations[c->query[lane]] = mw__query_conclude(b->locator, &b->cursor, walk, verdict, &c->counters);
         if (b->chained) c->last[lane] = walk->t;
     }
-    return depart(c, lane, walk);
+    return chunk_next_query(c, lane, walk);
 }
 
 /* Does each query of a chunk come so near the one before it that the guide leads no nearer? */
-static bool is_dense(const batch *b, uint32_t first, uint32_t count)
+static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count)
 {
     enum { FEW = 2 * MW_GROUP_LANES };
     const mw_batch *queries = &b->queries;
     if (!b->guided || count < FEW) return false;
-    return mw__come_densely(b->locator,
-                            &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
+    return mw__queries_are_dense(b->locator,
+                                 &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
 }
 
 /* On the fast path. Where queries come densely few wait for memory, and fewer lanes have longer stretches. */
-static void answer_fast(const batch *b, uint32_t first, uint32_t count, bool dense)
+static void chunk_answer_fast(const locate_batch *b, uint32_t first, uint32_t count, bool dense)
 {
     uint32_t lanes = dense && !b->asked ? MW_GROUP_LANES : b->lanes;
     mw__locate_interleaved(&(mw_interleaved){&b->queries, b->locator, &b->cursor, b->chained || dense, false}, first,
@@ -95,16 +95,16 @@ static void answer_fast(const batch *b, uint32_t first, uint32_t count, bool den
 }
 
 /* Share the queries of a chunk out to the lanes, and walk. Where they come densely walks one after the other find all in cache. */
-static mw_counters answer(const mw_batch *queries, uint32_t first, uint32_t count)
+static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_t count)
 {
-    const batch *b = (const batch *)queries; /* its first member */
-    bool dense = is_dense(b, first, count);
+    const locate_batch *b = (const locate_batch *)queries; /* its first member */
+    bool dense = chunk_is_dense(b, first, count);
     if (b->fast) {
-        answer_fast(b, first, count, dense);
+        chunk_answer_fast(b, first, count, dense);
         return (mw_counters){0};
     }
-    chunk c;
-    c.feed.deliver = deliver;
+    batch_chunk c;
+    c.feed.deliver = chunk_deliver;
     c.batch = b;
     c.counters = (mw_counters){0};
     uint32_t lanes = dense && !b->asked ? 1 : b->lanes < count ? b->lanes : count;
@@ -118,7 +118,7 @@ static mw_counters answer(const mw_batch *queries, uint32_t first, uint32_t coun
     if (lanes == 1) {
         mw_walk walk;
         mw_verdict verdict = MW_GO;
-        while (deliver(&c.feed, 0, &walk, verdict)) verdict = kernels->run[exact][b->cursor.count](&walk);
+        while (chunk_deliver(&c.feed, 0, &walk, verdict)) verdict = kernels->run[exact][b->cursor.count](&walk);
     } else {
         kernels->ring[exact][b->cursor.count](&c.feed, lanes);
     }
@@ -126,14 +126,14 @@ static mw_counters answer(const mw_batch *queries, uint32_t first, uint32_t coun
 }
 
 /* Along a Hilbert curve. */
-static void sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
+static void batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
 {
-    const mw_locator *locator = ((const batch *)queries)->locator;
+    const mw_locator *locator = ((const locate_batch *)queries)->locator;
     mw__sort_queries(queries->points, n, queries->stride, locator->low, locator->high, keys, scratch);
 }
 
 /* Do walks begin near their queries, so that they touch the mesh there only? */
-static bool begins_near(const batch *b)
+static bool batch_begins_near(const locate_batch *b)
 {
     return b->cursor.index != NULL || b->cursor.start == MW_START_AUTO;
 }
@@ -142,19 +142,19 @@ static bool begins_near(const batch *b)
  * 47, 48 in 80 KB of tiles and points, 52, 51, 63 in 0.8 MB, 55, 48, 55 in 4 MB, 100, 77, 70 in 8 MB, 179, 109, 88 in 80 MB, where
  * the second-level cache has 0.5 MB. The ring of single walks gains nothing as long as all is in that. A chained query stays near the
  * one before it, in cache already; side by side several go faster even so. */
-static uint32_t choose_lanes(const batch *b, size_t n)
+static uint32_t batch_choose_lanes(const locate_batch *b, size_t n)
 {
     static const uint8_t lanes[2][3] = {{1, 16, 32}, {8, 16, 32}};
-    if (b->chained) return lanes[b->fast][MW_ROOM_SECOND];
+    if (b->chained) return lanes[b->fast][MW_CACHE_OWN];
     mw_caches caches = mw__caches();
     mw_queries queries = {b->queries.points, n, b->queries.stride};
-    mw_room room =
-        begins_near(b) ? mw__room_touched(b->locator, &caches, &queries) : mw__room_of_all(b->locator, &caches);
-    return lanes[b->fast][room];
+    mw_cache_level level = batch_begins_near(b) ? mw__cache_level_of_queries(b->locator, &caches, &queries)
+                                                : mw__cache_level_of_mesh(b->locator, &caches);
+    return lanes[b->fast][level];
 }
 
 /* A lane that has but one query to answer ends before the others do. */
-static uint32_t limit_lanes(uint32_t lanes, size_t n)
+static uint32_t batch_limit_lanes(uint32_t lanes, size_t n)
 {
     size_t most = (n / 2 + MW_GROUP_LANES - 1) / MW_GROUP_LANES * MW_GROUP_LANES;
     if (most < MW_GROUP_LANES) return MW_GROUP_LANES;
@@ -162,7 +162,7 @@ static uint32_t limit_lanes(uint32_t lanes, size_t n)
 }
 
 /* Does interleaved.c answer? */
-static bool is_fast(const batch *b, const mw_query_options *options)
+static bool batch_is_fast(const locate_batch *b, const mw_query_options *options)
 {
     if (options->lanes && options->lanes < MW_GROUP_LANES) return false;
     return mw__has_fast_path(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
@@ -170,7 +170,7 @@ static bool is_fast(const batch *b, const mw_query_options *options)
 
 /* How queries begin where nothing is said: by the locator's guide, else sorted, unless they come in order; few, where the one
  * before ended or at the nearest of a sample. */
-static void choose_start(batch *b, size_t n)
+static void batch_choose_start(locate_batch *b, size_t n)
 {
     if (b->cursor.start != MW_START_AUTO) return;
     const mw_index *guide = &b->locator->guide;
@@ -180,19 +180,20 @@ static void choose_start(batch *b, size_t n)
         b->cursor.index = guide;
     } else if (n >= MW_SORT_WORTHWHILE) {
         mw_queries queries = {b->queries.points, n, b->queries.stride};
-        b->cursor.start = mw__come_in_order(b->locator, &queries) ? MW_START_LAST : MW_START_SORTED;
+        b->cursor.start = mw__queries_are_in_order(b->locator, &queries) ? MW_START_LAST : MW_START_SORTED;
     }
 }
 
-static mw_status run(batch *b, size_t n, const mw_query_options *options, mw_counters *counters, mw_error *error)
+static mw_status batch_run(locate_batch *b, size_t n, const mw_query_options *options, mw_counters *counters,
+                           mw_error *error)
 {
     mw_start_kind start = (mw_start_kind)b->cursor.start;
     b->chained = start == MW_START_SORTED || start == MW_START_LAST || start == MW_START_AUTO;
-    b->fast = is_fast(b, options);
+    b->fast = batch_is_fast(b, options);
     b->asked = options->lanes < MW_MAX_LANES ? options->lanes : MW_MAX_LANES;
-    b->lanes = b->asked ? b->asked : choose_lanes(b, n);
-    if (b->fast) b->lanes = b->asked ? b->asked - b->asked % MW_GROUP_LANES : limit_lanes(b->lanes, n);
-    b->queries.sort = start == MW_START_SORTED ? sort : NULL;
+    b->lanes = b->asked ? b->asked : batch_choose_lanes(b, n);
+    if (b->fast) b->lanes = b->asked ? b->asked - b->asked % MW_GROUP_LANES : batch_limit_lanes(b->lanes, n);
+    b->queries.sort = start == MW_START_SORTED ? batch_sort : NULL;
     return mw__batch_run(&b->queries, n, options->threads, counters, error);
 }
 
@@ -202,16 +203,16 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
 {
     static const mw_query_options defaults;
     if (!options) options = &defaults;
-    batch b = {.queries = {.points = points,
-                           .locations = locations,
-                           .stride = stride ? stride : 2,
-                           .seed = options->seed,
-                           .answer = answer},
-               .locator = locator};
+    locate_batch b = {.queries = {.points = points,
+                                  .locations = locations,
+                                  .stride = stride ? stride : 2,
+                                  .seed = options->seed,
+                                  .answer = chunk_answer},
+                      .locator = locator};
     mw_status status = mw_cursor_init(locator, options, &b.cursor, error);
     if (status) return status;
     if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
     if (b.queries.stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
-    choose_start(&b, n);
-    return run(&b, n, options, counters, error);
+    batch_choose_start(&b, n);
+    return batch_run(&b, n, options, counters, error);
 }

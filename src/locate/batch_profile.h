@@ -12,18 +12,19 @@ typedef struct mw_queries {
 } mw_queries;
 
 /* Where the tiles and points that queries touch find room. */
-typedef enum mw_room { MW_ROOM_SECOND, MW_ROOM_REACH, MW_ROOM_BEYOND } mw_room;
+typedef enum mw_cache_level { MW_CACHE_OWN, MW_CACHE_SHARED, MW_CACHE_NONE } mw_cache_level;
 
 /* The room of the whole mesh, and of what the queries touch of it: by where a few of them lie, and the size of the guide's
  * tiles there. */
-mw_room mw__room_of_all(const mw_locator *locator, const mw_caches *caches);
-mw_room mw__room_touched(const mw_locator *locator, const mw_caches *caches, const mw_queries *queries);
+mw_cache_level mw__cache_level_of_mesh(const mw_locator *locator, const mw_caches *caches);
+mw_cache_level mw__cache_level_of_queries(const mw_locator *locator, const mw_caches *caches,
+                                          const mw_queries *queries);
 
 /* Is each query so near the one before it, on the average, that its tile is found sooner from there than by the locator's guide,
  * which there must be? Where they are not, few of them are looked at. */
-bool mw__come_densely(const mw_locator *locator, const mw_queries *queries);
+bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries);
 
 /* Do they come in an order in which the walks from one to the next take no longer than if they were sorted, the sort counted? */
-bool mw__come_in_order(const mw_locator *locator, const mw_queries *queries);
+bool mw__queries_are_in_order(const mw_locator *locator, const mw_queries *queries);
 
 #endif

@@ -15,21 +15,23 @@ typedef struct mw_border_edge {
 } mw_border_edge;
 
 /* Edges in Hilbert order, and a tree of boxes over them. */
-typedef struct mw_border {
+typedef struct mw_border_tree {
     mw_border_edge *edge;
     mw_box_tree tree;
     uint32_t edge_count;
-} mw_border;
+} mw_border_tree;
 
 /* Returns false when out of memory. */
-bool mw__border_create(mw_border *border, const mw_mesh *mesh, const mw_tiling *tiling);
-void mw__border_release(mw_border *border);
-size_t mw__border_bytes(const mw_border *border);
+bool mw__border_tree_create(mw_border_tree *border, const mw_mesh *mesh, const mw_tiling *tiling);
+void mw__border_tree_release(mw_border_tree *border);
+size_t mw__border_tree_bytes(const mw_border_tree *border);
 
 /* The edge nearest to q, and the point of it nearest to q. False if there is no edge. */
-bool mw__border_nearest(const mw_border *border, const mw_mesh *mesh, mw_point q, mw_nearest_border_point *hit);
+bool mw__border_tree_nearest(const mw_border_tree *border, const mw_mesh *mesh, mw_point q,
+                             mw_nearest_border_point *hit);
 
 /* Turn a location outside into MW_NEAR if the border is within the tolerance of q. */
-void mw__border_near(const mw_border *border, const mw_mesh *mesh, mw_point q, double tolerance, mw_location *location);
+void mw__border_tree_apply_tolerance(const mw_border_tree *border, const mw_mesh *mesh, mw_point q, double tolerance,
+                                     mw_location *location);
 
 #endif
