@@ -1,6 +1,8 @@
-/* batch.c - many queries: pieces that are sorted at a time, chunks for the threads within a piece.
+/* batch.c - many queries. A block of them is sorted at a time; within a block the threads take
+ * chunks.
  *
- * Counters do not depend on the threads: chunks have a fixed size, and a chunk knows nothing of the one before it. */
+ * Counters do not depend on the threads: chunks have a fixed size, and a chunk knows nothing of the
+ * one before it. */
 #include "batch/batch.h"
 
 #include "base/random.h"

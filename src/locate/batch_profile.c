@@ -1,11 +1,12 @@
-/* spread.c - what the queries of a batch have in common.
+/* batch_profile.c - what the queries of a batch have in common.
  *
- * All is rounded. Comparisons are written so that what is no number chooses as if nothing were known of the queries. */
+ * All is rounded. Comparisons are written so that what is no number chooses as if nothing were
+ * known of the queries. */
 #include "locate/batch_profile.h"
 
 #include "start/start.h"
 
-/* --- how much of the mesh they touch ------------------------------------------------------------------------------ */
+/* --- how much of the mesh they touch --- */
 
 enum {
     SAMPLE = 64, /* queries looked at: */
@@ -30,8 +31,8 @@ static const double *query_sampled(const mw_queries *queries, size_t i, size_t c
     return &queries->points[queries->n / count * i * queries->stride];
 }
 
-/* The part of the mesh's extent over which the queries lie, along x or y. Of s points anywhere in an interval the outermost
- * ones are (s - 1) / (s + 1) of it apart, on the average. */
+/* The part of the mesh's extent over which the queries lie, along x or y. Of s points anywhere in
+ * an interval the outermost ones are (s - 1) / (s + 1) of it apart, on the average. */
 static double queries_part(const mw_locator *locator, const mw_queries *queries, size_t axis)
 {
     size_t count = queries->n < SAMPLE ? queries->n : SAMPLE;
@@ -91,12 +92,12 @@ mw_cache_level mw__cache_level_of_queries(const mw_locator *locator, const mw_ca
     return dense > level ? level : dense > even ? dense : even;
 }
 
-/* --- in which order they come ------------------------------------------------------------------------------------- */
+/* --- in which order they come --- */
 
 enum { RUN = 64 }; /* queries between two decisions */
 
-/* Sum of |dx| + |dy| from each of `count` queries to the next: 1.27 times that of the distances, on the average. In four parts, which
- * do not wait for one another. */
+/* Sum of |dx| + |dy| from each of `count` queries to the next: 1.27 times that of the distances, on
+ * the average. In four parts, which do not wait for one another. */
 static double queries_way(const double *at, size_t count, size_t stride)
 {
     double way[4] = {0, 0, 0, 0};
@@ -120,13 +121,13 @@ static double shortest_edge(const mw_tiling *tiling, uint32_t t)
     return sqrt(least < ca ? least : ca);
 }
 
-/* Lengths that a query may be off the one before it, to be found as soon as by a guide that is a grid, or has to ask its curve, which
- * takes longer. Queries a common edge apart come to about 2.8 lengths, so GRID is a step of 0.18; at a step of 0.1 the guide took
- * twice as long. */
+/* Lengths that a query may be off the one before it, to be found as soon as by a guide that is a
+ * grid, or has to ask its curve, which takes longer. Queries a common edge apart come to about 2.8
+ * lengths, so GRID is a step of 0.18; at a step of 0.1 the guide took twice as long. */
 static const double GRID = 0.5, CURVE = 1.5;
 
-/* How the way from a query on is judged: the shortest edge of the guide's tile is a length, or two common edges if they are shorter, as
- * tiles are large along a hull. */
+/* How the way from a query on is judged: the shortest edge of the guide's tile is a length, or two
+ * common edges if they are shorter, as tiles are large along a hull. */
 typedef struct way_measure {
     double length, worth; /* worth: GRID or CURVE */
 } way_measure;
@@ -142,14 +143,16 @@ static way_measure way_measure_at(const mw_locator *locator, const double *at)
     return (way_measure){.length = edge < longest ? edge : longest, .worth = crowded ? CURVE : GRID};
 }
 
-/* The way over a stretch; infinite, if it is more than `left` and the stretch may be worth, whatever the tiles are. */
+/* The length of the way through a run of queries. Infinite, if it is more than `left` and what the
+ * run can be worth, whatever the tiles are. */
 static double queries_short_way(const mw_locator *locator, const double *at, size_t count, size_t stride, double left)
 {
     double way = queries_way(at, count, stride);
     return way <= (left + CURVE * (double)count) * sqrt(locator->cell2) ? way : INFINITY;
 }
 
-/* What a stretch of queries is worth beyond what its ways take. */
+/* What a run of queries gains by walking from one to the next: what the guide would take, less what
+ * the way takes. */
 static double queries_gain(const mw_locator *locator, const double *at, size_t count, size_t stride, double left)
 {
     enum { FEW = 8 }; /* are enough for nearly all that are not near */
@@ -160,8 +163,8 @@ static double queries_gain(const mw_locator *locator, const double *at, size_t c
     return from.worth * (double)count - way / (from.length < to.length ? from.length : to.length);
 }
 
-/* Ways may not take more than those looked at so far are worth, and a part of all; stretches are looked at from all over the queries. So
- * it is known soon of most that are not near. */
+/* Ways may not take more than those looked at so far are worth, and a part of all; the runs looked
+ * at come from all over the batch. So it is known soon of most that are not near. */
 bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries)
 {
     static const double PART = 1.0 / 32;
@@ -176,9 +179,9 @@ bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries)
     return true;
 }
 
-/* Sorted, n queries are as far apart as on a square lattice over their extent. A way that is longer costs a walk of two tiles for
- * each common edge, and sorting as much as SORT of them. But of an extent that one stray query makes large nothing follows: ways
- * are short, too. */
+/* Sorted, n queries are as far apart as on a square lattice over their extent. A way that is longer
+ * costs a walk of two tiles for each common edge, and sorting as much as SORT of them. But of an
+ * extent that one stray query makes large nothing follows: ways are short, too. */
 bool mw__queries_are_in_order(const mw_locator *locator, const mw_queries *queries)
 {
     static const double SORT = 0.4, SHORT = 4, SUM = 1.27; /* common edges; |dx| + |dy| for a distance */

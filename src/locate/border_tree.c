@@ -1,7 +1,8 @@
-/* border.c - the nearest border edge, decided exactly.
+/* border_tree.c - the nearest border edge, decided exactly.
  *
- * Rounded distances with sound margins steer the search through the tree; edges that rounding cannot part are compared
- * by exact predicates. Equal distances go to the lowest triangle, then edge. */
+ * Rounded distances with sound margins steer the search through the tree; edges that rounding
+ * cannot part are compared by exact predicates. Equal distances go to the lowest triangle, then
+ * edge. */
 #include "locate/border_tree.h"
 
 #include "base/hilbert.h"
@@ -9,14 +10,15 @@
 
 #include <stdlib.h>
 
-/* --- building ---------------------------------------------------------------------------------------------------- */
+/* --- building --- */
 
 static bool link_is_covered(const mw_tiling *tiling, uint32_t link)
 {
     return link != MW_NONE && !(tiling->tri[mw__link_triangle(link)].user & MW_GHOST);
 }
 
-/* The user's edge that edge k of a tile is, or, where the tile is a piece of a cut triangle, is a part of. */
+/* The user's edge that edge k of a tile is, or, where the tile is one part of a triangle that was
+ * cut, lies along. */
 static uint32_t edge_of_user(const mw_mesh *mesh, const mw_tiling *tiling, const mw_triangle *tile, uint32_t k)
 {
     if (!tiling->cut) return mw__user_local_edge(tile->user, k);
@@ -99,7 +101,7 @@ size_t mw__border_tree_bytes(const mw_border_tree *border)
     return border->edge_count * sizeof *border->edge + mw__box_tree_bytes(&border->tree);
 }
 
-/* --- searching --------------------------------------------------------------------------------------------------- */
+/* --- searching --- */
 
 typedef struct border_search {
     const mw_border_tree *border;
@@ -147,10 +149,11 @@ static double edge_scaled_area(const mw_border_edge *e, mw_point q, int shift)
                                    (mw_point){ldexp(q.x, shift), ldexp(q.y, shift)}));
 }
 
-/* Of the triangle abq, whose angles at a and b are acute. Its area is exact up to one rounding; where it would leave
- * the range of doubles, the triangle is scaled first. Bits lost in scaling down are below 2^-600, and the area is at
- * least 2^-200 then. A coordinate overflows in scaling up only where it is at least 2^423, and so |ab| at least 2^369:
- * the height is below 2^-1000 / 2^369, which rounds to 0 as the area of infinite coordinates does. */
+/* Of the triangle abq, whose angles at a and b are acute. Its area is exact up to one rounding;
+ * where it would leave the range of doubles, the triangle is scaled first. Bits lost in scaling
+ * down are below 2^-600, and the area is at least 2^-200 then. A coordinate overflows in scaling up
+ * only where it is at least 2^423, and so |ab| at least 2^369: the height is below 2^-1000 / 2^369,
+ * which rounds to 0 as the area of infinite coordinates does. */
 #define SHIFT 600
 static double edge_height(const mw_border_edge *e, mw_point q)
 {
@@ -175,12 +178,14 @@ static double edge_distance(const mw_border_edge *e, mw_point q)
     return edge_height(e, q);
 }
 
-/* Rounding errors of `rounded`, with u = 2^-53 and size = |ax| + |ay| + |bx| + |by|, between 2^-400 and 2^400.
- * Where an end of a segment moves, the distance changes by no more than that: rounded differences to q, and the
- * rounded b - a, are worth u size each. A dot or cross product with b - a, divided by |b - a|, is off by 3u size, the
- * other roundings of the height by 3u size; a wrong sign takes a, b or the height for another that is as near up to
- * 3u size. Together that is below 2^-49 size. What underflows: at most 2^-1073 in a product, 2^-536 in its root, or
- * 2^-593 where it is divided by the length of a segment, which counts as a point if shorter than 2^-480. */
+/* Rounding errors of segment_rounded_distance, with u = 2^-53 and size = |ax| + |ay| + |bx| + |by|,
+ * between 2^-400 and 2^400. Where an end of a segment moves, the distance changes by no more than
+ * that: rounded differences to q, and the rounded b - a, are worth u size each. A dot or cross
+ * product with b - a, divided by |b - a|, is off by 3u size, the other roundings of the height by
+ * 3u size; a wrong sign takes a, b or the height for another that is as near up to 3u size.
+ * Together that is below 2^-49 size. What underflows: at most 2^-1073 in a product, 2^-536 in its
+ * root, or 2^-593 where it is divided by the length of a segment, which counts as a point if
+ * shorter than 2^-480. */
 #define ROUNDING 0x1p-49
 #define POINT 0x1p-960
 
@@ -193,7 +198,8 @@ static double segment_rounded_distance(mw_point a, mw_point b)
     return fabs(a.x * y - a.y * x) / sqrt(square);
 }
 
-/* The same where numbers are so large or so small that products would leave the range of doubles: scaled first. */
+/* The same where numbers are so large or so small that products would leave the range of doubles:
+ * scaled first. */
 static distance_range edge_scaled_bounds(const mw_border_edge *e, mw_point q)
 {
     scaled_vector a = scaled_vector_to(q, e->a), b = scaled_vector_to(q, e->b);
@@ -226,8 +232,8 @@ static void search_consider(border_search *s, const mw_border_edge *e)
     s->most = d.high;
 }
 
-/* A lower bound of the distance from q to anything in the box: finite, as the distance may be just above the doubles
- * and the best one just below. */
+/* A lower bound of the distance from q to anything in the box: finite, as the distance may be just
+ * above the doubles and the best one just below. */
 static double box_distance(const mw_box *box, mw_point q)
 {
     double dx = fmax(fmax(box->low[0] - q.x, q.x - box->high[0]), 0);
@@ -293,8 +299,9 @@ static mw_point edge_foot(const mw_border_edge *e, mw_point q)
     return (mw_point){value_mix(e->a.x, e->b.x, s), value_mix(e->a.y, e->b.y, s)};
 }
 
-/* Weights, in the user's triangle, of the point of the border edge nearest to q. The border edge may be a part only of the
- * triangle's edge; q is asked for, not the nearest point as rounded, which far from the origin is coarse. */
+/* Weights, in the user's triangle, of the point of the border edge nearest to q. The border edge
+ * may be a part only of the triangle's edge; q is asked for, not the nearest point as rounded,
+ * which far from the origin is coarse. */
 static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point q, double weight[3])
 {
     uint32_t v[3], next = mw__next(e->edge);

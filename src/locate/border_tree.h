@@ -1,7 +1,7 @@
-/* border.h - the nearest border edge: a tree of boxes over the edges between the mesh and what it does not cover.
- * Private. */
-#ifndef MW_SRC_BORDER_H
-#define MW_SRC_BORDER_H
+/* border_tree.h - the nearest border edge: a packed R-tree over the edges that have the mesh on one
+ * side only. Private. */
+#ifndef MW_SRC_BORDER_TREE_H
+#define MW_SRC_BORDER_TREE_H
 
 #include "tiling/box_tree.h"
 #include "tiling/tiling.h"
@@ -14,7 +14,7 @@ typedef struct mw_border_edge {
     uint32_t edge;     /* as the user numbers it */
 } mw_border_edge;
 
-/* Edges in Hilbert order, and a tree of boxes over them. */
+/* The border edges in Hilbert order, and a tree of their boxes. */
 typedef struct mw_border_tree {
     mw_border_edge *edge;
     mw_box_tree tree;

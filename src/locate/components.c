@@ -1,5 +1,5 @@
-/* pieces.c - walks in open tilings of several pieces: in which to begin, where to go on, and in which hole a point lies
- * that is in none. */
+/* components.c - walks in a tiling without ghosts that has several connected components: in which
+ * one to begin, where to go on, and which hole a point lies in that no component holds. */
 #include "locate/components.h"
 
 /* --- where to begin --- */
@@ -10,7 +10,7 @@ static bool locator_extent_holds(const mw_locator *locator, mw_point q)
     return mw__box_contains(&all, q);
 }
 
-/* The first piece from number i on whose box holds q. */
+/* The first component from number i on whose box holds q. */
 static uint32_t component_next(const mw_border_loops *loops, uint32_t i, mw_point q)
 {
     i = mw__box_tree_next(&loops->tree, i, q);
@@ -37,10 +37,10 @@ void mw__components_begin(const mw_locator *locator, mw_walk *walk)
 
 /* --- where to go on --- */
 
-/* The smallest face of a piece that q is known to lie in. */
+/* The smallest face of a component that q is known to lie in. */
 typedef struct component_face {
     uint32_t hole; /* MW_NONE: none is known */
-    mw_box box;    /* of the piece           */
+    mw_box box;    /* of the component           */
 } component_face;
 
 static bool box_is_inside(const mw_box *box, const mw_box *other)
@@ -49,7 +49,8 @@ static bool box_is_inside(const mw_box *box, const mw_box *other)
            box->high[1] <= other->high[1];
 }
 
-/* q lies beyond the border round which the walk went last. Pieces of which a face holds q lie in one another. */
+/* q lies beyond the border round which the walk went last. Components of which a face holds q lie
+ * in one another. */
 static void face_note(component_face *f, const mw_border_loops *loops, uint32_t lowest, mw_box box)
 {
     uint32_t hole = mw__border_loops_hole(loops, lowest);

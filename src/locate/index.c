@@ -77,13 +77,14 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
     }
 }
 
-/* A curve holds places of tiles. A tile of this tiling, where it is of another one, or this one has changed. */
+/* A curve holds slots of tiles. If it was made from another tiling, or this one has changed, reduce
+ * a slot to one that exists. */
 static MW_INLINE uint32_t tile_within(const mw_tiling *tiling, uint32_t t)
 {
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
 }
 
-/* The name of the first tile; of a curve, its place. */
+/* The name of the first tile; of a curve, its slot. */
 static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
 {
     switch (index->start) {
@@ -100,7 +101,8 @@ uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw
     return index->start == MW_START_CURVE ? tile_within(tiling, name) : mw__tile_named(tiling, name);
 }
 
-/* Where most tiles have their place as number, which is to be seen by the tile, wanted next, nothing else has to come from memory. */
+/* In most tilings a tile's slot is its number. The tile itself shows whether it is, and is needed
+ * next anyway: then nothing else has to be read from memory. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
     const uint32_t name = index_first_name(index, q);
@@ -132,7 +134,8 @@ static void two_level_grid_first_many(const mw_two_level_grid *grid, const mw_po
     for (uint32_t i = 0; i < n; i++) t[i] = mw__two_level_grid_first(grid, q[i]);
 }
 
-/* Cells that are crowded leave their points to the curve: these are moved up, and afterwards put in their places. */
+/* Cells that are crowded leave their points to the curve: those points are gathered, looked up
+ * together, and their tiles written back where they belong. */
 static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t n, uint32_t *t)
 {
     uint32_t left[MW_INDEX_MANY], key[MW_INDEX_MANY], count = 0;

@@ -23,7 +23,7 @@ enum {
 typedef struct lane_group {
     mw_vector_walk walk;
     uint32_t query[LANES], begun[LANES]; /* number of the query, MW_NONE; lap in which it began */
-    uint32_t next[LANES], end[LANES];    /* chained: what is left of the lane's stretch         */
+    uint32_t next[LANES], end[LANES];    /* chained: what is left of the lane's range           */
     uint32_t alive;
 } lane_group;
 
@@ -37,7 +37,7 @@ typedef struct lane_schedule {
     mw_point q[READY];
 } lane_schedule;
 
-/* --- where queries begin ------------------------------------------------------------------------------------------ */
+/* --- where queries begin --- */
 
 static uint32_t query_tile(const mw_interleaved *of, mw_point q, uint32_t query)
 {
@@ -83,7 +83,8 @@ static MW_INLINE void lane_set(const lane_schedule *s, lane_group *g, uint32_t k
     g->begun[k] = s->lap;
 }
 
-/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their way. */
+/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their
+ * way. */
 static MW_INLINE void lane_prefetch_query(const mw_batch *b, uint32_t i, uint32_t end)
 {
     enum { AHEAD = 8 };
@@ -94,7 +95,7 @@ static MW_INLINE void lane_prefetch_query(const mw_batch *b, uint32_t i, uint32_
     __builtin_prefetch((const char *)&b->locations[later + 1] - 1, 1);
 }
 
-/* The next query of the lane's stretch, beginning in tile `last`; MW_NONE: there was none before. */
+/* The next query of the lane's range, beginning in tile `last`; MW_NONE: there was none before. */
 static MW_INLINE bool lane_next_chained(const lane_schedule *s, lane_group *g, uint32_t k, uint32_t last)
 {
     const mw_interleaved *of = s->of;
@@ -133,9 +134,10 @@ static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uin
     g->alive--;
 }
 
-/* --- steps -------------------------------------------------------------------------------------------------------- */
+/* --- steps --- */
 
-/* Go on by the walk of the cursor from the lane's tile, and answer. Returns the tile where it ended. */
+/* Go on by the walk of the cursor from the lane's tile, and answer. Returns the tile where it
+ * ended. */
 static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, mw_point q, uint32_t query, uint32_t t)
 {
     const mw_locator *locator = of->locator;
@@ -178,7 +180,7 @@ static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_trian
     }
 }
 
-/* --- laps --------------------------------------------------------------------------------------------------------- */
+/* --- laps --- */
 
 /* Let the walks that are on a long way, or in a cycle, be ended by the cursor's walk. */
 static void groups_end_long_walks(lane_schedule *s, lane_group *groups, uint32_t count, bool chained)

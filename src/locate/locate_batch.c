@@ -1,8 +1,9 @@
-/* batch.c - many queries: lanes of walks in flight within the chunk of a thread.
- * Where they may, they take the fast path (interleaved.c).
+/* locate_batch.c - many queries. Each thread takes chunks of them; in a chunk several walks take
+ * turns, one in each lane. Queries that may take the fast path do so (interleaved.c).
  *
- * Answers are exact and therefore the same for any threads, lanes and order. The counters too do not depend on the
- * threads: chunks have a fixed size, and the random numbers of a query come from its own number (batch/batch.c). */
+ * Answers are exact and therefore the same for any threads, lanes and order. The counters too do
+ * not depend on the threads: chunks have a fixed size, and the random numbers of a query come from
+ * its own number (batch/batch.c). */
 #include "batch/batch.h"
 #include "base/random.h"
 #include "locate/fast_path.h"
@@ -16,13 +17,14 @@ typedef struct locate_batch {
     mw_batch queries;
     const mw_locator *locator;
     mw_cursor cursor;      /* resolved options */
-    uint32_t lanes, asked; /* walks in flight; 0, or as many as the options ask for */
+    uint32_t lanes, asked; /* walks at a time; 0, or as many as the options ask for */
     bool chained;          /* each query begins where the one before it in its lane ended */
     bool guided;           /* the locator's guide was chosen for the start                */
     bool fast;             /* interleaved.c answers them                                  */
 } locate_batch;
 
-/* The queries of one chunk, shared out to the lanes: lane i answers from next[i] to before end[i]. */
+/* The queries of one chunk, shared out to the lanes: lane i answers from next[i] to before
+ * end[i]. */
 typedef struct batch_chunk {
     mw_feed feed;
     const locate_batch *batch;
@@ -31,7 +33,8 @@ typedef struct batch_chunk {
     mw_counters counters;
 } batch_chunk;
 
-/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their way. */
+/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their
+ * way. */
 static MW_INLINE void chunk_prefetch_query(const mw_batch *b, uint32_t query, uint32_t end)
 {
     enum { AHEAD = 8 };
@@ -76,7 +79,7 @@ static bool chunk_deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdic
     return chunk_next_query(c, lane, walk);
 }
 
-/* Does each query of a chunk come so near the one before it that the guide leads no nearer? */
+/* Is each query of a chunk so near the one before it that the guide would lead no nearer? */
 static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count)
 {
     enum { FEW = 2 * MW_GROUP_LANES };
@@ -86,7 +89,8 @@ static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count
                                  &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
 }
 
-/* On the fast path. Where queries come densely few wait for memory, and fewer lanes have longer stretches. */
+/* On the fast path. Where each query is close to the one before it, few wait for memory: then there
+ * are fewer lanes, with longer ranges. */
 static void chunk_answer_fast(const locate_batch *b, uint32_t first, uint32_t count, bool dense)
 {
     uint32_t lanes = dense && !b->asked ? MW_GROUP_LANES : b->lanes;
@@ -94,7 +98,8 @@ static void chunk_answer_fast(const locate_batch *b, uint32_t first, uint32_t co
                            count, lanes);
 }
 
-/* Share the queries of a chunk out to the lanes, and walk. Where they come densely walks one after the other find all in cache. */
+/* Share the queries of a chunk out to the lanes, and walk. Where each query is close to the one
+ * before it, one walk after the other finds everything in the cache. */
 static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_t count)
 {
     const locate_batch *b = (const locate_batch *)queries; /* its first member */
@@ -138,10 +143,12 @@ static bool batch_begins_near(const locate_batch *b)
     return b->cursor.index != NULL || b->cursor.start == MW_START_AUTO;
 }
 
-/* Walks in flight hide the time that memory takes: the more, the farther off it is. Uniform queries, ns each in 8, 16 and 32 lanes: 43,
- * 47, 48 in 80 KB of tiles and points, 52, 51, 63 in 0.8 MB, 55, 48, 55 in 4 MB, 100, 77, 70 in 8 MB, 179, 109, 88 in 80 MB, where
- * the second-level cache has 0.5 MB. The ring of single walks gains nothing as long as all is in that. A chained query stays near the
- * one before it, in cache already; side by side several go faster even so. */
+/* Walks that take turns hide the time that memory takes. The slower the memory, the more of them
+ * are needed. Uniform queries, ns each in 8, 16 and 32 lanes: 43, 47, 48 in 80 KB of tiles and
+ * points, 52, 51, 63 in 0.8 MB, 55, 48, 55 in 4 MB, 100, 77, 70 in 8 MB, 179, 109, 88 in 80 MB,
+ * where the second-level cache has 0.5 MB. The ring of single walks gains nothing as long as all is
+ * in that. A chained query stays near the one before it, in cache already; side by side several go
+ * faster even so. */
 static uint32_t batch_choose_lanes(const locate_batch *b, size_t n)
 {
     static const uint8_t lanes[2][3] = {{1, 16, 32}, {8, 16, 32}};
@@ -168,8 +175,8 @@ static bool batch_is_fast(const locate_batch *b, const mw_query_options *options
     return mw__has_fast_path(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
 }
 
-/* How queries begin where nothing is said: by the locator's guide, else sorted, unless they come in order; few, where the one
- * before ended or at the nearest of a sample. */
+/* How queries begin where nothing is said: by the locator's guide, else sorted, unless they come in
+ * order; few, where the one before ended or at the nearest of a sample. */
 static void batch_choose_start(locate_batch *b, size_t n)
 {
     if (b->cursor.start != MW_START_AUTO) return;

@@ -1,4 +1,5 @@
-/* location.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
+/* location.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and
+ * the weights. */
 #include "locate/location.h"
 
 #include <float.h>
@@ -25,7 +26,8 @@ void mw__location_areas(const mw_point corner[3], mw_point q, double area[3])
     for (uint32_t k = 0; k < 3; k++) area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
 }
 
-/* Areas up to a common factor, where they would leave the range of doubles: the largest becomes about 1. */
+/* Areas up to a common factor, where they would leave the range of doubles: the largest becomes
+ * about 1. */
 static void location_rescale_areas(const mw_point corner[3], mw_point q, double area[3])
 {
     int exponent[3], most = INT_MIN;

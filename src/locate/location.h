@@ -9,8 +9,8 @@
 
 typedef uint64_t mw_words __attribute__((vector_size(16)));
 
-/* A location, written as it is commonly copied, by 16 bytes: who reads more bytes at a time than were written has to wait
- * until they have left for the cache. */
+/* A location, written as it is commonly copied, by 16 bytes: who reads more bytes at a time than
+ * were written has to wait until they have left for the cache. */
 static MW_INLINE void mw__location_write(mw_location *location, double a, double b, double c, uint32_t triangle,
                                          uint32_t hole, mw_where where)
 {
@@ -53,12 +53,12 @@ static MW_INLINE void mw__location_write_outside(mw_location *location, uint32_t
     mw__location_write_nowhere(location, hole ? MW_IN_HOLE : MW_OUTSIDE, hole ? mark & MW_USER_MASK : MW_NONE);
 }
 
-/* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to corner k: exact in sign,
- * and off by less than 2^-42 of their sum. */
+/* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to
+ * corner k: exact in sign, and off by less than 2^-42 of their sum. */
 void mw__location_areas(const mw_point corner[3], mw_point q, double area[3]);
 
-/* The location of q in a triangle that contains it: corners as stored, `user` its number and mark, area from mw__location_areas
- * (overwritten). */
+/* The location of q in a triangle that contains it: corners as stored, `user` its number and mark,
+ * area from mw__location_areas (overwritten). */
 mw_location mw__location_of(const mw_point corner[3], uint32_t user, mw_point q, double area[3]);
 
 /* The same for a triangle of the user's mesh by its number. */

@@ -18,10 +18,11 @@ static bool edge_fails_circle(const mw_tiling *tiling, const mw_triangle *tile, 
     return in > bound;
 }
 
-/* The remembering walk is the cheapest, but may go round in cycles where edges are not Delaunay, and hands over only when
- * its fuel is used up. The celestial walk costs more on long walks, little more on short ones. A look at the edges of a
- * few tiles is enough to choose by. To end the cheap walks remembering is taken only where not one edge failed: the
- * stochastic walk costs hardly more. */
+/* The remembering walk is the cheapest, but may go round in cycles where edges are not Delaunay,
+ * and hands over only when its fuel is used up. The celestial walk costs more on long walks, little
+ * more on short ones. A look at the edges of a few tiles is enough to choose by. To end the cheap
+ * walks remembering is taken only where not one edge failed: the stochastic walk costs hardly
+ * more. */
 static void locator_choose_walks(mw_locator *locator)
 {
     enum { PROBES = 1024, FEW = 50 }; /* one edge in FEW may fail */
@@ -39,17 +40,18 @@ static void locator_choose_walks(mw_locator *locator)
     if (tiling->border_loops) locator->auto_walk = MW_WALK_BORDER;
 }
 
-/* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean length 32 / (9 pi)
- * [Miles 1970], and a line crosses 2 / pi of their length: 64 / (3 pi^2) edges per unit of its own. */
+/* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean
+ * length 32 / (9 pi) [Miles 1970], and a line crosses 2 / pi of their length: 64 / (3 pi^2) edges
+ * per unit of its own. */
 static double expected_crossings(uint32_t tiles, double width, double height)
 {
     static const double crossings = 2.1615;
     return crossings * sqrt(tiles / 2.0) / sqrt(width) / sqrt(height);
 }
 
-/* Filling took 36 ns a triangle; it saved 0.45 us of a query inside the mesh, and 20 us of one outside, by going round the
- * border (domains of 5,000 to 80,000 vertices, from a sample). With one outside in ten, one query for so many triangles
- * pays. */
+/* Filling took 36 ns a triangle; it saved 0.45 us of a query inside the mesh, and 20 us of one
+ * outside, by going round the border (domains of 5,000 to 80,000 vertices, from a sample). With one
+ * outside in ten, one query for so many triangles pays. */
 static bool locator_wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
 {
     enum { TRIANGLES_PER_QUERY = 64 };
@@ -65,8 +67,9 @@ static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_optio
     return mw__tiling_create_with(locator->mesh, how, &locator->tiling, error);
 }
 
-/* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie along one. Tiles that are edited do not
- * keep to a curve; there crowded cells are grids themselves. False when out of memory. */
+/* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie
+ * along one. Tiles that are edited do not keep to a curve; there crowded cells are grids
+ * themselves. False when out of memory. */
 static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, bool even,
                                uint32_t cells)
 {
@@ -91,10 +94,12 @@ static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_gr
     return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells);
 }
 
-/* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of the tiles along a Hilbert
- * curve, if they lie so. The grid is small, for half a byte a triangle, and of little work: a larger one makes queries up to
- * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. In a mesh that is edited it has twice as many cells: an
- * insertion waits for each tile on its way, since the way cannot be guessed, and takes a twentieth less. */
+/* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of
+ * the tiles along a Hilbert curve, if they lie so. The grid is small, for half a byte a triangle,
+ * and of little work: a larger one makes queries up to a quarter faster (start/grid.c), but takes
+ * longer to build than a million queries gain. In a mesh that is edited it has twice as many cells:
+ * an insertion waits for each tile on its way, since the way cannot be guessed, and takes a
+ * twentieth less. */
 static uint32_t guide_cells(const mw_tiling *tiling)
 {
     enum { TRIANGLES_PER_CELL = 8, FINER = 2 };
@@ -103,9 +108,10 @@ static uint32_t guide_cells(const mw_tiling *tiling)
 
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
-    /* Most cells are empty where those that have tiles have more than UNEVEN of them on the average. In a mesh that is edited a cell is made four where not
-     * one in SPARSE has tiles: an insertion in clusters takes a tenth less. Where tiles are spread evenly it would take a sixth more in a large mesh,
-     * since so many cells have to come from memory. */
+    /* Most cells are empty where those that have tiles have more than UNEVEN of them on the
+     * average. In a mesh that is edited a cell is made four where not one in SPARSE has tiles: an
+     * insertion in clusters takes a tenth less. Where tiles are spread evenly it would take a sixth
+     * more in a large mesh, since so many cells have to come from memory. */
     enum { STRIDE = 2, UNEVEN = 32, SPARSE = 3 };
     const mw_tiling *tiling = &locator->tiling;
     *guide = (mw_index){0};

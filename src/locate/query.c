@@ -1,4 +1,10 @@
-/* query.c - one query: first tile, walk, exact conclusion. */
+/* query.c - one query: first tile, walk, conclusion. This file decides ties.
+ *
+ * The rule of ties: a point on an edge or a vertex belongs to the lowest-numbered of the user's
+ * triangles that contain it. mw__query_conclude applies it, by exact tests of the last tile of a
+ * walk (query_answer, lowest_at_boundary). Every answer comes from there, except those of the fast
+ * path (fast_path.h): they are strictly inside a triangle or outside, where there is no tie. So the
+ * answer depends on neither walk, start, seed nor threads. */
 #include "locate/query.h"
 
 #include "base/random.h"
@@ -8,10 +14,10 @@
 #include "locate/components.h"
 #include "start/start.h"
 
-/* --- the conclusion ---------------------------------------------------------------------------------------------- */
+/* --- the conclusion and the rule of ties --- */
 
-/* q is on the boundary of tile t, which contains it: the areas of two or one of its edges vanish. The lowest of the
- * user's triangles that contain q, or MW_NONE where only ghosts do. */
+/* q is on the boundary of tile t, which contains it: the areas of two or one of its edges vanish.
+ * The lowest of the user's triangles that contain q, or MW_NONE where only ghosts do. */
 static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *tile, const double area[3])
 {
     uint32_t zeros = 0, on = 0, at = 0;
@@ -32,7 +38,8 @@ static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *t
     return tiling->embedding || mw__has_area(tiling->point, across) ? other : best; /* flat ones own no point */
 }
 
-/* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the tolerance says so. */
+/* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the
+ * tolerance says so. */
 static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_point q, double tolerance)
 {
     mw_location location;
@@ -41,8 +48,8 @@ static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_po
     return location;
 }
 
-/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it; the three tests made
- * here are also the weights. */
+/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it;
+ * the three tests made here are also the weights. */
 static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
 {
     const mw_tiling *tiling = &locator->tiling;
@@ -53,7 +60,8 @@ static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point 
     bool inside = area[0] > 0 && area[1] > 0 && area[2] > 0;
     if (MW_LIKELY(inside && !(tile->user & MW_GHOST) && !tiling->cut))
         return mw__location_of(corner, tile->user, q, area);
-    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge it did not test. */
+    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge
+     * it did not test. */
     if (!(area[0] >= 0 && area[1] >= 0 && area[2] >= 0)) return query_outside(locator, 0, q, tolerance);
     uint32_t triangle = !inside                 ? lowest_at_boundary(tiling, tile, area)
                         : tile->user & MW_GHOST ? MW_NONE
@@ -112,8 +120,8 @@ static void work_add_final(mw_work *sum, const mw_work *more)
     }
 }
 
-/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was right does not count as
- * handed over: *changed tells. */
+/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was
+ * right does not count as handed over: *changed tells. */
 static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
 {
     mw_work more = {.trace = counted ? walk->work->trace : NULL};
@@ -146,7 +154,7 @@ mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *curso
     return query_answer(locator, walk->t, walk->q, cursor->tolerance);
 }
 
-/* --- the departure ----------------------------------------------------------------------------------------------- */
+/* --- the walk of a query --- */
 
 /* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
 static uint32_t tile_near_or_sampled(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
@@ -198,10 +206,11 @@ static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, ui
     return walk;
 }
 
-/* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed by the line to q, by
- * expectation, but no more than the fuel; they come on top of that. On Delaunay meshes of 10^3 to 10^6 random points,
- * from random tiles, the tests are within 1.1 % of the fewest that any multiple of the estimate makes, and hardly a tile
- * is visited in vain. For 10^5 points, where the stochastic walk visits 383.0 tiles with 494.5 tests, multiples give
+/* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed
+ * by the line to q, by expectation, but no more than the fuel; they come on top of that. On
+ * Delaunay meshes of 10^3 to 10^6 random points, from random tiles, the tests are within 1.1 % of
+ * the fewest that any multiple of the estimate makes, and hardly a tile is visited in vain. For
+ * 10^5 points, where the stochastic walk visits 383.0 tiles with 494.5 tests, multiples give
  *   times    0.5    0.8    0.9    0.95   1      1.03   1.05   1.1
  *   tiles    383.4  383.4  383.4  383.5  383.7  384.7  386.4  397.8
  *   tests    444.4  413.8  403.4  398.3  393.3  391.3  391.4  400.7 */
@@ -221,9 +230,10 @@ mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint
     return walk;
 }
 
-/* --- the public query -------------------------------------------------------------------------------------------- */
+/* --- the public query --- */
 
-/* Which start do the options mean? With an index, its own; MW_START_AUTO is decided by the query. */
+/* Which start do the options mean? With an index, its own; MW_START_AUTO is decided by the
+ * query. */
 static mw_status query_resolve_start(const mw_query_options *options, mw_start_kind *start, mw_error *error)
 {
     *start = options->start;
@@ -300,7 +310,8 @@ void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor)
     cursor->epoch = locator->epoch;
 }
 
-/* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where the start says. */
+/* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where
+ * the start says. */
 static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     mw_work work;

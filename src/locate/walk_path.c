@@ -1,8 +1,9 @@
-/* path.c - one query whose way is written down, triangle by triangle. */
+/* walk_path.c - one query whose way is written down, triangle by triangle. */
 #include "locate/location.h"
 #include "locate/query.h"
 
-/* From the start to the answer. Only the tiles of this tiling are written down, not those of an index. */
+/* From the start to the answer. Only the tiles of this tiling are written down, not those of an
+ * index. */
 static mw_location path_locate(const mw_locator *locator, mw_cursor *cursor, mw_point q, mw_walk_trace *trace)
 {
     mw_work work;

@@ -1,17 +1,20 @@
-/* curve.c - tiles that lie in memory along a Hilbert curve are their own index: where q lies on the curve tells about
- * where its tile lies.
+/* curve.c - tiles that lie in memory along a Hilbert curve are their own index: where q lies on the
+ * curve tells about where its tile lies.
  *
- * Of every few tiles one is sampled, with the key of its lowest vertex. Between the two samples round the key of q the place of its
- * tile is estimated by the rule of three. Samples lie as dense as the tiles, so any distribution of vertices will do. What is near
- * on the curve is near in the plane; a walk is a few tiles longer than from a fine grid, but what it looks up is small enough
- * for a cache. Of tiles in any other order the sample before q is taken.
+ * Of every few tiles one is sampled, with the key of its lowest vertex. Between the two samples
+ * round the key of q the slot of its tile is interpolated linearly. Samples lie as dense as the
+ * tiles, so any distribution of vertices will do. What is near on the curve is near in the plane; a
+ * walk is a few tiles longer than from a fine grid, but what it looks up is small enough for a
+ * cache. Of tiles in any other order the sample before q is taken.
  *
- * Keys are looked up by their upper bits first: as many buckets as samples, or up to twice as many. */
+ * Keys are looked up by their upper bits first: as many buckets as samples, or up to twice as
+ * many. */
 #include "start/curve.h"
 
 #include <stdlib.h>
 
-/* The key of the lowest vertex: by that tiles of a mesh that is laid out are in order (mesh/layout.h). */
+/* The key of the lowest vertex: by that tiles of a mesh that is laid out are in order
+ * (mesh/layout.h). */
 static uint32_t tile_key(const mw_curve *curve, const mw_tiling *tiling, uint32_t t)
 {
     const uint32_t *v = tiling->tri[t].v;

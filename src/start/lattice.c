@@ -32,10 +32,10 @@ mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t column, uint32_t
     return (mw_point){lattice->middle[0] + x, lattice->middle[1] + y};
 }
 
-/* --- cells in the shape of the tiles ---------------------------------------------------------------------------------- */
+/* --- cells in the shape of the tiles --- */
 
-/* Add the tensor of a tile's edges, sum of e e^T, to xx, xy, yy: divided by its trace, times the tile's area, so that each place counts the
- * same. */
+/* Add the tensor of a tile's edges, sum of e e^T, to xx, xy, yy: divided by its trace, times the
+ * tile's area, so that each part of the mesh counts by its area. */
 static void tile_add_shape(const mw_tiling *tiling, uint32_t t, double shape[3])
 {
     const mw_point *p = tiling->point;
@@ -128,10 +128,10 @@ bool mw__lattice_is_finite(const mw_lattice *lattice)
     return isfinite(sum);
 }
 
-/* --- what cells hold -------------------------------------------------------------------------------------------------- */
+/* --- what cells hold --- */
 
-/* From the cells that have an entry outwards, ring by ring: each cell is reached first from one at the least distance in
- * rings, which is where a spiral search round it would end. */
+/* From the cells that have an entry outwards, ring by ring: each cell is reached first from one at
+ * the least distance in rings, which is where a spiral search round it would end. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue)
 {
     uint32_t cells = mw__lattice_cells(lattice), columns = lattice->columns, head = 0, tail = 0;

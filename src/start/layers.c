@@ -1,12 +1,14 @@
-/* layers.c - the layered hierarchy [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis App. C, sec. 2, 3].
+/* layers.c - the layered hierarchy [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis
+ * App. C, sec. 2, 3].
  *
- * A small share of the vertices of a layer, chosen at random, makes the next, which is triangulated. A search walks in
- * the highest layer from any tile to q, goes down at a vertex near q of the tile found, walks in the layer below from a
- * tile at that vertex, and so on to the mesh. Every walk but the first is expected to be short, whatever the
- * distribution of the vertices.
+ * A small share of the vertices of a layer, chosen at random, makes the next, which is
+ * triangulated. A search walks in the highest layer from any tile to q, goes down at a vertex near
+ * q of the tile found, walks in the layer below from a tile at that vertex, and so on to the mesh.
+ * Every walk but the first is expected to be short, whatever the distribution of the vertices.
  *
- * The vertex to go down at is the nearest one. Where the walk has the orientation coordinates of q, as the direct and the
- * barycentric walk have, it is the one with the largest, which costs no further test [thesis App. C, sec. 3]. */
+ * The vertex to go down at is the nearest one. Where the walk has the orientation coordinates of q,
+ * as the direct and the barycentric walk have, it is the one with the largest, which costs no
+ * further test [thesis App. C, sec. 3]. */
 #include "start/layers.h"
 
 #include "base/random.h"
@@ -16,13 +18,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* By size: a mesh gets a layer where walks in it can be long. A layer gets another where that is expected to save tiles,
- * about 9 for the walk in it against 1.1 times the root of its vertices without (so from 100 on, with little gained up to
- * 200); and 200, with a ratio of 0.025, gives the layers of the thesis' measurements: 2, 2, 3, 3, 4, 4 for 10^2 to 10^7
- * vertices. */
+/* By size: a mesh gets a layer where walks in it can be long. A layer gets another where that is
+ * expected to save tiles, about 9 for the walk in it against 1.1 times the root of its vertices
+ * without (so from 100 on, with little gained up to 200); and 200, with a ratio of 0.025, gives the
+ * layers of the thesis' measurements: 2, 2, 3, 3, 4, 4 for 10^2 to 10^7 vertices. */
 enum { LARGE_MESH = 64, LARGE_LAYER = 200 };
 
-/* --- building ---------------------------------------------------------------------------------------------------- */
+/* --- building --- */
 
 /* How many of `vertices` vertices the layer above has. */
 static uint32_t layer_size_above(uint32_t vertices, double ratio)
@@ -31,8 +33,8 @@ static uint32_t layer_size_above(uint32_t vertices, double ratio)
     return size > 3 ? (uint32_t)size : 3;
 }
 
-/* Fill point and below of *layer with `size` of the `vertices` vertices that have a tile, every set of them with the same
- * chance [Fan, Muller, Rezucha 1962]. Returns false when out of memory. */
+/* Fill point and below of *layer with `size` of the `vertices` vertices that have a tile, every set
+ * of them with the same chance [Fan, Muller, Rezucha 1962]. Returns false when out of memory. */
 static bool layer_choose(const mw_tiling *tiling, const uint32_t *at, uint32_t vertices, uint32_t size, uint64_t random,
                          mw_layer *layer)
 {
@@ -48,7 +50,8 @@ static bool layer_choose(const mw_tiling *tiling, const uint32_t *at, uint32_t v
     return true;
 }
 
-/* Number the vertices in the order in which the tiles use them; one that merged with another is dropped. */
+/* Number the vertices in the order in which the tiles use them; one that merged with another is
+ * dropped. */
 static mw_status layer_order_vertices(mw_layer *layer, mw_error *error)
 {
     mw_tiling *tiling = &layer->tiling;
@@ -199,10 +202,11 @@ void mw__layers_describe(const mw_layers *layers, uint32_t vertices[MW_MAX_LAYER
     for (uint32_t i = 0; i < MW_MAX_LAYERS; i++) vertices[i] = i < layers->count ? layer_vertex_count(layers, i) : 0;
 }
 
-/* --- the search -------------------------------------------------------------------------------------------------- */
+/* --- the search --- */
 
-/* Does the walk know the orientation coordinates of q in the tile where it ends? None of them is surely negative there,
- * so that the tile is good enough to go down from, without the final location. */
+/* Does the walk know the orientation coordinates of q in the tile where it ends? None of them is
+ * surely negative there, so that the tile is good enough to go down from, without the final
+ * location. */
 static bool walk_has_coordinates(mw_walk_kind walk)
 {
     return walk == MW_WALK_DIRECT || walk == MW_WALK_BARYCENTRIC;
@@ -227,8 +231,8 @@ static uint32_t layer_nearest(const mw_walk *walk)
     return best;
 }
 
-/* The vertex with the largest orientation coordinate: opposite to the edge that makes the largest triangle with q. Two
- * tests, which the walks that know the coordinates have made already. */
+/* The vertex with the largest orientation coordinate: opposite to the edge that makes the largest
+ * triangle with q. Two tests, which the walks that know the coordinates have made already. */
 static uint32_t layer_heaviest(mw_walk *walk, const mw_layer_walk *how)
 {
     const uint32_t *v = walk->tri[walk->t].v;
@@ -241,7 +245,8 @@ static uint32_t layer_heaviest(mw_walk *walk, const mw_layer_walk *how)
     return at1 >= at2 ? v[1] : v[2];
 }
 
-/* The name of a tile to begin at in the layer `beneath`, by what the one above keeps of a vertex. */
+/* The name of a tile to begin at in the layer `beneath`, by what the one above keeps of a
+ * vertex. */
 static uint32_t name_below(const mw_layers *layers, const mw_tiling *beneath, uint32_t below)
 {
     if (!layers->live || below >= beneath->point_count || beneath->tile_at[below] == MW_NONE) return below;

@@ -1,14 +1,16 @@
-/* two_level_grid.c - a grid of two levels, adaptive to the density, after the one that finds the nearest point in
- * [Zalik, Kolingerova 2003].
+/* two_level_grid.c - a grid of two levels, adaptive to the density, after the one that finds the
+ * nearest point in [Zalik, Kolingerova 2003].
  *
- * A coarse uniform grid; a cell with more than CROWDED vertices is a grid itself, with a cell for each of its vertices.
- * Here that grid spans the extent of those vertices rather than the cell, so that a cluster is resolved however small it
- * is, and empty cells have an entry as in the uniform grid: where the nearest cell is crowded its grid, of which a query
- * from outside gets a cell at the rim.
+ * A coarse uniform grid; a cell with more than CROWDED vertices is a grid itself, with a cell for
+ * each of its vertices. Here that grid spans the extent of those vertices rather than the cell, so
+ * that a cluster is resolved however small it is, and empty cells have an entry as in the uniform
+ * grid: where the nearest cell is crowded its grid, of which a query from outside gets one of the
+ * outermost cells.
  *
- * The coarse grid has one cell for two vertices: on uniform points about one cell in 20 is crowded then, and the other
- * queries take no longer than with the uniform grid. With 10^5 points in 32 clusters and queries at them, walks visit
- * 3.8 triangles instead of 65. Clusters within clusters would need a third level; layers have as many as it takes. */
+ * The coarse grid has one cell for two vertices: on uniform points about one cell in 20 is crowded
+ * then, and the other queries take no longer than with the uniform grid. With 10^5 points in 32
+ * clusters and queries at them, walks visit 3.8 triangles instead of 65. Clusters within clusters
+ * would need a third level; layers have as many as it takes. */
 #include "start/two_level_grid.h"
 
 #include "start/start.h"
@@ -17,7 +19,7 @@
 
 enum { CROWDED = 4 };
 
-/* What only the building needs. */
+/* What is needed only while the grid is built. */
 typedef struct two_level_build {
     const mw_tiling *tiling;
     uint32_t *tile;      /* of each vertex, or MW_NONE */

@@ -5,13 +5,13 @@
  *        /    `   * q    least one, if it is negative: here b0. Three tests a tile: two of the areas over edges, and
  *      t0------t1        that of the tile, since the coordinates add up to 1. Dividing by the signed area makes the
  *                        walk independent of the tile's orientation (all tiles are counter-clockwise here).
- * Departure from the printed pseudocode: the coordinates are rounded, and b2, a difference, even in sign. In exact
- * arithmetic an edge is crossed only where its coordinate is below zero by more than all may be off; so q surely lies
- * beyond it. Where the least coordinate is not, q is in the tile or all but in it, and the exact final location ends
- * the walk. The same happens where a coordinate is no number: in flat tiles (of a mesh that is no embedding), and far
- * outside the range of areas.
- * Ends on Delaunay meshes as Lawson's walk does. On others it may go round in a cycle, in exact arithmetic too [thesis
- * App. E, fig. 6]; then its fuel runs out and it hands over. */
+ * Departure from the printed pseudocode: the coordinates are rounded, and b2, a difference, even in
+ * sign. In exact arithmetic an edge is crossed only where its coordinate is below zero by more than
+ * all may be off; so q surely lies beyond it. Where the least coordinate is not, q is in the tile
+ * or all but in it, and the exact final location ends the walk. The same happens where a coordinate
+ * is no number: in flat tiles (of a mesh that is no embedding), and far outside the range of areas.
+ * Ends on Delaunay meshes as Lawson's walk does. On others it may go round in a cycle, in exact
+ * arithmetic too [thesis App. E, fig. 6]; then its fuel runs out and it hands over. */
 #include "walk/drive.h"
 #include "walk/value.h"
 

@@ -7,18 +7,21 @@
  *    `-----\ : /            edge, q lies on the far side of it: outside, or in the hole that it bounds.
  *      r----:----l  out
  *           p
- * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right, on both ways: the walk
- * follows a line that is moved a little to the left, and meets no vertex. Whether an edge is met behind the way out is
- * decided by the ends of both edges, which do not cross; no point of intersection is computed. p is the middle of the edge, or
- * rather any point from which the line to q has the edge's ends on different sides; where rounding has moved the middle so
- * far that it has not, p is the right end. A vertex of the border on the line is compared with q, and so is an edge along the
- * line: such a q may lie on the border where the line passes outside. Where several fans of tiles meet in a vertex, the
- * border goes on round the face beyond it (open.h).
- * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the line leaves.
- * Ends on every embedding: each time the line comes back it does so farther on than it left. But it may come back very often,
- * and go along the same border each time. So its steps are limited, and a second form takes over, which goes all along a
- * border and on where the line comes back last: if it ever leaves over the same border again, it is for good.
- * docs/guarantees.md has the proofs. */
+ * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right,
+ * on both ways: the walk follows a line that is moved a little to the left, and meets no vertex.
+ * Whether an edge is met behind the way out is decided by the ends of both edges, which do not
+ * cross; no point of intersection is computed. p is the middle of the edge, or rather any point
+ * from which the line to q has the edge's ends on different sides; where rounding has moved the
+ * middle so far that it has not, p is the right end. A vertex of the border on the line is compared
+ * with q, and so is an edge along the line: such a q may lie on the border where the line passes
+ * outside. Where several fans of tiles meet in a vertex, the border goes on round the face beyond
+ * it (tiling/border_loops.h).
+ * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the
+ * line leaves.
+ * Ends on every embedding: each time the line comes back it does so farther on than it left. But it
+ * may come back very often, and go along the same border each time. So its steps are limited, and a
+ * second form takes over, which goes all along a border and on where the line comes back last: if
+ * it ever leaves over the same border again, it is for good. docs/guarantees.md has the proofs. */
 #include "walk/drive.h"
 
 enum { FIRST, FOLLOW, ROUND_LEFT, ROUND_RIGHT, ROUND_ON }; /* phases; round: where the border's last vertex lies */
@@ -38,7 +41,8 @@ static MW_INLINE void border_begin_run(mw_walk *w, uint32_t phase, uint32_t stag
     w->work->border_runs += stage == MW_STAGE_BORDER;
 }
 
-/* From border edge e on along the border: to the edge that begins at its end, or to a tile beyond a turn. */
+/* From border edge e on along the border: to the edge that begins at its end, or to a tile beyond a
+ * turn. */
 static MW_INLINE mw_verdict border_turn_corner(mw_walk *w, uint32_t e, mw_policy P)
 {
     const mw_border_loops *loops = w->tiling->border_loops;
@@ -55,7 +59,8 @@ static MW_INLINE mw_verdict border_turn_corner(mw_walk *w, uint32_t e, mw_policy
     return MW_GO;
 }
 
-/* Leave over edge e, whose end lies strictly to the left: into the next tile, or along the border. */
+/* Leave over edge e, whose end lies strictly to the left: into the next tile, or along the
+ * border. */
 static MW_INLINE mw_verdict border_go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (MW_LIKELY(w->tri[w->t].link[e] != MW_NONE)) return cross(w, e, P);
@@ -91,7 +96,8 @@ typedef struct crossed_edge {
     mw_point r, l;
 } crossed_edge;
 
-/* Does the line meet edge `there` behind edge `here`? One of the two lies on one side of the other, as they do not cross. */
+/* Does the line meet edge `there` behind edge `here`? One of the two lies on one side of the other,
+ * as they do not cross. */
 static MW_INLINE bool edge_is_behind(mw_walk *w, crossed_edge here, crossed_edge there, mw_policy P)
 {
     double r = orient(w, here.r, here.l, there.r, P), l = orient(w, here.r, here.l, there.l, P);
@@ -106,7 +112,8 @@ static MW_INLINE mw_point half_end(const mw_walk *w, uint32_t half, uint32_t end
     return w->point[w->tri[mw__link_triangle(half)].v[mw__link_edge(half) + end]];
 }
 
-/* Does the line come back over the border edge ab, behind the place where it left and not behind q? */
+/* Does the line come back over the border edge ab, behind the point where it left and not behind
+ * q? */
 static MW_INLINE bool border_comes_back(mw_walk *w, mw_point a, mw_point b, mw_policy P)
 {
     crossed_edge out = {half_end(w, w->exit, 0), half_end(w, w->exit, 1)};
@@ -153,8 +160,8 @@ static MW_INLINE mw_verdict border_pass(mw_walk *w, uint32_t e, bool all, mw_pol
     return border_turn_corner(w, e, P);
 }
 
-/* Edge e begins at the border's last vertex: turn round that through tiles to the border's next edge. Ends: the turn began at
- * a border edge, and no tile has two tiles before it. */
+/* Edge e begins at the border's last vertex: turn round that through tiles to the border's next
+ * edge. Ends: the turn began at a border edge, and no tile has two tiles before it. */
 static MW_INLINE mw_verdict border_go_round(mw_walk *w, bool all, mw_policy P)
 {
     while (w->tri[w->t].link[w->e] != MW_NONE) {

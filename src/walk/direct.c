@@ -6,16 +6,16 @@
  *      t0------t1        one is tested, and the last is 2A less both. One test a tile where 2A is stored, else two;
  *                        one more in the first tile.
  *
- * The walk of the paper also takes clockwise tiles, but its printed pseudocode fails there, because it passes on
- * coordinates that it has flipped (slip 5). It has to keep all of them normalised: the known one always -c, the tested
- * one sgn(A) times the test, and the last one |2A| less both. Here sgn(A) is 1: the mesh turns clockwise triangles when
- * it is created, so that all tiles are counter-clockwise.
- * Another departure: coordinates are rounded, and what is derived from them takes the errors of all tiles before along.
- * In exact arithmetic an edge is crossed only where its coordinate is surely negative, and that coordinate is passed on
- * with the most by which it may be off added. So what is known in the next tile is a lower bound, what is derived from
- * it an upper one, and a negative one is sure again. Where no coordinate is, q is in the tile or all but in it, and the
- * exact final location ends the walk.
- * Ends and cycles as the barycentric walk does. */
+ * The walk of the paper also takes clockwise tiles, but its printed pseudocode fails there, because
+ * it passes on coordinates that it has flipped (slip 5). It has to keep all of them normalised: the
+ * known one always -c, the tested one sgn(A) times the test, and the last one |2A| less both. Here
+ * sgn(A) is 1: the mesh turns clockwise triangles when it is created, so that all tiles are
+ * counter-clockwise. Another departure: coordinates are rounded, and what is derived from them
+ * takes the errors of all tiles before along. In exact arithmetic an edge is crossed only where its
+ * coordinate is surely negative, and that coordinate is passed on with the most by which it may be
+ * off added. So what is known in the next tile is a lower bound, what is derived from it an upper
+ * one, and a negative one is sure again. Where no coordinate is, q is in the tile or all but in it,
+ * and the exact final location ends the walk. Ends and cycles as the barycentric walk does. */
 #include "walk/drive.h"
 #include "walk/value.h"
 

@@ -1,5 +1,5 @@
-/* normal_straight.c - the straight walk that stops at a normal line [Soukal, Kolingerova 2009: thesis App. A, Alg. 2 and
- * App. E, Alg. 5].
+/* normal_straight.c - the straight walk that stops at a normal line [Soukal, Kolingerova 2009:
+ * thesis App. A, Alg. 2 and App. E, Alg. 5].
  *
  *      l               . n     The line leads from p, the middle of the edge of the first tile that faces the vertex s
  *      |\              .       nearest to q, to q; n is its normal at q. With l and r the left and right ends of the edge
@@ -8,17 +8,18 @@
  *      |___s           .       positions by the equations of two fixed lines a tile, no orientation test; then an exact
  *      r                       walk goes the last steps.
  *
- * Departures from the printed pseudocode. The normal has the minus sign that eq. 7 lost (slip 1), and over which edge
- * the line leaves is as in the prose of App. A and in Alg. 5 (slip 2). Both equations take s relative to q: their
- * constants vanish, for which two subtractions are to be made; nothing is saved, but nothing cancels far from the
- * origin. Nor is p itself needed, only the direction d from p to q: the mean of those from l and r.
- * Edge cases. In a flat first tile q may lie behind lr although s is the nearest vertex; the printed walk then goes
- * away from q. Therefore the first tile first asks whether the edge to be crossed has its ends on different sides of
- * the line, one position more a query. If not, the walk starts over lr, into the tile that the line enters. Where d is
- * zero (q = p), s of the first tile is past n, the line leaves the hull, or no edge of the first tile will do (in
- * tiles a few roundings wide), an exact walk goes on from there.
- * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that rounding could do is
- * lead it back to the edge it began with: docs/guarantees.md. */
+ * Departures from the printed pseudocode. The normal has the minus sign that eq. 7 lost (slip 1),
+ * and over which edge the line leaves is as in the prose of App. A and in Alg. 5 (slip 2). Both
+ * equations take s relative to q: their constants vanish, for which two subtractions are to be
+ * made; nothing is saved, but nothing cancels far from the origin. Nor is p itself needed, only the
+ * direction d from p to q: the mean of those from l and r. Edge cases. In a flat first tile q may
+ * lie behind lr although s is the nearest vertex; the printed walk then goes away from q. Therefore
+ * the first tile first asks whether the edge to be crossed has its ends on different sides of the
+ * line, one position more a query. If not, the walk starts over lr, into the tile that the line
+ * enters. Where d is zero (q = p), s of the first tile is past n, the line leaves the hull, or no
+ * edge of the first tile will do (in tiles a few roundings wide), an exact walk goes on from there.
+ * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that
+ * rounding could do is lead it back to the edge it began with: docs/guarantees.md. */
 #include "walk/drive.h"
 
 /* position(lambda, s) > 0: s lies to the left of the line. */
@@ -28,7 +29,8 @@ static MW_INLINE bool normal_left_of_line(mw_walk *w, mw_point s, mw_policy P)
     return leftward(w, w->q, s) > 0;
 }
 
-/* position(lambda_n, s): s lies on the normal or on its far side. Not a number counts as past it. */
+/* position(lambda_n, s): s lies on the normal or on its far side. Not a number counts as past
+ * it. */
 static MW_INLINE bool normal_is_past(mw_walk *w, mw_point s, mw_policy P)
 {
     if (P.count) w->work->implicit++;

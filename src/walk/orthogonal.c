@@ -1,4 +1,5 @@
-/* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002; thesis App. E, sec. 7.1, Alg. 6].
+/* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002; thesis App. E, sec. 7.1, Alg.
+ * 6].
  *
  *          l          * q    First turn round p, a vertex of the first tile, to the tile at p that the horizontal line
  *         /|\         :      through p enters on its way to a, the point above or below q: a comparison a tile. Then
@@ -18,24 +19,26 @@
  *   tile (between its centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from
  *   there, from the vertex nearest to q. In a thin hull askew to the axes all this does not help; so after RESTARTS it
  *   is left to an exact walk.
- * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical leg, from p. q at the
- * height of p: a is q, and the horizontal leg finds it. A vertex on the line of a leg counts as right of it, but where
- * the walk turns to the right, as left (turn_upright). p on the hull: where the turn meets the hull first, the line
- * points out of the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
- * MW_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right, the walk follows a
- * line moved by next to nothing, so every tile has points of it inside, and its part of the true line runs from the
- * entry edge, or p, to the exit edge. What the leg looks for lies ahead of p; then ahead of each entry edge, since it
- * was beyond that; so it is in the tile unless it is beyond the exit edge. The vertical leg begins likewise in the tile
- * that holds a, which has points just before the vertical line. Legs along another line find nothing, they only lead
- * nearer.
- * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point where a leg's line
- * leaves the tile comes on with each step; and there are at most 2 (RESTARTS + 1) legs. Each meets a
- * tile once at most. */
+ * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical
+ * leg, from p. q at the height of p: a is q, and the horizontal leg finds it. A vertex on the line
+ * of a leg counts as right of it, but where the walk turns to the right, as left
+ * (axis_turn_upright). p on the hull: where the turn meets the hull first, the line points out of
+ * the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
+ * MW_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right,
+ * the walk follows a line moved by next to nothing, so every tile has points of it inside, and its
+ * part of the true line runs from the entry edge, or p, to the exit edge. What the leg looks for
+ * lies ahead of p; then ahead of each entry edge, since it was beyond that; so it is in the tile
+ * unless it is beyond the exit edge. The vertical leg begins likewise in the tile that holds a,
+ * which has points just before the vertical line. Legs along another line find nothing, they only
+ * lead nearer.
+ * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point
+ * where a leg's line leaves the tile comes on with each step; and there are at most 2 (RESTARTS +
+ * 1) legs. Each meets a tile once at most. */
 #include "walk/axis.h"
 #include "walk/drive.h"
 
-/* The phase of a walk: one of the first five; MOVED, where the vertical line is not that through q; and the number of
- * restarts. */
+/* The phase of a walk: one of the first five; MOVED, where the vertical line is not that through q;
+ * and the number of restarts. */
 enum { START, TURN_RIGHT, TURN_LEFT, SET_OUT, FOLLOW, STEP = 7, MOVED = 8, RESTART = 16, RESTARTS = 2 };
 
 static MW_INLINE void orthogonal_enter(mw_walk *w, uint32_t phase)

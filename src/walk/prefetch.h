@@ -1,6 +1,6 @@
-/* fetch.h - asking memory for what will be met, before it is. Private. */
-#ifndef MW_SRC_FETCH_H
-#define MW_SRC_FETCH_H
+/* prefetch.h - asking memory for what will be met, before it is. Private. */
+#ifndef MW_SRC_PREFETCH_H
+#define MW_SRC_PREFETCH_H
 
 #include "tiling/tiling.h"
 
@@ -17,9 +17,10 @@ static MW_INLINE void mw__prefetch_across(const mw_triangle *tri, const mw_trian
     for (uint32_t k = 0; k < 3; k++) __builtin_prefetch(&tri[mw__link_triangle(tile->link[k])]);
 }
 
-/* Tiles lie along a curve as a rule, numbered by their lowest vertices, so that most of what lies round about a tile, or comes next along the curve, lies
- * near it in memory, rather behind it than before. To ask for all of that at once beats waiting for one after the other, in a mesh that caches do not
- * hold. */
+/* Tiles lie along a curve as a rule, numbered by their lowest vertices, so that most of what lies
+ * round about a tile, or comes next along the curve, lies near it in memory, rather behind it than
+ * before. To ask for all of that at once beats waiting for one after the other, in a mesh that
+ * caches do not hold. */
 static MW_INLINE void mw__prefetch_tiles_round(const mw_tiling *tiling, uint32_t t)
 {
     enum { LINE = 64, BEFORE = 16, AFTER = 64 };

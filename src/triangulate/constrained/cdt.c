@@ -1,8 +1,10 @@
-/* cdt.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew 1989].
+/* cdt.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew
+ * 1989].
  *
- * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c), the triangles that are to be
- * kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments cross and are to be split, points
- * are put there (cdt_split.c) and all is made anew, until nothing crosses. */
+ * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c),
+ * the triangles that are to be kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments
+ * cross and are to be split, points are put there (cdt_split.c) and all is made anew, until nothing
+ * crosses. */
 #include "base/hilbert.h"
 #include "triangulate/constrained/cdt_keep.h"
 #include "triangulate/constrained/cdt_output.h"
@@ -57,7 +59,7 @@ static void cdt_release(mw_cdt *m)
 
 /* --- forcing the stretches in --- */
 
-/* A piece is made, or one made before is a part of another stretch too. */
+/* A subsegment was made, or one made before has another owner now. */
 static bool note_subsegment(mw_cdt *m, const mw_subsegment *subsegment, uint32_t segment)
 {
     mw_segment_part part = {subsegment->from, subsegment->to, segment};
@@ -69,7 +71,8 @@ static bool note_subsegment(mw_cdt *m, const mw_subsegment *subsegment, uint32_t
     return mw__subsegment_owner_add(m, (mw_subsegment_owner){subsegment->number, segment});
 }
 
-/* Force in a stretch, or as much of it as lies before what it crosses. Returns false when out of memory. */
+/* Force in a part, or as much of it as lies before what it crosses. Returns false when out of
+ * memory. */
 static bool part_force(mw_cdt *m, mw_segment_part s)
 {
     while (s.from != s.to) {
@@ -81,9 +84,10 @@ static bool part_force(mw_cdt *m, mw_segment_part s)
     return true;
 }
 
-/* Stretches in random rounds, so that long ones are expected to be among the first, and to shield what lies behind them
- * from those that follow; in each round along the Hilbert curve of the triangles, so that what is near is near in
- * memory. NULL when out of memory. */
+/* Parts in a biased randomized order (brio.h), so that long ones are expected to be among the
+ * first, and to shield what lies behind them from those that follow; in each round along the
+ * Hilbert curve of the triangles, so that what is near is near in memory. NULL when out of
+ * memory. */
 static uint32_t *order_parts(const mw_cdt *m)
 {
     uint32_t n = (uint32_t)m->parts.count, *order = mw__brio_order(n);
@@ -101,7 +105,8 @@ static uint32_t *order_parts(const mw_cdt *m)
     return NULL;
 }
 
-/* Triangulate the points and force the stretches in, as far as nothing crosses, or, if `all`, all that do not cross. */
+/* Triangulate the points and force the parts in, as far as nothing crosses, or, if `all`, all that
+ * do not cross. */
 static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_error *error)
 {
     uint32_t n = (uint32_t)m->point_count;
@@ -125,7 +130,7 @@ static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_er
     return done ? MW_OK : mw__fail_memory(error);
 }
 
-/* Forget what was made, but not the points and stretches. */
+/* Forget what was made, but not the points and parts. */
 static void cdt_unmake(mw_cdt *m)
 {
     mw__segment_insertion_release(&m->net);
@@ -162,18 +167,19 @@ static mw_status fail_crossing(const mw_cdt *m, const char *why, mw_constrain_re
     report->crossing_segments[1] = s->segment < p->segment ? p->segment : s->segment;
     const uint32_t *a = &m->given->segments[2 * (size_t)report->crossing_segments[0]];
     const uint32_t *b = &m->given->segments[2 * (size_t)report->crossing_segments[1]];
-    mw_point place = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
+    mw_point crossing = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
     return mw__fail(error, MW_ERROR_INPUT,
                     "segments %" PRIu32 " (from point %" PRIu32 " to %" PRIu32 ") and %" PRIu32 " (from point %" PRIu32
                     " to %" PRIu32 ") cross near %.9g %.9g%s",
-                    report->crossing_segments[0], a[0], a[1], report->crossing_segments[1], b[0], b[1], place.x,
-                    place.y, why);
+                    report->crossing_segments[0], a[0], a[1], report->crossing_segments[1], b[0], b[1], crossing.x,
+                    crossing.y, why);
 }
 
 static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
                           mw_error *error);
 
-/* The ends of stretches, in the order of their numbers: number[p] is the one of point p among them, or MW_NONE. */
+/* The ends of parts, in the order of their numbers: number[p] is the one of point p among them, or
+ * MW_NONE. */
 static uint32_t number_ends(const mw_cdt *m, uint32_t *number)
 {
     uint32_t count = 0;
@@ -184,7 +190,7 @@ static uint32_t number_ends(const mw_cdt *m, uint32_t *number)
     return count;
 }
 
-/* Only the stretches and their ends, numbered as `number` says. */
+/* Only the parts and their ends, numbered as `number` says. */
 static bool take_ends(const mw_cdt *m, const uint32_t *number, uint32_t count, mw_cdt *ends)
 {
     ends->point = mw__alloc_lines(count, sizeof *ends->point);
@@ -201,7 +207,7 @@ static bool take_ends(const mw_cdt *m, const uint32_t *number, uint32_t count, m
     return true;
 }
 
-/* The other way: take the stretches of `ends`, and the points made there beyond the first `count`. */
+/* The other way: take the parts of `ends`, and the points made there beyond the first `count`. */
 static bool take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
 {
     size_t n = m->point_count, made = ends->point_count - count;
@@ -225,9 +231,10 @@ static bool take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
     return true;
 }
 
-/* Whether stretches cross has nothing to do with the other points. Where these are many, split the stretches without
- * them, until nothing crosses. make_all, which calls this, does that, and may come here again; but not deep, as each
- * time at most half the points remain. Hardly ever twice: nearly all points are ends then. */
+/* Whether parts cross has nothing to do with the other points. Where these are many, split the
+ * parts without them, until nothing crosses. make_all, which calls this, does that, and may come
+ * here again; but not deep, as each time at most half the points remain. Hardly ever twice: nearly
+ * all points are ends then. */
 static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -246,8 +253,9 @@ static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *e
     return status;
 }
 
-/* Each round puts points where stretches cross. Most are then done; but points are rounded, so a stretch may come to
- * cross another by that, and of many that cross one another each round lets some in, and parts the others. */
+/* Each round puts points where parts cross. Most are then done; but points are rounded, so a part
+ * may come to cross another by that, and of many that cross one another each round lets some in,
+ * and parts the others. */
 static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
                           mw_error *error)
 {

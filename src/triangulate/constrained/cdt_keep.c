@@ -1,5 +1,5 @@
-/* cdt_keep.c - which triangles of a constrained triangulation are kept: those inside polygons, or not reached
- * from outside, and not in holes. */
+/* cdt_keep.c - which triangles of a constrained triangulation are kept: those inside polygons, or
+ * not reached from outside, and not in holes. */
 #include "triangulate/constrained/cdt_keep.h"
 
 #include "base/hilbert.h"
@@ -63,7 +63,7 @@ static bool rank_polygons(parity *p, const mw_key *key, size_t count)
     return p->odd;
 }
 
-/* Inside and outside make sense where at each place an even number of a polygon's segments end. */
+/* Inside and outside make sense where at each vertex an even number of a polygon's segments end. */
 static mw_status check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
 {
     uint8_t *odd = mw__calloc(m->given->point_count, sizeof *odd);
@@ -117,8 +117,8 @@ static uint32_t hull_half(const mw_cdt *m)
     return mw__link(t, k);
 }
 
-/* Go through all triangles depth first, from outside the hull, keeping the parities of where one is. The way back is
- * the way in: entry[t] is the edge by which triangle t was entered. */
+/* Go through all triangles depth first, from outside the hull, keeping the parities of where one
+ * is. The way back is the way in: entry[t] is the edge by which triangle t was entered. */
 static void keep_odd(parity *p, uint8_t *entry)
 {
     enum { UNSEEN = 3 };
@@ -169,7 +169,8 @@ static void remove_triangle(flood *f, uint32_t t)
     f->stack[f->top++] = t;
 }
 
-/* Remove what hangs together with the triangles on the stack, and no piece parts from them. */
+/* Remove what hangs together with the triangles on the stack, and no subsegment separates from
+ * them. */
 static void flood_spread(flood *f)
 {
     while (f->top > 0) {
@@ -199,8 +200,8 @@ static double half_side(const mw_cdt *m, uint32_t half, mw_point q)
     return mw__orient2d(m->point[t->v[mw__link_edge(half)]], m->point[t->v[mw__link_edge(half) + 1]], q);
 }
 
-/* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried from a random one on:
- * the walk ends with probability 1 [Devillers, Pion, Teillaud 2002]. */
+/* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried
+ * from a random one on: the walk ends with probability 1 [Devillers, Pion, Teillaud 2002]. */
 static bool keep_walk(const mw_cdt *m, mw_point q, uint64_t *random, uint32_t *t)
 {
     for (;;) {

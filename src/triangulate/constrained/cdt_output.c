@@ -1,4 +1,4 @@
-/* cdt_output.c - what was made, as a mesh and a list of pieces. */
+/* cdt_output.c - what was made, as a mesh and a list of subsegments. */
 #include "triangulate/constrained/cdt_output.h"
 
 #include "mesh/layout.h"
@@ -14,8 +14,8 @@ void mw_constrained_edges_release(mw_constrained_edges *edges)
     *edges = (mw_constrained_edges){0};
 }
 
-/* Points made twice, or where one of the caller's lies, are not vertices: number those that are. NULL when out of
- * memory. */
+/* Points made twice, or where one of the caller's lies, are not vertices: number those that are.
+ * NULL when out of memory. */
 static uint32_t *number_points(const mw_cdt *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -25,8 +25,8 @@ static uint32_t *number_points(const mw_cdt *m, uint32_t *count)
     return number;
 }
 
-/* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve from the beginning.
- * NULL when out of memory. */
+/* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve
+ * from the beginning. NULL when out of memory. */
 static uint32_t *number_triangles(const mw_cdt *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->tri_count, sizeof *number);
@@ -60,7 +60,8 @@ static void move_triangles(mw_cdt *m, mw_mesh *mesh)
     m->tri = NULL;
 }
 
-/* Pieces of the triangles kept, each once, in the order of the triangles. With out NULL they are only counted. */
+/* Subsegments of the triangles kept, each once, in the order of the triangles. With out NULL they
+ * are only counted. */
 static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_constrained_edges *out)
 {
     size_t made = 0;

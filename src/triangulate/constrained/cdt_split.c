@@ -1,15 +1,17 @@
 /* cdt_split.c - points where segments cross.
  *
- * What could not be forced in is followed through the triangulation, where it meets pieces that it crosses and vertices
- * that lie on it. A piece, and each such remainder, is a link that is cut at the points made on it; the parts of all links,
- * for each segment that runs along them, are the stretches of the next round. So stretches still end at all vertices that
- * lie on them exactly. Points are rounded, but lie in the boxes of both links that cross there: a part's box is smaller
- * than its link's.
+ * What could not be forced in is followed through the triangulation, where it meets subsegments
+ * that it crosses and vertices that lie on it. A subsegment, and each such remainder, is a link
+ * that is cut at the points made on it; what remains of all links, once for each segment that owns
+ * them, are the parts of the next round. So parts still end at all vertices that lie on them
+ * exactly. Points are rounded, but lie in the boxes of both links that cross there: a part's box is
+ * smaller than its link's.
  *
- * Rounding moves links a little, past vertices that lie close to them, so they come to cross others. Among long links that
- * are nearly parallel that could go on for very long, one new point beside the other. So after the first round, as in snap
- * rounding [Hobby 1999; Guibas, Marimont 1998], a link that crosses another and passes close by its end is led through
- * that end, and no point is made. Why this ends: see docs/guarantees.md. */
+ * Rounding moves links a little, past vertices that lie close to them, so they come to cross
+ * others. Among long links that are nearly parallel that could go on for very long, one new point
+ * beside the other. So after the first round, as in snap rounding [Hobby 1999; Guibas, Marimont
+ * 1998], a link that crosses another and passes close by its end is led through that end, and no
+ * point is made. Why this ends: see docs/guarantees.md. */
 #include "triangulate/constrained/cdt_split.h"
 
 #include <float.h>
@@ -22,7 +24,7 @@ static double value_clamp(double x, double low, double high)
     return x < low ? low : x > high ? high : x;
 }
 
-/* In the boxes of both, which have a place in common. */
+/* In the boxes of both, which have a point in common. */
 static double clamp_both(double x, double a, double b, double c, double d)
 {
     return value_clamp(x, fmax(fmin(a, b), fmin(c, d)), fmin(fmax(a, b), fmax(c, d)));
@@ -42,7 +44,7 @@ static double segment_extent(mw_point a, mw_point b)
 
 mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 {
-    mw_point e[4] = {a, b, c, d}; /* the place is reckoned on the shorter of the two, from its nearer end */
+    mw_point e[4] = {a, b, c, d}; /* the point is computed on the shorter of the two, from its nearer end */
     if (segment_extent(a, b) > segment_extent(c, d)) e[0] = c, e[1] = d, e[2] = a, e[3] = b;
     int exponent[2];
     double area[2];
@@ -57,7 +59,7 @@ mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 
 /* --- cuts --- */
 
-/* Links are pieces, by number, then the remainders. */
+/* Links are subsegments, by number, then the remainders. */
 typedef struct cut {
     size_t link;
     uint32_t point;
@@ -86,8 +88,8 @@ static mw_point point_at(const splitter *s, uint32_t p)
     return p < s->m->point_count ? s->m->point[p] : s->made[p - s->m->point_count];
 }
 
-/* How far p is along a link: the coordinate in which the link is longer, then the other, both growing from the link's
- * beginning to its end. */
+/* How far p is along a link: the coordinate in which the link is longer, then the other, both
+ * growing from the link's beginning to its end. */
 static mw_point point_along(const splitter *s, const mw_segment_part *link, mw_point p)
 {
     mw_point a = s->m->point[link->from], b = s->m->point[link->to];
@@ -112,7 +114,8 @@ static bool splitter_add_cut(splitter *s, size_t link, uint32_t point, bool exac
     return true;
 }
 
-/* The number of a point where two links cross: an end of one of them, or a new one. MW_NONE when out of memory. */
+/* The number of a point where two links cross: an end of one of them, or a new one. MW_NONE when
+ * out of memory. */
 static uint32_t make_point(splitter *s, const mw_segment_part *a, const mw_segment_part *b)
 {
     const mw_point *point = s->m->point;
@@ -133,7 +136,8 @@ static uint32_t make_point(splitter *s, const mw_segment_part *a, const mw_segme
     return (uint32_t)(s->m->point_count + s->made_count - 1);
 }
 
-/* Scale three coordinates by a power of two, to at most 1. Returns the distance of doubles at the largest then. */
+/* Scale three coordinates by a power of two, to at most 1. Returns the distance of doubles at the
+ * largest then. */
 static double rescale_line(double c[3])
 {
     int exponent;
@@ -147,8 +151,8 @@ static bool value_is_between(double a, double b, double x)
     return x >= fmin(a, b) && x <= fmax(a, b);
 }
 
-/* Does ab, with p in its box, pass by p so closely that it would go through p if the coordinates were off by that many
- * times the distance of doubles? */
+/* Does ab, with p in its box, pass by p so closely that it would go through p if the coordinates
+ * were off by that many times the distance of doubles? */
 static bool passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
 {
     if (!value_is_between(a.x, b.x, p.x) || !value_is_between(a.y, b.y, p.y)) return false;
@@ -205,8 +209,9 @@ static int cut_compare(const void *left, const void *right)
 
 /* --- the stretches of the next round --- */
 
-/* The parts of a link, cut at `count` points, for one segment. No part leads back in either coordinate: so their boxes are
- * smaller than the link's, even of a link that is only a few doubles long. A point left out is seen to in the next round. */
+/* The parts of a link, cut at `count` points, for one segment. No part leads back in either
+ * coordinate: so their boxes are smaller than the link's, even of a link that is only a few doubles
+ * long. A point left out is seen to in the next round. */
 static bool add_parts(splitter *s, const mw_segment_part *link, const cut *cuts, size_t count, uint32_t segment,
                       mw_segment_parts *parts)
 {
@@ -254,7 +259,8 @@ static bool splitter_take_points(splitter *s)
     return true;
 }
 
-/* None in the first round, when links are still the segments as given; then it doubles every few rounds. */
+/* None in the first round, when links are still the segments as given; then it doubles every few
+ * rounds. */
 static double tolerance_in(int round)
 {
     enum { DOUBLING_ROUNDS = 8, MOST_DOUBLINGS = 6 };

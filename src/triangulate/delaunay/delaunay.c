@@ -1,7 +1,8 @@
-/* delaunay.c - from points to a Delaunay triangulation: order them, let it grow, hand out what has grown.
+/* delaunay.c - from points to a Delaunay triangulation: sort the points, grow it patch by patch,
+ * collect its triangles.
  *
- * All work is done on a copy of the points along a Hilbert curve ("places": place i holds point order[i]), so that what
- * lies close in the plane lies close in memory; numbers are translated at the end. */
+ * All work is done on a copy of the points along a Hilbert curve (slot i holds point order[i]), so
+ * that what lies close in the plane lies close in memory; numbers are translated at the end. */
 #include "triangulate/delaunay/delaunay.h"
 
 #include "base/threads.h"
@@ -44,7 +45,8 @@ static void extent_extend(mw_extent *e, const mw_extent *by)
     }
 }
 
-/* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is none. */
+/* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is
+ * none. */
 static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw_extent *extent)
 {
     mw_extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
@@ -62,8 +64,8 @@ static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw
 
 enum { NO_LATTICE = INT_MIN, LATTICE_BITS = 40 };
 
-/* The exponent of the last bit of a finite number that is 1. INT_MAX for 0; NO_LATTICE for a number of more bits than the
- * coordinates of a lattice have in practice. */
+/* The exponent of the last bit of a finite number that is 1. INT_MAX for 0; NO_LATTICE for a number
+ * of more bits than the coordinates of a lattice have in practice. */
 static int last_bit(double x)
 {
     uint64_t bits;
@@ -77,8 +79,8 @@ static int last_bit(double x)
     return (exponent > 0 ? exponent : 1) + DBL_MIN_EXP - 1 - DBL_MANT_DIG + zeros;
 }
 
-/* The exponent of the largest power of two that the coordinates of points from..to - 1 are multiples of. For most that are
- * none the first tells. */
+/* The exponent of the largest power of two that the coordinates of points from..to - 1 are
+ * multiples of. For most that are none the first tells. */
 static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
 {
     int lattice = INT_MAX;
@@ -138,7 +140,8 @@ static mw_status fail_flat(const delaunay *d, mw_error *error)
 
 /* --- growth --- */
 
-/* Points in the order of their places. Where each lies is hard to foresee, but its number is known. */
+/* Copy the points to their slots. Where each lies in memory is hard for the processor to foresee,
+ * but its number is known ahead. */
 static void delaunay_copy_points(delaunay *d, const mw_key *keys)
 {
     enum { AHEAD = 16 };
@@ -192,7 +195,7 @@ static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
         duplicate_of[g->order[i]] = mw__get_twin(g->point[i], &twin) ? g->order[twin] : MW_NONE;
 }
 
-/* The points are not needed any more: their room serves the harvest. */
+/* The points are not needed any more: their memory serves the collection. */
 static bool delaunay_collect(delaunay *d, mw_triangle **tri, uint32_t *tri_count)
 {
     free(d->arrays.sequence);
@@ -238,7 +241,8 @@ mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *d
 
 /* --- a mesh --- */
 
-/* The points as the library has them; the caller's own array if that is what it holds. *copy is to be released. */
+/* The points as the library has them; the caller's own array if that is what it holds. *copy is to
+ * be released. */
 static const mw_point *delaunay_read_points(const double *from, size_t stride, uint32_t n, uint32_t threads,
                                             mw_point **copy)
 {

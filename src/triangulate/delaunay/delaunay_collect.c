@@ -1,33 +1,34 @@
-/* delaunay_collect.c - triangles are numbered by their lowest place: along the curve.
+/* delaunay_collect.c - triangles are numbered by their lowest slot: along the curve.
  *
- * It is a counting sort. Each part counts and numbers the facets in its own slice whose lowest place is its own; the
- * others lie along seams, are few, and are done one after the other: they come last at their place. Numbers do not depend
- * on the threads. */
+ * It is a counting sort. Each patch counts and numbers the facets in its own slice whose lowest
+ * slot is its own; the others lie along seams, are few, and are done one after the other: they come
+ * last at their slot. Numbers do not depend on the threads. */
 #include "triangulate/delaunay/delaunay_collect.h"
 
 #include "base/threads.h"
 
 #include <stdlib.h>
 
-/* Of a facet whose lowest place is another part's: FOREIGN + the number of the next such facet in its part. */
+/* Of a facet whose lowest slot is another patch's: FOREIGN + the number of the next such facet in
+ * its patch. */
 #define FOREIGN UINT32_C(0x80000000)
 #define NO_MORE (MW_NONE - 1)
 
-/* A part without halves. */
+/* A patch without halves. */
 typedef struct slice {
-    uint32_t from, to; /* places                                            */
+    uint32_t from, to; /* slots                                            */
     uint32_t foreign;  /* as the number of a foreign facet: the first, last */
-    uint32_t count;    /* triangles whose lowest place it has               */
+    uint32_t count;    /* triangles whose lowest slot it has               */
 } slice;
 
 typedef struct collector {
     const mw_patch_arrays *arrays;
     uint32_t *number; /* of each facet: MW_NONE: it is no triangle                                   */
-    uint32_t *next;   /* of each place: triangles whose lowest it is, then the number of the next one */
+    uint32_t *next;   /* of each slot: triangles whose lowest it is, then the number of the next one */
     slice *slices;
     int64_t slice_count;
     mw_triangle *tri;
-    const uint32_t *vertex; /* of each place: its vertex; NULL: they are the same */
+    const uint32_t *vertex; /* of each slot: its vertex; NULL: they are the same */
 } collector;
 
 static MW_INLINE uint32_t facet_lowest(const mw_facet *f)
@@ -128,7 +129,7 @@ static bool list_slices(collector *h, const mw_patches *patches)
     return true;
 }
 
-/* The slices lie in any order: that of parts. Numbers go along the places. */
+/* The slices lie in any order: that of the patches. Numbers go along the slots. */
 static int by_slot(const void *left, const void *right)
 {
     uint32_t i = ((const slice *)left)->from, j = ((const slice *)right)->from;

@@ -1,9 +1,10 @@
-/* delaunay_parts.c - divide, grow, merge.
+/* delaunay_patches.c - divide, grow, merge.
  *
- * The cells of a Hilbert curve are stretches of it, and halves and quarters of cells too: where the keys of two stretches
- * differ in a bit first, a line parallel to an axis parts the stretches. So the sorted points need not be touched to cut
- * them. Each part grows in a stretch of the facets of its own; so all can grow at the same time, and one alone stays in the
- * cache. A merge takes time in proportion to its seam and the two hulls.
+ * A cell of a Hilbert curve is an interval of the curve, and so are its halves and quarters. Two
+ * neighbouring intervals are separated by a line parallel to an axis, which the first bit tells in
+ * which their keys differ. So the sorted points can be cut into patches without moving them. Each
+ * patch grows in a range of facets of its own: all can grow at the same time, and one alone stays
+ * in the cache. A merge takes time in proportion to its seam and the two hulls.
  *
  * What is cut where depends on the points alone, and so does the result. */
 #include "triangulate/delaunay/delaunay_patches.h"
@@ -31,7 +32,8 @@ static bool add_halves(mw_patches *patches, uint32_t whole, uint32_t middle)
     return true;
 }
 
-/* All keys of the part are equal: let them be those of a curve through its own extent, along which it is sorted. */
+/* All keys of the patch are equal: let them be those of a curve through its own extent, along which
+ * it is sorted. */
 static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *keys)
 {
     uint32_t n = patch->to - patch->from;
@@ -40,7 +42,7 @@ static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *
     return keys[patch->from].key != keys[patch->to - 1].key;
 }
 
-/* The first of the part's places whose key has the highest bit in which its keys differ. */
+/* The first of the patch's slots whose key has the highest bit in which its keys differ. */
 static uint32_t find_middle(const mw_patch *patch, const mw_key *keys)
 {
     uint32_t first = keys[patch->from].key, last = keys[patch->to - 1].key;
@@ -77,7 +79,7 @@ bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, 
 
 /* --- grow --- */
 
-/* Bring three places that do not lie on one line to the front of the sequence. */
+/* Bring three slots that do not lie on one line to the front of the sequence. */
 static bool choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
 {
     uint32_t second = 1;
@@ -91,7 +93,8 @@ static bool choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
     return true;
 }
 
-/* A place merged with another is no vertex any more. Its coordinates make room for the place of its twin. */
+/* A point equal to another is no vertex. In its slot the coordinates give way to the slot of its
+ * twin. */
 static void set_twin(mw_point *point, uint32_t twin)
 {
     *point = (mw_point){NAN, twin};
@@ -117,7 +120,8 @@ static mw_growth growth_of(const mw_patch_arrays *arrays, uint32_t last, uint32_
     return g;
 }
 
-/* Make ghosts of nothing but infinity of the facets from the last that is used to those of place `to`. */
+/* Make ghosts of nothing but infinity of the facets from the last that is used to those of slot
+ * `to`. */
 static void clear_unused(const mw_growth *g, uint32_t to)
 {
     uint32_t i = g->infinity;
@@ -148,7 +152,7 @@ static void patch_grow(const mw_patch_arrays *arrays, mw_patch *patch)
 
 /* --- merge --- */
 
-/* Of two halves one has grown, the places of the other lie on a line: insert them. */
+/* Of two halves one has grown, the slots of the other lie on a line: insert them. */
 static void take_in(const mw_patch_arrays *arrays, mw_patch *patch, const mw_patch *grown, const mw_patch *flat)
 {
     uint32_t n = flat->to - flat->from, *sequence = arrays->sequence + flat->from;
@@ -178,7 +182,7 @@ static void patch_merge(const mw_patch_arrays *arrays, mw_patch *patch, const mw
     }
 }
 
-/* Parts of one rank do not depend on each other. */
+/* Patches of one rank do not depend on each other. */
 static void grow_rank(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t rank, uint32_t threads)
 {
     int64_t count = 0;

@@ -9,11 +9,12 @@
  *            apex            of directions dead on one side; what lies in a direction that is dead on both sides, far
  *                            enough away, is no candidate [Beirouti, Snoeyink 1998; Haas 2018].
  *
- * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that lie in dead directions
- * are left out whole. What is found so is tested once more against the triangles themselves and the nearest points.
- * Most vertices are closed by a few neighbours: no longer edge is left in any direction. The others, as on the hull or
- * the border of a cluster, come last, and pass by what is closed and too far away. All in rounded numbers, with
- * margins: an edge is left out only if points lie surely in both triangles. */
+ * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that
+ * lie in dead directions are left out whole. What is found so is tested once more against the
+ * triangles themselves and the nearest points. Most vertices are closed by a few neighbours: no
+ * longer edge is left in any direction. The others, as on the hull or the border of a cluster, come
+ * last, and pass by what is closed and too far away. All in rounded numbers, with margins: an edge
+ * is left out only if points lie surely in both triangles. */
 #include "triangulate/kinds/lmt.h"
 
 #include <math.h>
@@ -26,8 +27,9 @@
 #define ANGLE_MARGIN 0x1p-40
 #define LENGTH_MARGIN 0x1p-40
 
-/* Scaling rounds coordinates below 2^-1022 and squares and products below it, by at most 2^-1074. A difference of
- * SHARP, and a square or product of TINY, are far enough above that to be as right as others. */
+/* Scaling rounds coordinates below 2^-1022 and squares and products below it, by at most 2^-1074. A
+ * difference of SHARP, and a square or product of TINY, are far enough above that to be as right as
+ * others. */
 #define SHARP 0x1p-900
 #define TINY 0x1p-1000
 
@@ -40,7 +42,7 @@ typedef struct seek_box {
 } seek_box;
 
 typedef struct seek_item {
-    double square; /* of the distance: of a box, to its nearest place */
+    double square; /* of the distance: of a box, to its nearest point */
     uint32_t number;
     bool is_box;
 } seek_item;
@@ -94,7 +96,8 @@ static double seeker_coordinate(const seeker *s, uint32_t i, int axis)
     return axis == 0 ? p.x : p.y;
 }
 
-/* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare 1961]. */
+/* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare
+ * 1961]. */
 static void select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_t middle, int axis)
 {
     int64_t low = begin, high = (int64_t)end - 1;
@@ -237,7 +240,8 @@ static bool all_dead(const seeker *s, double from, double to)
     return all_dead(s, from, PI) && all_dead(s, -PI, to);
 }
 
-/* The points at less than the square of a distance, divided by 2 cos a, make their directions dead from there on. */
+/* The points at less than the square of a distance, divided by 2 cos a, make their directions dead
+ * from there on. */
 static void seeker_activate(seeker *s, double square)
 {
     for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch + TINY < square; s->active++) {
@@ -247,7 +251,8 @@ static void seeker_activate(seeker *s, double square)
     }
 }
 
-/* Do all directions from p to the box lie between dead ones? Its outermost corners, seen from p, tell. */
+/* Do all directions from p to the box lie between dead ones? Its outermost corners, seen from p,
+ * tell. */
 static bool is_hidden(const seeker *s, mw_point p, const seek_box *b)
 {
     double x0 = b->low[0] - p.x, x1 = b->high[0] - p.x, y0 = b->low[1] - p.y, y1 = b->high[1] - p.y;
@@ -302,7 +307,8 @@ static bool diamond_point_is_between(mw_point a, mw_point b, mw_point c)
            mw__orient2d(a, b, c) == 0;
 }
 
-/* Is a point near by on the way from p to q, or do such points lie surely in both triangles of that edge? */
+/* Is a point near by on the way from p to q, or do such points lie surely in both triangles of that
+ * edge? */
 static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double square)
 {
     const mw_point *point = s->points->point;
@@ -321,15 +327,17 @@ static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, d
     return left && right;
 }
 
-/* Is u the way from p to q, but for what rounding did to its last bits? Where the coordinates of all points span more
- * than doubles can once they are scaled, it need not be: points that differ may even come to the same place. */
+/* Is u the way from p to q, but for what rounding did to its last bits? Where the coordinates of
+ * all points span more than doubles can once they are scaled, it need not be: points that differ
+ * may even become equal. */
 static bool is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u)
 {
     mw_point from = s->points->point[p], to = s->points->point[q];
     return (fabs(u.x) >= SHARP || from.x == to.x) && (fabs(u.y) >= SHARP || from.y == to.y);
 }
 
-/* Visit a point; is the edge to it a candidate? One that is not sharp may be, and rules out nothing. */
+/* Visit a point; is the edge to it a candidate? One that is not sharp may be, and rules out
+ * nothing. */
 static bool seeker_visit(seeker *s, uint32_t p, seek_item it)
 {
     mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};

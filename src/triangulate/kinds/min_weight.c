@@ -1,17 +1,20 @@
-/* min_weight.c - triangulation of least weight: the LMT skeleton [Dickerson, Keil, Montague 1997], then the faces it
- * leaves.
+/* min_weight.c - triangulation of least weight: the LMT skeleton [Dickerson, Keil, Montague 1997],
+ * then the faces it leaves.
  *
- * Everything hangs on one triangulation T. It is the greedy triangulation, made locally minimal: each edge that is the
- * longer diagonal of a strictly convex quadrilateral is exchanged for the other. The candidates are the edges with the
- * diamond property and those of T. An edge of T is never removed from them: its two triangles in T keep it, and their
- * sides keep each other. So a candidate that no other one crosses is in T, and the skeleton is what is left of T when
- * each candidate that is not in it has walked through T from one end to the other and marked the edges that it crosses.
+ * Everything hangs on one triangulation T. It is the greedy triangulation, made locally minimal:
+ * each edge that is the longer diagonal of a strictly convex quadrilateral is exchanged for the
+ * other. The candidates are the edges with the diamond property and those of T. An edge of T is
+ * never removed from them: its two triangles in T keep it, and their sides keep each other. So a
+ * candidate that no other one crosses is in T, and the skeleton is what is left of T when each
+ * candidate that is not in it has walked through T from one end to the other and marked the edges
+ * that it crosses.
  *
- * A face is then a set of triangles of T, joined across marked edges. Where these edges join them to a tree, the face
- * is a polygon (its border may touch itself, as where an edge of the skeleton ends inside), all candidates that cross
- * it are known, with the corners where they begin and end, and dynamic programming finds its least weight. Where they
- * make rings, the face holds vertices or parts of the skeleton. It is cut open along as many edges of T as there are
- * rings: the same gives the least weight with these edges, which is a local optimum. Faces that are too large stay as
+ * A face is then a set of triangles of T, joined across marked edges. Where these edges join them
+ * to a tree, the face is a polygon (its border may touch itself, as where an edge of the skeleton
+ * ends inside), all candidates that cross it are known, with the corners where they begin and end,
+ * and dynamic programming finds its least weight. Where they make rings, the face holds vertices or
+ * parts of the skeleton. It is cut open along as many edges of T as there are rings: the same gives
+ * the least weight with these edges, which is a local optimum. Faces that are too large stay as
  * they are in T. */
 #include "mesh/connect.h"
 #include "triangulate/kinds/kind_maker.h"
@@ -20,7 +23,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What may be spent, for some seconds each: on finding candidates, on reducing them and on their walks; on faces. */
+/* What may be spent, for some seconds each: on finding candidates, on reducing them and on their
+ * walks; on faces. */
 #define STEPS_AT_LEAST (UINT64_C(1) << 29)
 #define STEPS_PER_POINT 5000
 #define CANDIDATES_AT_LEAST (UINT64_C(1) << 21)
@@ -28,7 +32,8 @@
 #define FACE_STEPS (UINT64_C(1) << 32)
 #define LIMIT_THAT_COUNTS (UINT32_C(1) << 20) /* the cube of more would not be a number of steps */
 
-/* A candidate that is not in T: where it leaves the first triangle and comes to the last, as triangle and corner. */
+/* A candidate that is not in T: where it leaves the first triangle and comes to the last, as
+ * triangle and corner. */
 typedef struct weigher_crossing {
     uint32_t from, to;
     uint32_t next; /* of those with the same first triangle, or MW_NONE */
@@ -79,8 +84,8 @@ static void set_mark(const weigher *w, uint32_t half)
 
 /* --- locally minimal --- */
 
-/* Exchange the edge `half` for the other diagonal. The new triangles have their edges where they were, so that the four
- * around are edges 1 and 2 of one and of the other. */
+/* Exchange the edge `half` for the other diagonal. The new triangles have their edges where they
+ * were, so that the four around are edges 1 and 2 of one and of the other. */
 static void half_exchange(const weigher *w, uint32_t half)
 {
     uint32_t twin = mw__half_link(w->t->tri, half), a = mw__half_start(w->t->tri, half),
@@ -144,7 +149,8 @@ static void index_vertices(weigher *w)
 
 /* --- candidates and their walks --- */
 
-/* The half-edge from u in the triangle that the way to v leaves through; MW_NONE if it leaves along an edge. */
+/* The half-edge from u in the triangle that the way to v leaves through; MW_NONE if it leaves along
+ * an edge. */
 static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *steps)
 {
     uint32_t t = w->at[u], k = 0;
@@ -339,7 +345,8 @@ static bool stays_inside(const weigher *w, const weigher_crossing *way)
     return false;
 }
 
-/* Number the corners along the border: at each vertex, turn through the face from edge to edge of the border. */
+/* Number the corners along the border: at each vertex, turn through the face from edge to edge of
+ * the border. */
 static void number_corners(weigher *w, const skeleton_face *f)
 {
     uint32_t half = MW_NONE, number = 0;
