@@ -71,8 +71,9 @@ static void *alloc_aligned(size_t alignment, size_t bytes)
     return aligned_alloc(alignment, (bytes / alignment + 1) * alignment);
 }
 
-/* Queries come to any place of an array: with pages of 4 KiB nearly every miss of the cache is one of the table of pages,
- * too. So where an array fills some, large pages are asked for; a system that has none to give need not hear. */
+/* Queries read arrays at random positions: with pages of 4 KiB nearly every miss of the cache is
+ * one of the table of pages, too. So where an array fills some, large pages are asked for; a system
+ * that has none to give need not hear. */
 void *mw__alloc_lines(size_t count, size_t size)
 {
     enum { LINE = 64, PAGE = 1 << 21, PAGES = 2 };

@@ -11,7 +11,7 @@ enum {
 };
 
 /* 0: not known. */
-static size_t second_level(void)
+static size_t second_level_bytes(void)
 {
 #ifdef _SC_LEVEL2_CACHE_SIZE
     long bytes = sysconf(_SC_LEVEL2_CACHE_SIZE);
@@ -20,7 +20,7 @@ static size_t second_level(void)
     return 0;
 }
 
-static size_t third_level(void)
+static size_t third_level_bytes(void)
 {
 #ifdef _SC_LEVEL3_CACHE_SIZE
     long bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
@@ -29,11 +29,12 @@ static size_t third_level(void)
     return 0;
 }
 
-/* The third level is told as a whole, some systems tell that of all processors together; a core's share of it is not. It is eight
- * second-level caches or so: 256 KiB and 2 MiB, 512 KiB and 4 MiB, 2 MiB and 16 MiB. */
+/* The third level is told as a whole, some systems tell that of all processors together; a core's
+ * share of it is not. It is eight second-level caches or so: 256 KiB and 2 MiB, 512 KiB and 4 MiB,
+ * 2 MiB and 16 MiB. */
 mw_caches mw__caches(void)
 {
-    size_t second = second_level(), third = third_level();
+    size_t second = second_level_bytes(), third = third_level_bytes();
     if (second == 0) second = SECOND;
     size_t share = SHARE * second;
     return (mw_caches){.second = second, .reach = third >= second && third < share ? third : share};

@@ -1,12 +1,13 @@
-/* hilbert.c - the Hilbert curve of order 16 by a table of 4 states, two bits of key a step and four steps at a time, and
- * a radix sort of the 32-bit keys. */
+/* hilbert.c - the Hilbert curve of order 16 by a table of 4 states, two bits of key a step and four
+ * steps at a time, and a radix sort of the 32-bit keys. */
 #include "base/hilbert.h"
 
 #include <string.h>
 
-/* The curve in a quadrant is the curve mirrored at a diagonal or not: state 0 starts at the lower left and ends at the
- * lower right, 1 is its mirror image at the diagonal, 2 and 3 are 0 and 1 turned by 180 degrees.
- * step[state][2 * x + y] = 4 * next state + rank of the quadrant on the curve. */
+/* The curve in a quadrant is the curve mirrored at a diagonal or not: state 0 starts at the lower
+ * left and ends at the lower right, 1 is its mirror image at the diagonal, 2 and 3 are 0 and 1
+ * turned by 180 degrees. step[state][2 * x + y] = 4 * next state + rank of the quadrant on the
+ * curve. */
 static const uint8_t step[4][4] = {
     {4 * 1 + 0, 4 * 0 + 1, 4 * 3 + 3, 4 * 0 + 2},
     {4 * 0 + 0, 4 * 2 + 3, 4 * 1 + 1, 4 * 1 + 2},

@@ -6,8 +6,9 @@
 
 #define MW_HILBERT_CELLS (1 << 16) /* along each side */
 
-/* Maps coordinates of an extent to the 2^16 x 2^16 cells of a curve. `leap` follows the curve four levels at a time:
- * leap[state][16 * x + y] = 256 * next state + rank, for four bits of x and of y. */
+/* Maps coordinates of an extent to the 2^16 x 2^16 cells of a curve. `leap` follows the curve four
+ * levels at a time: leap[state][16 * x + y] = 256 * next state + rank, for four bits of x and of
+ * y. */
 typedef struct mw_hilbert {
     double x0, y0, scale;
     uint16_t leap[4][256];
@@ -22,7 +23,8 @@ static MW_INLINE uint32_t mw__hilbert_cell(double offset)
     return offset > 0 ? offset < MW_HILBERT_CELLS - 1 ? (uint32_t)offset : MW_HILBERT_CELLS - 1 : 0;
 }
 
-/* Position of the cell of x, y along the curve; points outside the extent, and NaN, are moved to its rim. */
+/* Position of the cell of x, y along the curve; points outside the extent, and NaN, are moved to
+ * its border. */
 static MW_INLINE uint32_t mw__hilbert_key(const mw_hilbert *hilbert, double x, double y)
 {
     uint32_t column = mw__hilbert_cell((x - hilbert->x0) * hilbert->scale);

@@ -1,4 +1,5 @@
-/* random.h - small random numbers: splitmix64 [Steele, Lea, Flood 2014]; a coin for walks. Private. */
+/* random.h - small random numbers: splitmix64 [Steele, Lea, Flood 2014]; a coin for walks.
+ * Private. */
 #ifndef MW_SRC_RANDOM_H
 #define MW_SRC_RANDOM_H
 
@@ -22,13 +23,15 @@ static MW_INLINE uint64_t mw__random_seed(uint64_t seed, uint64_t index)
     return mw__mix(seed + UINT64_C(0x9e3779b97f4a7c15) * (index + 1));
 }
 
-/* A number below n (n > 0), from the upper bits [Lemire 2019, without the rejection: bias below n / 2^32]. */
+/* A number below n (n > 0), from the upper bits [Lemire 2019, without the rejection: bias below n /
+ * 2^32]. */
 static MW_INLINE uint32_t mw__random_below(uint64_t *state, uint32_t n)
 {
     return (uint32_t)(((mw__random(state) >> 32) * n) >> 32);
 }
 
-/* A coin of 32 bits, by xorshift64 [Marsaglia 2003]: the state is never 0, the upper bits are the good ones. */
+/* A coin of 32 bits, by xorshift64 [Marsaglia 2003]: the state is never 0, the upper bits are the
+ * good ones. */
 static MW_INLINE uint64_t mw__toss(uint64_t *state)
 {
     uint64_t x = *state | 1u << 7;

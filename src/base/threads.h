@@ -8,7 +8,8 @@
 #include <omp.h>
 #endif
 
-/* Threads for `chunks` chunks of work: as many as asked for, 0 as OpenMP gives, but none without work. */
+/* Threads for `chunks` chunks of work: as many as asked for, 0 as OpenMP gives, but none without
+ * work. */
 static inline int mw__team(uint32_t asked, int64_t chunks)
 {
 #ifdef _OPENMP

@@ -1,6 +1,8 @@
-/* batch.c - many queries: pieces that are sorted at a time, chunks for the threads within a piece.
+/* batch.c - many queries. A block of them is sorted at a time; within a block the threads take
+ * chunks.
  *
- * Counters do not depend on the threads: chunks have a fixed size, and a chunk knows nothing of the one before it. */
+ * Counters do not depend on the threads: chunks have a fixed size, and a chunk knows nothing of the
+ * one before it. */
 #include "batch/batch.h"
 
 #include "base/random.h"
@@ -10,10 +12,10 @@
 
 enum {
     CHUNK = 1 << 14, /* queries that one thread takes at a time  */
-    PIECE = 1 << 22  /* queries sorted at a time: 64 MiB of keys */
+    BLOCK = 1 << 22  /* queries sorted at a time: 64 MiB of keys */
 };
 
-static void answer_piece(const mw_batch *batch, uint32_t n, uint32_t threads, mw_counters *sum)
+static void block_answer(const mw_batch *batch, uint32_t n, uint32_t threads, mw_counters *sum)
 {
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
     int team = mw__team(threads, chunks);
@@ -33,19 +35,19 @@ static void answer_piece(const mw_batch *batch, uint32_t n, uint32_t threads, mw
 
 mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters *counters, mw_error *error)
 {
-    size_t piece = n < PIECE ? n : PIECE;
-    mw_key *keys = batch->sort ? mw__alloc_lines(2 * piece, sizeof *keys) : NULL;
+    size_t block = n < BLOCK ? n : BLOCK;
+    mw_key *keys = batch->sort ? mw__alloc_lines(2 * block, sizeof *keys) : NULL;
     if (batch->sort && !keys) return mw__fail_memory(error);
     batch->order = keys;
     uint64_t seed = batch->seed;
     mw_counters sum = {0};
-    for (size_t done = 0; done < n; done += piece) {
-        if (n - done < piece) piece = n - done;
+    for (size_t done = 0; done < n; done += block) {
+        if (n - done < block) block = n - done;
         batch->seed = mw__random_seed(seed, done);
-        if (batch->sort) batch->sort(batch, piece, keys, keys + piece);
-        answer_piece(batch, (uint32_t)piece, threads, &sum);
-        batch->points += piece * batch->stride;
-        batch->locations += piece;
+        if (batch->sort) batch->sort(batch, block, keys, keys + block);
+        block_answer(batch, (uint32_t)block, threads, &sum);
+        batch->points += block * batch->stride;
+        batch->locations += block;
     }
     free(keys);
     if (counters) *counters = sum;

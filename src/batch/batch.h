@@ -1,5 +1,5 @@
-/* batch.h - what batches of queries have in common: pieces, sorted along a curve or not, and chunks for the
- * threads. Private. */
+/* batch.h - what batches of queries have in common: blocks, each sorted along a curve or not, and
+ * chunks of a block for the threads. Private. */
 #ifndef MW_SRC_BATCH_H
 #define MW_SRC_BATCH_H
 
@@ -9,8 +9,9 @@
 
 #define MW_SORT_WORTHWHILE 64 /* fewer queries are not sorted by `auto` */
 
-/* First member of what a room knows of its batch. Points, locations and seed are those of one piece while it is
- * answered; its queries are numbered from 0, and the random numbers of a query come from the seed and its number. */
+/* First member of what a room knows of its batch. Points, locations and seed are those of one block
+ * while it is answered; its queries are numbered from 0, and the random numbers of a query come
+ * from the seed and its number. */
 typedef struct mw_batch mw_batch;
 struct mw_batch {
     const double *points;
@@ -25,7 +26,8 @@ struct mw_batch {
     mw_counters (*answer)(const mw_batch *batch, uint32_t first, uint32_t count);
 };
 
-/* Answer n queries. threads: 0 = what OpenMP gives. What was done goes to *counters unless that is NULL. */
+/* Answer n queries. threads: 0 = what OpenMP gives. What was done goes to *counters unless that is
+ * NULL. */
 mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters *counters, mw_error *error);
 
 #endif

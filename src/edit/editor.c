@@ -3,7 +3,7 @@
 
 #include "tiling/tiling_create.h"
 #include "edit/dynamic_tiling_memory.h"
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "edit/flip.h"
 #include "edit/journal.h"
 #include "edit/operations.h"
@@ -233,7 +233,7 @@ static uint32_t insertion_first_tile(mw_editor *editor, mw_point q)
 {
     const mw_locator *locator = &editor->locator;
     const uint32_t last = editor->dynamic.last;
-    editor->guide_led_far = editor->guide_led_far && mw__is_close(locator, last, q);
+    editor->guide_led_far = editor->guide_led_far && mw__locator_is_close(locator, last, q);
     return MW_UNLIKELY(editor->guide_led_far) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
 }
 
@@ -245,8 +245,8 @@ static mw_status editor_insert_at(mw_editor *editor, mw_point q, uint32_t t, uin
     if (t != MW_NONE) return mw__dynamic_insert(f, q, t, slot, error);
     t = insertion_first_tile(editor, q);
     if (editor->upkeep.large) {
-        mw__fetch_tiles_round(f->tiling, t);
-        mw__fetch_points_round(f->tiling, f->tiling->tri[t].v[0]);
+        mw__prefetch_tiles_round(f->tiling, t);
+        mw__prefetch_points_round(f->tiling, f->tiling->tri[t].v[0]);
     }
     mw_status status = mw__dynamic_insert(f, q, t, slot, error);
     editor->guide_led_far |= f->walked > FAR;
@@ -298,8 +298,8 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
     if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
     change->vertex = edit->vertex;
     if (editor->upkeep.large) {
-        mw__fetch_points_round(f->tiling, v);
-        mw__fetch_tiles_round(f->tiling, f->tiling->tile_at[v]);
+        mw__prefetch_points_round(f->tiling, v);
+        mw__prefetch_tiles_round(f->tiling, f->tiling->tile_at[v]);
     }
     if (edit->kind == MW_EDIT_REMOVE) {
         change->vertices_freed = 1;
@@ -307,7 +307,7 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
     }
     if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     mw_point q = {edit->x, edit->y};
-    return mw__dynamic_move(f, v, q, mw__guided(&editor->locator, f->tiling->tile_at[v], q), error);
+    return mw__dynamic_move(f, v, q, mw__locator_guided_tile(&editor->locator, f->tiling->tile_at[v], q), error);
 }
 
 static mw_status change_edge(mw_dynamic_tiling *f, const mw_edit *edit, mw_change *change, mw_error *error)

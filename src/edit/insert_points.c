@@ -2,12 +2,12 @@
  * all. */
 #include "edit/editor.h"
 #include "edit/dynamic_tiling_memory.h"
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "edit/cavity.h"
 #include "edit/journal.h"
 
 #include "mesh/point_order.h"
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "walk/remembering_fast.h"
 
 #include <stdlib.h>
@@ -96,7 +96,7 @@ static MW_INLINE void prefetch_corners(const mw_tiling *tiling, const upcoming_p
     const mw_triangle *tile = &tiling->tri[one->tile];
     for (int k = 0; k < 3; k++) {
         __builtin_prefetch(&tiling->point[tile->v[k]]);
-        mw__fetch_tile(tiling, tile->link[k]);
+        mw__prefetch_tile(tiling, tile->link[k]);
     }
 }
 
@@ -109,8 +109,8 @@ static MW_INLINE void lookahead_step_nearer(const mw_tiling *tiling, upcoming_po
     one->tile = mw__link_triangle(link);
     const mw_triangle *tile = &tiling->tri[one->tile];
     __builtin_prefetch(&tiling->point[tile->v[mw__prev(e)]]);
-    mw__fetch_tile(tiling, tile->link[mw__next(e)]);
-    mw__fetch_tile(tiling, tile->link[mw__prev(e)]);
+    mw__prefetch_tile(tiling, tile->link[mw__next(e)]);
+    mw__prefetch_tile(tiling, tile->link[mw__prev(e)]);
 }
 
 static MW_INLINE void prefetch_beyond(const mw_tiling *tiling, const upcoming_point *one)
@@ -123,8 +123,8 @@ static MW_INLINE void prefetch_beyond(const mw_tiling *tiling, const upcoming_po
         uint32_t e = mw__link_edge(tile->link[k]);
         __builtin_prefetch(&tiling->point[other->v[mw__prev(e)]]);
         __builtin_prefetch(&tiling->tile_at[other->v[mw__prev(e)]], 1);
-        mw__fetch_tile(tiling, other->link[mw__next(e)]);
-        mw__fetch_tile(tiling, other->link[mw__prev(e)]);
+        mw__prefetch_tile(tiling, other->link[mw__next(e)]);
+        mw__prefetch_tile(tiling, other->link[mw__prev(e)]);
     }
 }
 
@@ -132,8 +132,8 @@ static MW_INLINE void prefetch_beyond(const mw_tiling *tiling, const upcoming_po
 static MW_INLINE void prefetch_far(const lookahead *look, size_t i)
 {
     const mw_tiling *tiling = &look->editor->locator.tiling;
-    mw__fetch_tiles_round(tiling, look->upcoming[(i + NAMED) % AHEAD].tile);
-    mw__fetch_points_round(tiling, tiling->tri[look->upcoming[(i + CORNERS) % AHEAD].tile].v[0]);
+    mw__prefetch_tiles_round(tiling, look->upcoming[(i + NAMED) % AHEAD].tile);
+    mw__prefetch_points_round(tiling, tiling->tri[look->upcoming[(i + CORNERS) % AHEAD].tile].v[0]);
     prefetch_beyond(tiling, &look->upcoming[(i + BEYOND) % AHEAD]);
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "edit/journal.h"
-#include "locate/spread.h"
+#include "locate/batch_profile.h"
 
 /* --- building --------------------------------------------------------------------------------- */
 
@@ -89,8 +89,8 @@ static bool build_guide(mw_upkeep *u)
 {
     mw_index fresh;
     const mw_caches caches = mw__caches();
-    mw__locator_survey(u->locator);
-    u->large = mw__room_of_all(u->locator, &caches) == MW_ROOM_BEYOND;
+    mw__locator_measure(u->locator);
+    u->large = mw__cache_level_of_mesh(u->locator, &caches) == MW_CACHE_NONE;
     staleness_reset(u, MW_START_AUTO);
     bool done = mw__locator_guide(u->locator, &fresh);
     if (done) {
@@ -142,13 +142,13 @@ static void upkeep_refresh(mw_upkeep *u, mw_start_kind start)
 
 /* --- grids ------------------------------------------------------------------------------------ */
 
-static void grid_put(mw_index *index, const mw_entry *e)
+static void grid_put(mw_index *index, const mw_cell_entry *e)
 {
     if (index->start == MW_START_GRID) mw__lattice_put(&index->grid.lattice, index->grid.tile, e);
     if (index->start == MW_START_TWO_LEVEL_GRID) mw__two_level_grid_put(&index->two_level_grid, e);
 }
 
-static void grids_put(mw_upkeep *u, const mw_entry *e)
+static void grids_put(mw_upkeep *u, const mw_cell_entry *e)
 {
     grid_put(&u->index[MW_START_GRID], e);
     grid_put(&u->index[MW_START_TWO_LEVEL_GRID], e);
@@ -162,7 +162,7 @@ bool mw__upkeep_needs_report(const mw_upkeep *u)
 static void note_tile(mw_upkeep *u, uint32_t t)
 {
     const mw_tiling *tiling = u->dynamic->tiling;
-    grids_put(u, &(mw_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
+    grids_put(u, &(mw_cell_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
 }
 
 /* Put the tiles that an edit changed, as they are now, into the grids. The guide keeps the names it
@@ -239,7 +239,7 @@ static void redirect_names(mw_upkeep *u, const mw_journal_step *step, const mw_j
             bool moved = gone->v[k] == step->vertex && step->edit.kind == MW_EDIT_MOVE;
             p[k] = moved ? (mw_point){step->edit.x, step->edit.y} : tiling->point[gone->v[k]];
         }
-        const mw_entry e = {.p = mw__middle(p[0], p[1], p[2]), .name = heir, .anyway = true};
+        const mw_cell_entry e = {.p = mw__middle(p[0], p[1], p[2]), .name = heir, .anyway = true};
         grid_put(&u->locator->guide, &e);
         grids_put(u, &e);
     }

@@ -1,34 +1,34 @@
 /* fast_path.h - the fast path of queries: which may take it, and the answer at its end. Private.
  *
  * Nearly every query walks over a few tiles and ends inside a triangle of the user's, and rounded
- * areas are sure of each turn. Such a query takes the remembering walk in one of its fast forms: one
- * query by walk/remembering_fast.h (query.c), a batch by walk/remembering_vector.h (interleaved.c).
- * Their last areas are the weights, so that the answer is written at once. All else - q on an edge
- * or nearly so, thin tiles, ways that are long - goes on by the walk of the cursor, from the tile
- * where it is met, and by the exact conclusion. */
+ * areas are sure of each turn. Such a query takes the remembering walk in one of its fast forms:
+ * one query by walk/remembering_fast.h (query.c), a batch by walk/remembering_vector.h
+ * (interleaved.c). Their last areas are the weights, so that the answer is written at once. All
+ * else - q on an edge or nearly so, thin tiles, ways that are long - goes on by the walk of the
+ * cursor, from the tile where it is met, and by the exact conclusion. */
 #ifndef MW_SRC_FAST_PATH_H
 #define MW_SRC_FAST_PATH_H
 
 #include "locate/location.h"
 #include "walk/remembering_fast.h"
 
-/* May these queries take the fast path? They are exact and not counted, on a tiling that is neither open
- * nor cut. MW_WALK_AUTO leaves the choice: there the remembering walk may be tried, whatever the walk
- * of the cursor. */
+/* May these queries take the fast path? They are exact and not counted, on a tiling that has its
+ * ghosts and no cut triangles. MW_WALK_AUTO leaves the choice: there the remembering walk may be
+ * tried, whatever the walk of the cursor. */
 static MW_INLINE bool mw__has_fast_path(const mw_tiling *tiling, const mw_query_options *options)
 {
     return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && !options->counters &&
            options->arithmetic == MW_EXACT && !tiling->border_loops && !tiling->cut;
 }
 
-/* Write the answer of a fast walk that has ended in no triangle of the user's: inside the ghost `tile`
- * or, if it left, beyond an edge of it that is on the hull. False: it needs the exact conclusion, or
- * the border nearby. */
-static MW_INLINE bool mw__fast_outside(const mw_tiling *tiling, const mw_cursor *cursor, const mw_triangle *tile,
-                                       bool inside, bool left, mw_location *location)
+/* Write the answer of a fast walk that has ended in no triangle of the user's: inside the ghost
+ * `tile` or, if it left, beyond an edge of it that is on the hull. False: it needs the exact
+ * conclusion, or the border nearby. */
+static MW_INLINE bool mw__fast_path_outside(const mw_tiling *tiling, const mw_cursor *cursor, const mw_triangle *tile,
+                                            bool inside, bool left, mw_location *location)
 {
     if (cursor->tolerance > 0 || !tiling->embedding || !(inside || left)) return false;
-    mw__put_in_none(location, inside ? tile->user : 0);
+    mw__location_write_outside(location, inside ? tile->user : 0);
     return true;
 }
 

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-static mw_status build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
-                              mw_error *error)
+static mw_status index_build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
+                                    mw_error *error)
 {
     mw_layers_options own = {
         .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
@@ -22,7 +22,7 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, options->cells);
         break;
     case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, options->cells); break;
-    case MW_START_LAYERS: return build_layers(&index->layers, tiling, options, error);
+    case MW_START_LAYERS: return index_build_layers(&index->layers, tiling, options, error);
     default: break;
     }
     return done ? MW_OK : mw__fail_memory(error);
@@ -77,14 +77,15 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
     }
 }
 
-/* A curve holds places of tiles. A tile of this tiling, where it is of another one, or this one has changed. */
-static MW_INLINE uint32_t within(const mw_tiling *tiling, uint32_t t)
+/* A curve holds slots of tiles. If it was made from another tiling, or this one has changed, reduce
+ * a slot to one that exists. */
+static MW_INLINE uint32_t tile_within(const mw_tiling *tiling, uint32_t t)
 {
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
 }
 
-/* The name of the first tile; of a curve, its place. */
-static MW_INLINE uint32_t first_name(const mw_index *index, mw_point q)
+/* The name of the first tile; of a curve, its slot. */
+static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
 {
     switch (index->start) {
     case MW_START_GRID: return mw__grid_first(&index->grid, q);
@@ -96,15 +97,16 @@ static MW_INLINE uint32_t first_name(const mw_index *index, mw_point q)
 
 uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
-    const uint32_t name = first_name(index, q);
-    return index->start == MW_START_CURVE ? within(tiling, name) : mw__tile_named(tiling, name);
+    const uint32_t name = index_first_name(index, q);
+    return index->start == MW_START_CURVE ? tile_within(tiling, name) : mw__tile_named(tiling, name);
 }
 
-/* Where most tiles have their place as number, which is to be seen by the tile, wanted next, nothing else has to come from memory. */
+/* In most tilings a tile's slot is its number. The tile itself shows whether it is, and is needed
+ * next anyway: then nothing else has to be read from memory. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
-    const uint32_t name = first_name(index, q);
-    if (index->start == MW_START_CURVE) return within(tiling, name);
+    const uint32_t name = index_first_name(index, q);
+    if (index->start == MW_START_CURVE) return tile_within(tiling, name);
     if (tiling->slots_are_numbers && mw__slot_is_number(tiling, name)) return name;
     return mw__tile_named(tiling, name);
 }
@@ -132,7 +134,8 @@ static void two_level_grid_first_many(const mw_two_level_grid *grid, const mw_po
     for (uint32_t i = 0; i < n; i++) t[i] = mw__two_level_grid_first(grid, q[i]);
 }
 
-/* Cells that are crowded leave their points to the curve: these are moved up, and afterwards put in their places. */
+/* Cells that are crowded leave their points to the curve: those points are gathered, looked up
+ * together, and their tiles written back where they belong. */
 static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t n, uint32_t *t)
 {
     uint32_t left[MW_INDEX_MANY], key[MW_INDEX_MANY], count = 0;
@@ -148,7 +151,7 @@ static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t 
 }
 
 /* From names to tiles. */
-static void resolve_many(const mw_tiling *tiling, uint32_t n, uint32_t *t)
+static void names_resolve_many(const mw_tiling *tiling, uint32_t n, uint32_t *t)
 {
     for (uint32_t i = 0; i < n; i++)
         if (t[i] < tiling->number_count) __builtin_prefetch(&tiling->tile_of[t[i]]);
@@ -163,9 +166,9 @@ void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const 
     case MW_START_CURVE: curve_first_many(&index->curve, q, n, t); break;
     default: break;
     }
-    if (MW_UNLIKELY(tiling->tile_of && index->start != MW_START_CURVE)) resolve_many(tiling, n, t);
+    if (MW_UNLIKELY(tiling->tile_of && index->start != MW_START_CURVE)) names_resolve_many(tiling, n, t);
     for (uint32_t i = 0; i < n; i++) {
-        t[i] = within(tiling, t[i]);
+        t[i] = tile_within(tiling, t[i]);
         __builtin_prefetch(&tiling->tri[t[i]]);
     }
 }

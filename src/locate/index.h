@@ -21,7 +21,8 @@ struct mw_index {
     };
 };
 
-/* Build what the start of an index, which is set, is made of, for a tiling of this extent; on failure it may be released. */
+/* Build what the start of an index, which is set, is made of, for a tiling of this extent; on
+ * failure it may be released. */
 mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
                           const mw_index_options *options, mw_error *error);
 
@@ -29,18 +30,21 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
 void mw__index_release(mw_index *index);
 size_t mw__index_bytes(const mw_index *index);
 
-/* The first tile for q: a tile of this tiling, whatever mesh the index was made from. Not for layers. */
+/* The first tile for q: a tile of this tiling, whatever mesh the index was made from. Not for
+ * layers. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q);
-/* The same, without a look at that tile: where it has yet to be asked of memory, and is wanted later. */
+/* The same, without a look at that tile: where it has yet to be asked of memory, and is wanted
+ * later. */
 uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q);
 
-/* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was made from. What walking
- * through the index did is added to *work, if the cursor counts. */
+/* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was
+ * made from. What walking through the index did is added to *work, if the cursor counts. */
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work);
 
 #define MW_INDEX_MANY 64
 
-/* The first tiles for n points, at most MW_INDEX_MANY. The look-ups wait for memory together, not one after the other. Not for layers. */
+/* The first tiles for n points, at most MW_INDEX_MANY. The look-ups wait for memory together, not
+ * one after the other. Not for layers. */
 void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q, uint32_t n, uint32_t *t);
 
 #endif

@@ -20,29 +20,29 @@ enum {
 };
 
 /* Lanes that step together. */
-typedef struct group {
+typedef struct lane_group {
     mw_vector_walk walk;
     uint32_t query[LANES], begun[LANES]; /* number of the query, MW_NONE; lap in which it began */
-    uint32_t next[LANES], end[LANES];    /* chained: what is left of the lane's stretch         */
+    uint32_t next[LANES], end[LANES];    /* chained: what is left of the lane's range           */
     uint32_t alive;
-} group;
+} lane_group;
 
 /* What all lanes share. */
-typedef struct schedule {
+typedef struct lane_schedule {
     const mw_interleaved *of;
     uint32_t next, end;                 /* not chained: what has no first tile yet */
     uint32_t lap, most_laps;            /* so far; a walk of so many is long: looked for every MW_FAST_STEPS laps */
     uint32_t ready_next, ready_count;   /* queries that have their first tile: the next, and how many there are */
     uint32_t query[READY], tile[READY]; /* these queries */
     mw_point q[READY];
-} schedule;
+} lane_schedule;
 
-/* --- where queries begin ------------------------------------------------------------------------------------------ */
+/* --- where queries begin --- */
 
 static uint32_t query_tile(const mw_interleaved *of, mw_point q, uint32_t query)
 {
     uint64_t random = mw__random_seed(of->queries->seed, query);
-    return mw__first_tile(of->locator, of->cursor, of->chained ? MW_NONE : of->cursor->last, q, &random, NULL);
+    return mw__query_first_tile(of->locator, of->cursor, of->chained ? MW_NONE : of->cursor->last, q, &random, NULL);
 }
 
 /* Point of a query; one that is no point is answered at once, and false returned. */
@@ -51,12 +51,12 @@ static MW_INLINE bool query_point(const mw_interleaved *of, uint32_t query, mw_p
     const double *at = &of->queries->points[query * of->queries->stride];
     *q = (mw_point){at[0], at[1]};
     if (MW_LIKELY(isfinite(q->x) && isfinite(q->y))) return true;
-    mw__put_nowhere(&of->queries->locations[query], MW_BAD, MW_NONE);
+    mw__location_write_nowhere(&of->queries->locations[query], MW_BAD, MW_NONE);
     return false;
 }
 
 /* Give the next queries their first tiles. */
-static void schedule_refill(schedule *s)
+static void schedule_refill(lane_schedule *s)
 {
     const mw_interleaved *of = s->of;
     const mw_index *index = of->cursor->index;
@@ -73,7 +73,8 @@ static void schedule_refill(schedule *s)
         for (uint32_t i = 0; i < n; i++) s->tile[i] = query_tile(of, s->q[i], s->query[i]);
 }
 
-static MW_INLINE void lane_set(const schedule *s, group *g, uint32_t k, mw_point q, uint32_t query, uint32_t t)
+static MW_INLINE void lane_set(const lane_schedule *s, lane_group *g, uint32_t k, mw_point q, uint32_t query,
+                               uint32_t t)
 {
     g->walk.x[k] = q.x;
     g->walk.y[k] = q.y;
@@ -82,8 +83,9 @@ static MW_INLINE void lane_set(const schedule *s, group *g, uint32_t k, mw_point
     g->begun[k] = s->lap;
 }
 
-/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their way. */
-static MW_INLINE void fetch_query_ahead(const mw_batch *b, uint32_t i, uint32_t end)
+/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their
+ * way. */
+static MW_INLINE void lane_prefetch_query(const mw_batch *b, uint32_t i, uint32_t end)
 {
     enum { AHEAD = 8 };
     if (i + AHEAD >= end) return;
@@ -93,15 +95,15 @@ static MW_INLINE void fetch_query_ahead(const mw_batch *b, uint32_t i, uint32_t 
     __builtin_prefetch((const char *)&b->locations[later + 1] - 1, 1);
 }
 
-/* The next query of the lane's stretch, beginning in tile `last`; MW_NONE: there was none before. */
-static MW_INLINE bool lane_next_chained(const schedule *s, group *g, uint32_t k, uint32_t last)
+/* The next query of the lane's range, beginning in tile `last`; MW_NONE: there was none before. */
+static MW_INLINE bool lane_next_chained(const lane_schedule *s, lane_group *g, uint32_t k, uint32_t last)
 {
     const mw_interleaved *of = s->of;
     const mw_batch *queries = of->queries;
     while (g->next[k] < g->end[k]) {
         uint32_t query = g->next[k]++;
         if (queries->order) {
-            fetch_query_ahead(queries, query, g->end[k]);
+            lane_prefetch_query(queries, query, g->end[k]);
             query = queries->order[query].item;
         }
         mw_point q;
@@ -113,7 +115,7 @@ static MW_INLINE bool lane_next_chained(const schedule *s, group *g, uint32_t k,
 }
 
 /* The next of those that have their first tile. */
-static MW_INLINE bool lane_next_ready(schedule *s, group *g, uint32_t k)
+static MW_INLINE bool lane_next_ready(lane_schedule *s, lane_group *g, uint32_t k)
 {
     while (s->ready_next == s->ready_count) {
         if (s->next == s->end) return false;
@@ -125,23 +127,24 @@ static MW_INLINE bool lane_next_ready(schedule *s, group *g, uint32_t k)
 }
 
 /* The next query in lane k of a group; without one the lane stays empty. */
-static MW_INLINE void lane_next(schedule *s, group *g, uint32_t k, uint32_t last, bool chained)
+static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uint32_t last, bool chained)
 {
     if (MW_LIKELY(chained ? lane_next_chained(s, g, k, last) : lane_next_ready(s, g, k))) return;
     lane_set(s, g, k, (mw_point){NAN, NAN}, MW_NONE, 0);
     g->alive--;
 }
 
-/* --- steps -------------------------------------------------------------------------------------------------------- */
+/* --- steps --- */
 
-/* Go on by the walk of the cursor from the lane's tile, and answer. Returns the tile where it ended. */
+/* Go on by the walk of the cursor from the lane's tile, and answer. Returns the tile where it
+ * ended. */
 static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, mw_point q, uint32_t query, uint32_t t)
 {
     const mw_locator *locator = of->locator;
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)of->cursor->walk, &locator->tiling);
     mw_walk walk = mw__walk_begin(&locator->tiling, q, t, of->cursor->fuel, 0, NULL);
     mw_verdict verdict = kernels->run[true][false](&walk);
-    of->queries->locations[query] = mw__conclude(locator, of->cursor, &walk, verdict, NULL);
+    of->queries->locations[query] = mw__query_conclude(locator, of->cursor, &walk, verdict, NULL);
     return walk.t;
 }
 
@@ -151,14 +154,14 @@ static MW_INLINE bool lane_answer(const mw_interleaved *of, const mw_triangle *t
 {
     mw_location *location = &of->queries->locations[query];
     if (MW_LIKELY(inside && !(tile->user & MW_GHOST))) {
-        mw__put_inside(location, tile->user, weight[0][k], weight[1][k], weight[2][k]);
+        mw__location_write_inside(location, tile->user, weight[0][k], weight[1][k], weight[2][k]);
         return true;
     }
-    return mw__fast_outside(&of->locator->tiling, of->cursor, tile, inside, left, location);
+    return mw__fast_path_outside(&of->locator->tiling, of->cursor, tile, inside, left, location);
 }
 
-static MW_INLINE void group_step(schedule *s, group *g, const mw_triangle *tri, const mw_point *point, bool chained,
-                                 mw_vector_bits bits)
+static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_triangle *tri, const mw_point *point,
+                                 bool chained, mw_vector_bits bits)
 {
     mw_vector_areas areas;
     mw__vector_areas(&areas, &g->walk, tri, point);
@@ -177,25 +180,25 @@ static MW_INLINE void group_step(schedule *s, group *g, const mw_triangle *tri, 
     }
 }
 
-/* --- laps --------------------------------------------------------------------------------------------------------- */
+/* --- laps --- */
 
 /* Let the walks that are on a long way, or in a cycle, be ended by the cursor's walk. */
-static void end_long_walks(schedule *s, group *groups, uint32_t count, bool chained)
+static void groups_end_long_walks(lane_schedule *s, lane_group *groups, uint32_t count, bool chained)
 {
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < LANES; k++) {
-            group *g = &groups[i];
+            lane_group *g = &groups[i];
             if (g->query[k] == MW_NONE || s->lap - g->begun[k] < s->most_laps) continue;
             mw_point q = {g->walk.x[k], g->walk.y[k]};
             lane_next(s, g, k, lane_finish(s->of, q, g->query[k], g->walk.t[k]), chained);
         }
 }
 
-static void begin_groups(schedule *s, group *groups, uint32_t count, bool chained)
+static void groups_begin(lane_schedule *s, lane_group *groups, uint32_t count, bool chained)
 {
     uint32_t first = s->next, n = s->end - s->next, lanes = count * LANES;
     for (uint32_t lane = 0; lane < lanes; lane++) {
-        group *g = &groups[lane / LANES];
+        lane_group *g = &groups[lane / LANES];
         uint32_t k = lane % LANES;
         if (k == 0) g->alive = LANES;
         g->next[k] = first + (uint32_t)((uint64_t)n * lane / lanes);
@@ -204,55 +207,55 @@ static void begin_groups(schedule *s, group *groups, uint32_t count, bool chaine
     }
 }
 
-static MW_INLINE void fetch_tiles(const group *g, const mw_triangle *tri)
+static MW_INLINE void group_prefetch_tiles(const lane_group *g, const mw_triangle *tri)
 {
     for (uint32_t k = 0; k < LANES; k++) __builtin_prefetch(&tri[g->walk.t[k]]);
 }
 
-static MW_INLINE void fetch_corners(const group *g, const mw_triangle *tri, const mw_point *point)
+static MW_INLINE void group_prefetch_corners(const lane_group *g, const mw_triangle *tri, const mw_point *point)
 {
     for (uint32_t k = 0; k < LANES; k++)
         for (uint32_t v = 0; v < 3; v++) __builtin_prefetch(&point[tri[g->walk.t[k]].v[v]]);
 }
 
-static MW_INLINE void run_groups(schedule *s, uint32_t count, bool chained, mw_vector_bits bits)
+static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, bool chained, mw_vector_bits bits)
 {
     const mw_triangle *tri = s->of->locator->tiling.tri;
     const mw_point *point = s->of->locator->tiling.point;
-    group groups[GROUPS];
-    begin_groups(s, groups, count, chained);
+    lane_group groups[GROUPS];
+    groups_begin(s, groups, count, chained);
     for (uint32_t i = 0; count;) {
         group_step(s, &groups[i], tri, point, chained, bits);
         if (MW_UNLIKELY(groups[i].alive == 0)) {
             groups[i] = groups[--count];
         } else {
-            fetch_tiles(&groups[i], tri);
+            group_prefetch_tiles(&groups[i], tri);
             uint32_t ahead = i + count / 2;
-            fetch_corners(&groups[ahead < count ? ahead : ahead - count], tri, point);
+            group_prefetch_corners(&groups[ahead < count ? ahead : ahead - count], tri, point);
             i++;
         }
         if (i < count) continue;
         i = 0;
-        if (MW_UNLIKELY(++s->lap % MW_FAST_STEPS == 0)) end_long_walks(s, groups, count, chained);
+        if (MW_UNLIKELY(++s->lap % MW_FAST_STEPS == 0)) groups_end_long_walks(s, groups, count, chained);
     }
 }
 
-static void run_portable(schedule *s, uint32_t groups, bool chained)
+static void groups_run_portable(lane_schedule *s, uint32_t groups, bool chained)
 {
     if (chained)
-        run_groups(s, groups, true, mw__vector_bits_portable);
+        groups_run(s, groups, true, mw__vector_bits_portable);
     else
-        run_groups(s, groups, false, mw__vector_bits_portable);
+        groups_run(s, groups, false, mw__vector_bits_portable);
 }
 
 #ifdef __x86_64__
 
-__attribute__((target("avx2"))) static void run_avx2(schedule *s, uint32_t groups, bool chained)
+__attribute__((target("avx2"))) static void groups_run_avx2(lane_schedule *s, uint32_t groups, bool chained)
 {
     if (chained)
-        run_groups(s, groups, true, mw__vector_bits_avx2);
+        groups_run(s, groups, true, mw__vector_bits_avx2);
     else
-        run_groups(s, groups, false, mw__vector_bits_avx2);
+        groups_run(s, groups, false, mw__vector_bits_avx2);
 }
 
 #endif
@@ -260,15 +263,15 @@ __attribute__((target("avx2"))) static void run_avx2(schedule *s, uint32_t group
 void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t count, uint32_t lanes)
 {
     const mw_cursor *cursor = of->cursor;
-    schedule s = {.of = of,
-                  .next = first,
-                  .end = first + count,
-                  .most_laps = cursor->walk == MW_WALK_REMEMBERING ? cursor->fuel : MW_FAST_STEPS};
+    lane_schedule s = {.of = of,
+                       .next = first,
+                       .end = first + count,
+                       .most_laps = cursor->walk == MW_WALK_REMEMBERING ? cursor->fuel : MW_FAST_STEPS};
 #ifdef __x86_64__
     if (!of->portable && __builtin_cpu_supports("avx2")) {
-        run_avx2(&s, lanes / LANES, of->chained);
+        groups_run_avx2(&s, lanes / LANES, of->chained);
         return;
     }
 #endif
-    run_portable(&s, lanes / LANES, of->chained);
+    groups_run_portable(&s, lanes / LANES, of->chained);
 }

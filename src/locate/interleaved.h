@@ -18,8 +18,8 @@ typedef struct mw_interleaved {
 #define MW_GROUP_LANES 4
 
 /* Answers the queries first .. first + count - 1 of the order in so many lanes (a multiple of
- * MW_GROUP_LANES, at most MW_MAX_LANES). Chained lanes answer stretches of the order, other ones take
- * what comes next. */
+ * MW_GROUP_LANES, at most MW_MAX_LANES). Each chained lane answers a range of the order of its own;
+ * other lanes take the query that comes next. */
 void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t count, uint32_t lanes);
 
 #endif

@@ -1,10 +1,11 @@
-/* location.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and the weights. */
+/* location.c - the answer about a point in a triangle that contains it: inside, edge or vertex, and
+ * the weights. */
 #include "locate/location.h"
 
 #include <float.h>
 #include <limits.h>
 
-void mw__areas(const mw_point corner[3], mw_point q, double area[3])
+void mw__location_areas(const mw_point corner[3], mw_point q, double area[3])
 {
     double x[3], y[3], bound[3];
     for (uint32_t k = 0; k < 3; k++) {
@@ -25,8 +26,9 @@ void mw__areas(const mw_point corner[3], mw_point q, double area[3])
     for (uint32_t k = 0; k < 3; k++) area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
 }
 
-/* Areas up to a common factor, where they would leave the range of doubles: the largest becomes about 1. */
-static void rescale(const mw_point corner[3], mw_point q, double area[3])
+/* Areas up to a common factor, where they would leave the range of doubles: the largest becomes
+ * about 1. */
+static void location_rescale_areas(const mw_point corner[3], mw_point q, double area[3])
 {
     int exponent[3], most = INT_MIN;
     for (uint32_t k = 0; k < 3; k++) {
@@ -37,11 +39,11 @@ static void rescale(const mw_point corner[3], mw_point q, double area[3])
         if (area[k] != 0) area[k] = fmax(ldexp(area[k], exponent[k] - most), DBL_MIN);
 }
 
-mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, double area[3])
+mw_location mw__location_of(const mw_point corner[3], uint32_t user, mw_point q, double area[3])
 {
     double sum = area[0] + area[1] + area[2];
     if (MW_UNLIKELY(!(sum > 0x1p-900 && sum < 0x1p900))) {
-        rescale(corner, q, area);
+        location_rescale_areas(corner, q, area);
         sum = area[0] + area[1] + area[2];
     }
     mw_location location = {.triangle = user & MW_USER_MASK, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
@@ -65,13 +67,13 @@ mw_location mw__place(const mw_point corner[3], uint32_t user, mw_point q, doubl
     return location;
 }
 
-mw_location mw__place_in(const mw_mesh *mesh, uint32_t triangle, mw_point q)
+mw_location mw__location_in_triangle(const mw_mesh *mesh, uint32_t triangle, mw_point q)
 {
     const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, triangle)];
     mw_point corner[3] = {mesh->point[t->v[0]], mesh->point[t->v[1]], mesh->point[t->v[2]]};
     double area[3];
-    mw__areas(corner, q, area);
-    return mw__place(corner, t->user, q, area);
+    mw__location_areas(corner, q, area);
+    return mw__location_of(corner, t->user, q, area);
 }
 
 const char *mw_where_name(mw_where where)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 /* Does the vertex across the link lie in the tile's circle? Rounded. */
-static bool fails_circle(const mw_tiling *tiling, const mw_triangle *tile, uint32_t link)
+static bool edge_fails_circle(const mw_tiling *tiling, const mw_triangle *tile, uint32_t link)
 {
     const mw_point *p = tiling->point;
     uint32_t across = tiling->tri[mw__link_triangle(link)].v[mw__prev(mw__link_edge(link))];
@@ -18,11 +18,12 @@ static bool fails_circle(const mw_tiling *tiling, const mw_triangle *tile, uint3
     return in > bound;
 }
 
-/* The remembering walk is the cheapest, but may go round in cycles where edges are not Delaunay, and hands over only when
- * its fuel is used up. The celestial walk costs more on long walks, little more on short ones. A look at the edges of a
- * few tiles is enough to choose by. To end the cheap walks remembering is taken only where not one edge failed: the
- * stochastic walk costs hardly more. */
-static void choose_walks(mw_locator *locator)
+/* The remembering walk is the cheapest, but may go round in cycles where edges are not Delaunay,
+ * and hands over only when its fuel is used up. The celestial walk costs more on long walks, little
+ * more on short ones. A look at the edges of a few tiles is enough to choose by. To end the cheap
+ * walks remembering is taken only where not one edge failed: the stochastic walk costs hardly
+ * more. */
+static void locator_choose_walks(mw_locator *locator)
 {
     enum { PROBES = 1024, FEW = 50 }; /* one edge in FEW may fail */
     const mw_tiling *tiling = &locator->tiling;
@@ -32,41 +33,45 @@ static void choose_walks(mw_locator *locator)
             uint32_t link = tiling->tri[t].link[k];
             if (link == MW_NONE) continue;
             edges++;
-            failing += fails_circle(tiling, &tiling->tri[t], link);
+            failing += edge_fails_circle(tiling, &tiling->tri[t], link);
         }
     locator->auto_walk = failing * FEW > edges ? MW_WALK_CELESTIAL : MW_WALK_REMEMBERING;
     locator->finish = failing == 0 ? MW_WALK_REMEMBERING : MW_WALK_STOCHASTIC;
     if (tiling->border_loops) locator->auto_walk = MW_WALK_BORDER;
 }
 
-/* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean length 32 / (9 pi)
- * [Miles 1970], and a line crosses 2 / pi of their length: 64 / (3 pi^2) edges per unit of its own. */
-static double expect_pace(uint32_t tiles, double width, double height)
+/* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean
+ * length 32 / (9 pi) [Miles 1970], and a line crosses 2 / pi of their length: 64 / (3 pi^2) edges
+ * per unit of its own. */
+static double expected_crossings(uint32_t tiles, double width, double height)
 {
     static const double crossings = 2.1615;
     return crossings * sqrt(tiles / 2.0) / sqrt(width) / sqrt(height);
 }
 
-/* Filling took 36 ns a triangle; it saved 0.45 us of a query inside the mesh, and 20 us of one outside, by going round the
- * border (domains of 5,000 to 80,000 vertices, from a sample). With one outside in ten, one query for so many triangles
- * pays. */
-static bool wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
+/* Filling took 36 ns a triangle; it saved 0.45 us of a query inside the mesh, and 20 us of one
+ * outside, by going round the border (domains of 5,000 to 80,000 vertices, from a sample). With one
+ * outside in ten, one query for so many triangles pays. */
+static bool locator_wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
 {
     enum { TRIANGLES_PER_QUERY = 64 };
     if (options->fill != MW_FILL_AUTO) return options->fill == MW_FILL_YES;
     return options->queries == 0 || options->queries > mesh->tri_count / TRIANGLES_PER_QUERY;
 }
 
-static mw_status make_tiling(mw_locator *locator, const mw_locator_options *options, mw_error *error)
+static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
-    mw_tiling_options how = {
-        .any = options->any, .without_ghosts = !wants_ghosts(locator->mesh, options), .threads = options->threads};
+    mw_tiling_options how = {.any = options->any,
+                             .without_ghosts = !locator_wants_ghosts(locator->mesh, options),
+                             .threads = options->threads};
     return mw__tiling_create_with(locator->mesh, how, &locator->tiling, error);
 }
 
-/* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie along one. Tiles that are edited do not
- * keep to a curve; there crowded cells are grids themselves. False when out of memory. */
-static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, bool even, uint32_t cells)
+/* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie
+ * along one. Tiles that are edited do not keep to a curve; there crowded cells are grids
+ * themselves. False when out of memory. */
+static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, bool even,
+                               uint32_t cells)
 {
     const mw_tiling *tiling = &locator->tiling;
     mw_curve curve = {0};
@@ -89,11 +94,13 @@ static bool guide_crowd(const mw_locator *locator, mw_index *guide, mw_grid_plan
     return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells);
 }
 
-/* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of the tiles along a Hilbert
- * curve, if they lie so. The grid is small, for half a byte a triangle, and of little work: a larger one makes queries up to
- * a quarter faster (start/grid.c), but takes longer to build than a million queries gain. In a mesh that is edited it has twice as many cells: an
- * insertion waits for each tile on its way, since the way cannot be guessed, and takes a twentieth less. */
-static uint32_t count_cells(const mw_tiling *tiling)
+/* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of
+ * the tiles along a Hilbert curve, if they lie so. The grid is small, for half a byte a triangle,
+ * and of little work: a larger one makes queries up to a quarter faster (start/grid.c), but takes
+ * longer to build than a million queries gain. In a mesh that is edited it has twice as many cells:
+ * an insertion waits for each tile on its way, since the way cannot be guessed, and takes a
+ * twentieth less. */
+static uint32_t guide_cells(const mw_tiling *tiling)
 {
     enum { TRIANGLES_PER_CELL = 8, FINER = 2 };
     return tiling->tri_count / (tiling->tile_of ? TRIANGLES_PER_CELL / FINER : TRIANGLES_PER_CELL) + 1;
@@ -101,19 +108,20 @@ static uint32_t count_cells(const mw_tiling *tiling)
 
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
 {
-    /* Most cells are empty where those that have tiles have more than UNEVEN of them on the average. In a mesh that is edited a cell is made four where not
-     * one in SPARSE has tiles: an insertion in clusters takes a tenth less. Where tiles are spread evenly it would take a sixth more in a large mesh,
-     * since so many cells have to come from memory. */
+    /* Most cells are empty where those that have tiles have more than UNEVEN of them on the
+     * average. In a mesh that is edited a cell is made four where not one in SPARSE has tiles: an
+     * insertion in clusters takes a tenth less. Where tiles are spread evenly it would take a sixth
+     * more in a large mesh, since so many cells have to come from memory. */
     enum { STRIDE = 2, UNEVEN = 32, SPARSE = 3 };
     const mw_tiling *tiling = &locator->tiling;
     *guide = (mw_index){0};
     if (tiling->border_loops || !tiling->embedding) return true;
-    uint32_t cells = count_cells(tiling);
+    uint32_t cells = guide_cells(tiling);
     mw_grid_plan plan = {.tiling = tiling, .stride = STRIDE};
     guide->start = MW_START_GRID;
     if (!mw__grid_begin(&guide->grid, &plan, locator->low, locator->high, cells)) return false;
     bool even = plan.taken >= tiling->tri_count / UNEVEN;
-    if (plan.crowded || !even) return guide_crowd(locator, guide, &plan, even, cells);
+    if (plan.crowded || !even) return guide_make_crowded(locator, guide, &plan, even, cells);
     mw__grid_end(&guide->grid, &plan, false);
     if (tiling->tile_of && plan.taken < mw__lattice_cells(&guide->grid.lattice) / SPARSE)
         mw__grid_refine(&guide->grid, tiling, STRIDE); /* or it stays as it is */
@@ -128,24 +136,24 @@ static bool are_slots_numbers(const mw_tiling *tiling)
     return home > probes / 2;
 }
 
-void mw__locator_survey(mw_locator *locator)
+void mw__locator_measure(mw_locator *locator)
 {
     static const double origin[2] = {0, 0}, axis[2][2] = {{1, 0}, {0, 1}};
     const mw_tiling *tiling = &locator->tiling;
     mw__tiling_extent(tiling, origin, axis, locator->low, locator->high);
-    choose_walks(locator);
+    locator_choose_walks(locator);
     locator->tiling.slots_are_numbers = tiling->tile_of && are_slots_numbers(tiling);
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
-    locator->cell2 = width / count_cells(tiling) * height;
-    locator->pace = expect_pace(tiling->tri_count, width, height);
+    locator->cell2 = width / guide_cells(tiling) * height;
+    locator->crossings_per_length = expected_crossings(tiling->tri_count, width, height);
 }
 
-static mw_status prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
+static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
 {
     mw_tiling *tiling = &locator->tiling;
-    mw_status status = make_tiling(locator, options, error);
+    mw_status status = locator_make_tiling(locator, options, error);
     if (status) return status;
     status = mw__tiling_finish(tiling, error);
     if (status == MW_OK && options->areas) status = mw__tiling_areas(tiling, error);
@@ -159,10 +167,10 @@ static mw_status prepare(mw_locator *locator, const mw_locator_options *options,
                  first);
     }
     if (options->border) {
-        if (!mw__border_create(&locator->border, locator->mesh, tiling)) return mw__fail_memory(error);
+        if (!mw__border_tree_create(&locator->border_tree, locator->mesh, tiling)) return mw__fail_memory(error);
         locator->has_border = true;
     }
-    mw__locator_survey(locator);
+    mw__locator_measure(locator);
     return mw__locator_guide(locator, &locator->guide) ? MW_OK : mw__fail_memory(error);
 }
 
@@ -179,7 +187,7 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     mw_locator *locator = mw__calloc(1, sizeof *locator);
     if (!locator) return mw__fail_memory(error);
     locator->mesh = mesh;
-    mw_status status = prepare(locator, options, error);
+    mw_status status = locator_prepare(locator, options, error);
     if (status)
         mw_locator_destroy(locator);
     else
@@ -213,7 +221,7 @@ void mw_locator_destroy(mw_locator *locator)
 {
     if (!locator) return;
     mw__index_release(&locator->guide);
-    mw__border_release(&locator->border);
+    mw__border_tree_release(&locator->border_tree);
     mw__tiling_release(&locator->tiling);
     free(locator);
 }
@@ -221,7 +229,7 @@ void mw_locator_destroy(mw_locator *locator)
 void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
 {
     const mw_tiling *tiling = &locator->tiling;
-    size_t border = mw__border_bytes(&locator->border);
+    size_t border = mw__border_tree_bytes(&locator->border_tree);
     *info = (mw_locator_info){
         .bytes = sizeof *locator + mw__tiling_bytes(tiling) + border + mw__index_bytes(&locator->guide),
         .border_bytes = border,

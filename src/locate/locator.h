@@ -3,7 +3,7 @@
 #define MW_SRC_LOCATOR_H
 
 #include "tiling/tiling.h"
-#include "locate/border.h"
+#include "locate/border_tree.h"
 #include "locate/index.h"
 #include "start/start.h"
 #include "walk/walk.h"
@@ -13,29 +13,37 @@
 struct mw_locator {
     const mw_mesh *mesh;
     mw_tiling tiling;
-    mw_border border;       /* edge_count 0 and box NULL without options.border                         */
-    double low[2], high[2]; /* extent of the tiling                                                    */
-    mw_index guide;         /* how queries begin where nothing is said; start MW_START_AUTO: there is none */
-    double near2;           /* a tile within this squared distance beats a sample, by expectation      */
-    double cell2;           /* the same of a guide: the area of one of its cells, if it were a grid, not refined */
-    double pace;            /* tiles that a straight line crosses per unit of length, by expectation   */
-    mw_walk_kind auto_walk; /* what MW_WALK_AUTO means here */
-    mw_walk_kind finish;    /* what ends the cheap walks    */
-    uint32_t centre;        /* name of the tile in the middle                                           */
-    bool has_border;
-    uint64_t epoch;    /* raised by each edit of the mesh, its upper half where triangles get other names; else 0 */
-    char promise[640]; /* which promise is void; empty for an embedding                            */
+    mw_border_tree border_tree; /* edge_count 0 and no boxes without options.border */
+    double low[2], high[2];     /* extent of the tiling                             */
+    /* How queries begin where nothing is said; with start MW_START_AUTO there is none. */
+    mw_index guide;
+    /* A tile within this squared distance is expected to be nearer than any of a sample. */
+    double near2;
+    /* The same of a guide: the area of one of its cells, if it were a grid that is not refined. */
+    double cell2;
+    /* Tiles that a straight line is expected to cross, per unit of its length. */
+    double crossings_per_length;
+    mw_walk_kind auto_walk; /* what MW_WALK_AUTO means here        */
+    mw_walk_kind finish;    /* what ends the cheap walks           */
+    uint32_t centre;        /* name of the tile in the middle      */
+    bool has_border;        /* was the border tree built?          */
+    /* Raised by each edit of the mesh, its upper half where triangles get other names; else 0. */
+    uint64_t epoch;
+    char promise[640]; /* which promise is void; empty for an embedding */
 };
 
-/* What a tiling shows, and choices that follow from it: extent, walks, the tile in the middle, density. */
-void mw__locator_survey(mw_locator *locator);
+/* Look at the tiling and fill in what follows from it: extent, density, default walks, the tile in
+ * the middle. */
+void mw__locator_measure(mw_locator *locator);
 
-/* The guide of a locator that has been surveyed. False when out of memory; it may be released in either case. */
+/* Build the guide of a locator that has been measured. False when out of memory; it may be released
+ * in either case. */
 bool mw__locator_guide(const mw_locator *locator, mw_index *guide);
 
-/* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads nearer. A long edge would not
- * tell, as many small tiles may lie beside it; nor does a tile as large as a cell, such as there are along the hull. */
-static MW_INLINE bool mw__is_close(const mw_locator *locator, uint32_t t, mw_point q)
+/* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads
+ * nearer. A long edge would not tell, as many small tiles may lie beside it; nor does a tile as
+ * large as a cell, such as there are along the hull. */
+static MW_INLINE bool mw__locator_is_close(const mw_locator *locator, uint32_t t, mw_point q)
 {
     enum { LENGTHS = 3 };
     const mw_tiling *tiling = &locator->tiling;
@@ -47,9 +55,9 @@ static MW_INLINE bool mw__is_close(const mw_locator *locator, uint32_t t, mw_poi
 }
 
 /* Where to begin where there is a guide: at tile `last`, if q is close to it. */
-static MW_INLINE uint32_t mw__guided(const mw_locator *locator, uint32_t last, mw_point q)
+static MW_INLINE uint32_t mw__locator_guided_tile(const mw_locator *locator, uint32_t last, mw_point q)
 {
-    return mw__is_close(locator, last, q) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
+    return mw__locator_is_close(locator, last, q) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
 }
 
 #endif

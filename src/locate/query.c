@@ -1,18 +1,24 @@
-/* query.c - one query: first tile, walk, exact conclusion. */
+/* query.c - one query: first tile, walk, conclusion. This file decides ties.
+ *
+ * The rule of ties: a point on an edge or a vertex belongs to the lowest-numbered of the user's
+ * triangles that contain it. mw__query_conclude applies it, by exact tests of the last tile of a
+ * walk (query_answer, lowest_at_boundary). Every answer comes from there, except those of the fast
+ * path (fast_path.h): they are strictly inside a triangle or outside, where there is no tie. So the
+ * answer depends on neither walk, start, seed nor threads. */
 #include "locate/query.h"
 
 #include "base/random.h"
 #include "locate/fast_path.h"
 #include "locate/index.h"
 #include "locate/location.h"
-#include "locate/pieces.h"
+#include "locate/components.h"
 #include "start/start.h"
 
-/* --- the conclusion ---------------------------------------------------------------------------------------------- */
+/* --- the conclusion and the rule of ties --- */
 
-/* q is on the boundary of tile t, which contains it: the areas of two or one of its edges vanish. The lowest of the
- * user's triangles that contain q, or MW_NONE where only ghosts do. */
-static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const double area[3])
+/* q is on the boundary of tile t, which contains it: the areas of two or one of its edges vanish.
+ * The lowest of the user's triangles that contain q, or MW_NONE where only ghosts do. */
+static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *tile, const double area[3])
 {
     uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++)
@@ -32,35 +38,39 @@ static uint32_t lowest(const mw_tiling *tiling, const mw_triangle *tile, const d
     return tiling->embedding || mw__has_area(tiling->point, across) ? other : best; /* flat ones own no point */
 }
 
-/* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the tolerance says so. */
-static mw_location outside(const mw_locator *locator, uint32_t mark, mw_point q, double tolerance)
+/* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the
+ * tolerance says so. */
+static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_point q, double tolerance)
 {
     mw_location location;
-    mw__put_in_none(&location, mark);
-    if (tolerance > 0) mw__border_near(&locator->border, locator->mesh, q, tolerance, &location);
+    mw__location_write_outside(&location, mark);
+    if (tolerance > 0) mw__border_tree_apply_tolerance(&locator->border_tree, locator->mesh, q, tolerance, &location);
     return location;
 }
 
-/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it; the three tests made
- * here are also the weights. */
-static mw_location settle(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
+/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it;
+ * the three tests made here are also the weights. */
+static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
 {
     const mw_tiling *tiling = &locator->tiling;
     const mw_triangle *tile = &tiling->tri[t];
     mw_point corner[3] = {tiling->point[tile->v[0]], tiling->point[tile->v[1]], tiling->point[tile->v[2]]};
     double area[3];
-    mw__areas(corner, q, area);
+    mw__location_areas(corner, q, area);
     bool inside = area[0] > 0 && area[1] > 0 && area[2] > 0;
-    if (MW_LIKELY(inside && !(tile->user & MW_GHOST) && !tiling->cut)) return mw__place(corner, tile->user, q, area);
-    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge it did not test. */
-    if (!(area[0] >= 0 && area[1] >= 0 && area[2] >= 0)) return outside(locator, 0, q, tolerance);
-    uint32_t triangle = !inside                 ? lowest(tiling, tile, area)
+    if (MW_LIKELY(inside && !(tile->user & MW_GHOST) && !tiling->cut))
+        return mw__location_of(corner, tile->user, q, area);
+    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge
+     * it did not test. */
+    if (!(area[0] >= 0 && area[1] >= 0 && area[2] >= 0)) return query_outside(locator, 0, q, tolerance);
+    uint32_t triangle = !inside                 ? lowest_at_boundary(tiling, tile, area)
                         : tile->user & MW_GHOST ? MW_NONE
                                                 : tile->user & MW_USER_MASK;
-    return triangle == MW_NONE ? outside(locator, tile->user, q, tolerance) : mw__place_in(locator->mesh, triangle, q);
+    return triangle == MW_NONE ? query_outside(locator, tile->user, q, tolerance)
+                               : mw__location_in_triangle(locator->mesh, triangle, q);
 }
 
-static void count(mw_counters *counters, const mw_work *work, bool cycle, bool handover)
+static void query_count(mw_counters *counters, const mw_work *work, bool cycle, bool handover)
 {
     mw_counters_add(counters, &(mw_counters){
                                   .queries = 1,
@@ -89,7 +99,7 @@ static void count(mw_counters *counters, const mw_work *work, bool cycle, bool h
 }
 
 /* A walk in doubles says that q lies beyond a hull edge of its last tile: does it? */
-static bool has_left(const mw_tiling *tiling, const mw_walk *walk)
+static bool walk_has_left(const mw_tiling *tiling, const mw_walk *walk)
 {
     if (tiling->border_loops) return walk->phase == MW_PHASE_AWAY; /* beyond a border there may be more tiles */
     const mw_triangle *tile = &tiling->tri[walk->t];
@@ -101,7 +111,7 @@ static bool has_left(const mw_tiling *tiling, const mw_walk *walk)
 }
 
 /* Count what the walk that took over did as the final location. */
-static void add_final(mw_work *sum, const mw_work *more)
+static void work_add_final(mw_work *sum, const mw_work *more)
 {
     sum->visited += more->visited - 1; /* it began where the other one ended */
     for (int stage = 0; stage < MW_STAGES; stage++) {
@@ -110,9 +120,9 @@ static void add_final(mw_work *sum, const mw_work *more)
     }
 }
 
-/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was right does not count as
- * handed over: *changed tells. */
-static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
+/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was
+ * right does not count as handed over: *changed tells. */
+static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
 {
     mw_work more = {.trace = counted ? walk->work->trace : NULL};
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
@@ -120,42 +130,42 @@ static mw_verdict hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict b
     bool round =
         tiling->border_loops && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */
     *changed = verdict != before || (end.t != walk->t && !round);
-    if (*changed && counted) add_final(walk->work, &more);
+    if (*changed && counted) work_add_final(walk->work, &more);
     walk->t = end.t;
     if (tiling->border_loops) walk->lowest = end.lowest;
     return verdict;
 }
 
-mw_location mw__conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
-                         mw_counters *counters)
+mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
+                               mw_counters *counters)
 {
     const mw_tiling *tiling = &locator->tiling;
     bool exact = cursor->arithmetic == MW_EXACT, changed = false;
     if (verdict == MW_CLOSE)
         verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact, cursor->count);
     bool dry = verdict == MW_DRY;
-    bool sure = exact || (verdict == MW_LEFT && has_left(tiling, walk));
-    if (MW_UNLIKELY(dry || !sure)) verdict = hand_over(tiling, walk, verdict, cursor->count, &changed);
+    bool sure = exact || (verdict == MW_LEFT && walk_has_left(tiling, walk));
+    if (MW_UNLIKELY(dry || !sure)) verdict = walk_hand_over(tiling, walk, verdict, cursor->count, &changed);
     uint32_t hole = MW_NONE;
-    if (tiling->border_loops && verdict == MW_LEFT) verdict = mw__pieces_search(tiling, walk, cursor->count, &hole);
-    if (cursor->count) count(counters, walk->work, dry, changed);
+    if (tiling->border_loops && verdict == MW_LEFT) verdict = mw__components_search(tiling, walk, cursor->count, &hole);
+    if (cursor->count) query_count(counters, walk->work, dry, changed);
     if (MW_UNLIKELY(verdict != MW_FOUND))
-        return outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q, cursor->tolerance);
-    return settle(locator, walk->t, walk->q, cursor->tolerance);
+        return query_outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q, cursor->tolerance);
+    return query_answer(locator, walk->t, walk->q, cursor->tolerance);
 }
 
-/* --- the departure ----------------------------------------------------------------------------------------------- */
+/* --- the walk of a query --- */
 
 /* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
-static uint32_t near_or_sample(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
-                               uint64_t *random)
+static uint32_t tile_near_or_sampled(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
+                                     uint64_t *random)
 {
     const mw_tiling *tiling = &locator->tiling;
     if (mw__distance2(tiling->point[tiling->tri[t].v[0]], q) <= locator->near2) return t;
     return mw__start_sample(tiling, q, cursor->sample, t, random);
 }
 
-static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
+static uint32_t start_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
                            uint64_t *random)
 {
     const mw_tiling *tiling = &locator->tiling;
@@ -165,8 +175,8 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_SAMPLE: return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
     case MW_START_CENTRE: return mw__tile_named(tiling, locator->centre);
     case MW_START_AUTO:
-        if (locator->guide.start == MW_START_AUTO) return near_or_sample(locator, cursor, last, q, random);
-        return mw__guided(locator, last, q);
+        if (locator->guide.start == MW_START_AUTO) return tile_near_or_sampled(locator, cursor, last, q, random);
+        return mw__locator_guided_tile(locator, last, q);
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
     case MW_START_LAYERS:
@@ -178,51 +188,53 @@ static uint32_t first_tile(const mw_locator *locator, const mw_cursor *cursor, u
     return last;
 }
 
-uint32_t mw__first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
-                        mw_work *work)
+uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
+                              uint64_t *random, mw_work *work)
 {
     return cursor->index ? mw__index_first(&locator->tiling, cursor, q, random, work)
-                         : first_tile(locator, cursor, last, q, random);
+                         : start_tile(locator, cursor, last, q, random);
 }
 
-static mw_walk begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
-                     mw_work *work)
+static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
+                          uint64_t *random, mw_work *work)
 {
     const mw_tiling *tiling = &locator->tiling;
     if (cursor->count) *work = (mw_work){0};
-    uint32_t t = mw__first_tile(locator, cursor, last, q, random, work);
+    uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
     mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
-    if (MW_UNLIKELY(tiling->border_loops)) mw__pieces_begin(locator, &walk);
+    if (MW_UNLIKELY(tiling->border_loops)) mw__components_begin(locator, &walk);
     return walk;
 }
 
-/* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed by the line to q, by
- * expectation, but no more than the fuel; they come on top of that. On Delaunay meshes of 10^3 to 10^6 random points,
- * from random tiles, the tests are within 1.1 % of the fewest that any multiple of the estimate makes, and hardly a tile
- * is visited in vain. For 10^5 points, where the stochastic walk visits 383.0 tiles with 494.5 tests, multiples give
+/* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed
+ * by the line to q, by expectation, but no more than the fuel; they come on top of that. On
+ * Delaunay meshes of 10^3 to 10^6 random points, from random tiles, the tests are within 1.1 % of
+ * the fewest that any multiple of the estimate makes, and hardly a tile is visited in vain. For
+ * 10^5 points, where the stochastic walk visits 383.0 tiles with 494.5 tests, multiples give
  *   times    0.5    0.8    0.9    0.95   1      1.03   1.05   1.1
  *   tiles    383.4  383.4  383.4  383.5  383.7  384.7  386.4  397.8
  *   tests    444.4  413.8  403.4  398.3  393.3  391.3  391.4  400.7 */
-static void allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t given)
+static void walk_allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t given)
 {
     mw_point p = walk->point[walk->tri[walk->t].v[0]];
-    double steps = given ? given : locator->pace * hypot(walk->q.x - p.x, walk->q.y - p.y);
+    double steps = given ? given : locator->crossings_per_length * hypot(walk->q.x - p.x, walk->q.y - p.y);
     walk->steps = (uint32_t)fmin(steps, walk->fuel);
     walk->fuel += walk->steps; /* at most 4096 + 45 sqrt(2^30), twice */
 }
 
-mw_walk mw__depart(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
-                   mw_work *work)
+mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
+                        mw_work *work)
 {
-    mw_walk walk = begin(locator, cursor, last, q, random, work);
-    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) allow_steps(&walk, locator, cursor->steps);
+    mw_walk walk = query_walk(locator, cursor, last, q, random, work);
+    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) walk_allow_steps(&walk, locator, cursor->steps);
     return walk;
 }
 
-/* --- the public query -------------------------------------------------------------------------------------------- */
+/* --- the public query --- */
 
-/* Which start do the options mean? With an index, its own; MW_START_AUTO is decided by the query. */
-static mw_status resolve_start(const mw_query_options *options, mw_start_kind *start, mw_error *error)
+/* Which start do the options mean? With an index, its own; MW_START_AUTO is decided by the
+ * query. */
+static mw_status query_resolve_start(const mw_query_options *options, mw_start_kind *start, mw_error *error)
 {
     *start = options->start;
     if ((unsigned)*start >= MW_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
@@ -239,7 +251,7 @@ static mw_status resolve_start(const mw_query_options *options, mw_start_kind *s
 }
 
 /* Does the start lead near q, so that the walk is short? */
-static bool is_near(mw_start_kind start)
+static bool start_is_near(mw_start_kind start)
 {
     return start != MW_START_RANDOM && start != MW_START_SAMPLE && start != MW_START_CENTRE;
 }
@@ -251,7 +263,7 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
     if (!options) options = &defaults;
     if ((unsigned)options->walk >= MW_WALK_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
     mw_start_kind start;
-    mw_status status = resolve_start(options, &start, error);
+    mw_status status = query_resolve_start(options, &start, error);
     if (status) return status;
     if (options->finish && options->finish != MW_WALK_REMEMBERING && options->finish != MW_WALK_STOCHASTIC)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by remembering or stochastic");
@@ -278,7 +290,7 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
         .finish = (uint8_t)(options->finish ? options->finish : locator->finish),
         .arithmetic = (uint8_t)options->arithmetic,
         .count = options->counters != 0,
-        .fast = is_near(start) && mw__has_fast_path(&locator->tiling, options),
+        .fast = start_is_near(start) && mw__has_fast_path(&locator->tiling, options),
         .live = locator->tiling.tile_of != NULL,
         .asked = options->samples,
         .last_name = locator->centre,
@@ -287,7 +299,7 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
     return MW_OK;
 }
 
-void mw__catch_up(const mw_locator *locator, mw_cursor *cursor)
+void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor)
 {
     const mw_tiling *tiling = &locator->tiling;
     if (cursor->epoch == locator->epoch) return;
@@ -298,28 +310,29 @@ void mw__catch_up(const mw_locator *locator, mw_cursor *cursor)
     cursor->epoch = locator->epoch;
 }
 
-/* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where the start says. */
-static __attribute__((noinline)) mw_location walk_to(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+/* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where
+ * the start says. */
+static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     mw_work work;
     mw_walk walk = cursor->fast ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
                                                  mw__random(&cursor->random), NULL)
-                                : mw__depart(locator, cursor, cursor->last, q, &cursor->random, &work);
+                                : mw__query_begin(locator, cursor, cursor->last, q, &cursor->random, &work);
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
-    mw_location location = mw__conclude(locator, cursor, &walk, verdict, &cursor->counters);
+    mw_location location = mw__query_conclude(locator, cursor, &walk, verdict, &cursor->counters);
     cursor->last = walk.t;
     return location;
 }
 
-/* As mw__first_tile. A stream of queries is near where it was: no call for that. */
-static MW_INLINE uint32_t fast_tile(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+/* As mw__query_first_tile. A stream of queries is near where it was: no call for that. */
+static MW_INLINE uint32_t fast_first_tile(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     uint32_t last = cursor->last;
     if (!cursor->index && cursor->start == MW_START_LAST) return last;
     if (!cursor->index && cursor->start == MW_START_AUTO && locator->guide.start != MW_START_AUTO)
-        return mw__guided(locator, last, q);
-    return mw__first_tile(locator, cursor, last, q, &cursor->random, NULL);
+        return mw__locator_guided_tile(locator, last, q);
+    return mw__query_first_tile(locator, cursor, last, q, &cursor->random, NULL);
 }
 
 /* By the fast path; false: it leads to tile cursor->last, but to no answer. */
@@ -327,24 +340,24 @@ static MW_INLINE bool locate_fast(const mw_locator *locator, mw_cursor *cursor, 
 {
     if (MW_UNLIKELY(!cursor->fast)) return false;
     const mw_tiling *tiling = &locator->tiling;
-    uint32_t t = fast_tile(locator, cursor, q);
+    uint32_t t = fast_first_tile(locator, cursor, q);
     double weight[3];
     const mw_verdict verdict = mw__remembering_fast(tiling, q, &t, weight);
     cursor->last = t;
     const mw_triangle *tile = &tiling->tri[t];
     if (MW_LIKELY(verdict == MW_FOUND && !(tile->user & MW_GHOST))) {
-        mw__put_inside(location, tile->user, weight[0], weight[1], weight[2]);
+        mw__location_write_inside(location, tile->user, weight[0], weight[1], weight[2]);
         return true;
     }
-    return mw__fast_outside(tiling, cursor, tile, verdict == MW_FOUND, verdict == MW_LEFT, location);
+    return mw__fast_path_outside(tiling, cursor, tile, verdict == MW_FOUND, verdict == MW_LEFT, location);
 }
 
 static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     mw_location location;
-    mw__catch_up(locator, cursor);
-    if (!locate_fast(locator, cursor, q, &location)) location = walk_to(locator, cursor, q);
-    mw__note_last(locator, cursor);
+    mw__cursor_follow_edits(locator, cursor);
+    if (!locate_fast(locator, cursor, q, &location)) location = locate_by_walk(locator, cursor, q);
+    mw__cursor_remember_last(locator, cursor);
     return location;
 }
 
@@ -353,11 +366,11 @@ mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, do
     mw_location location;
     mw_point q = {x, y};
     if (MW_UNLIKELY(!isfinite(x) || !isfinite(y)))
-        mw__put_nowhere(&location, MW_BAD, MW_NONE);
+        mw__location_write_nowhere(&location, MW_BAD, MW_NONE);
     else if (MW_UNLIKELY(cursor->live))
         location = locate_live(locator, cursor, q);
     else if (MW_UNLIKELY(!locate_fast(locator, cursor, q, &location)))
-        location = walk_to(locator, cursor, q);
+        location = locate_by_walk(locator, cursor, q);
     return location;
 }
 
@@ -367,6 +380,6 @@ mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_ne
     if (!locator || !hit || !isfinite(x) || !isfinite(y))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest border needs a locator and a finite point");
     if (!locator->has_border) return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
-    if (mw__border_nearest(&locator->border, locator->mesh, (mw_point){x, y}, hit)) return MW_OK;
+    if (mw__border_tree_nearest(&locator->border_tree, locator->mesh, (mw_point){x, y}, hit)) return MW_OK;
     return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border"); /* only a mesh that is no embedding */
 }

@@ -65,7 +65,7 @@ size_t mw_mesh_bytes(const mw_mesh *mesh)
 
 /* --- fields ------------------------------------------------------------------------------------ */
 
-static mw_field *find_field(const mw_mesh *mesh, const char *name)
+static mw_field *mesh_find_field(const mw_mesh *mesh, const char *name)
 {
     for (size_t i = 0; i < mesh->field_count; i++)
         if (strcmp(mesh->field[i].name, name) == 0) return &mesh->field[i];
@@ -96,7 +96,7 @@ mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *value
 {
     if (!mesh || !name || (!values && mesh->point_count))
         return mw__fail(error, MW_ERROR_ARGUMENT, "a field needs a mesh, a name and values");
-    mw_field *field = find_field(mesh, name);
+    mw_field *field = mesh_find_field(mesh, name);
     if (!field) field = add_field(mesh, name);
     if (!field) return mw__fail_memory(error);
     if (stride == 0) stride = 1;
@@ -106,7 +106,7 @@ mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *value
 
 const double *mw_mesh_field(const mw_mesh *mesh, const char *name)
 {
-    const mw_field *field = find_field(mesh, name);
+    const mw_field *field = mesh_find_field(mesh, name);
     return field ? field->values : NULL;
 }
 

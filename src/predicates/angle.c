@@ -1,14 +1,16 @@
 /* angle.c - which of two angles is larger, exactly.
  *
- * An angle t between two vectors has cos t and sin t >= 0 as their dot product and the magnitude of their cross product, each over
- * the product of their lengths. So arms_cross(s) arms_dot(t) - arms_dot(s) arms_cross(t) has the sign of sin(s - t); and that is the sign of
- * s - t, which lies between -pi and pi, but where one of the angles is 0 and the other pi. */
+ * An angle t between two vectors has cos t and sin t >= 0 as their dot product and the magnitude of
+ * their cross product, each over the product of their lengths. So arms_cross(s) arms_dot(t) -
+ * arms_dot(s) arms_cross(t) has the sign of sin(s - t); and that is the sign of s - t, which lies
+ * between -pi and pi, but where one of the angles is 0 and the other pi. */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
 __extension__ typedef __int128 angle_wide;
 
-/* Expansions are exact in the range that incircle has: products of four differences here too, eight of them. */
+/* Expansions are exact in the range that incircle has: products of four differences here too, eight
+ * of them. */
 #define LOW 0x1p-216
 #define HIGH 0x1p253
 
@@ -30,8 +32,9 @@ static arms make_arms(mw_arena *arena, mw_point a, mw_point b, mw_point c)
     return r;
 }
 
-/* A short cut for points of a grid, where many angles are equal: all differences are integers below 2^30 times one
- * power of two, so that cross and dot products are below 2^61. False for other points. */
+/* A short cut for points of a grid, where many angles are equal: all differences are integers below
+ * 2^30 times one power of two, so that cross and dot products are below 2^61. False for other
+ * points. */
 static bool to_integers(const arms *r, double scale, int64_t v[4])
 {
     const mw_expansion *all[4] = {&r->x[0], &r->y[0], &r->x[1], &r->y[1]};

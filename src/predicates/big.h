@@ -1,13 +1,16 @@
-/* big.h - integers of any size that the predicates need, for coordinates out of the range of expansions. Private.
+/* big.h - integers of any size that the predicates need, for coordinates out of the range of
+ * expansions. Private.
  *
- * A set of doubles is written as integers times one power of two, 2^base, the largest that divides them all. Finite
- * doubles give integers of at most 2098 bits then, and few bits for doubles of similar size. */
+ * A set of doubles is written as integers times one power of two, 2^base, the largest that divides
+ * them all. Finite doubles give integers of at most 2098 bits then, and few bits for doubles of
+ * similar size. */
 #ifndef MW_SRC_BIG_H
 #define MW_SRC_BIG_H
 
 #include "base/base.h"
 
-/* Room for the largest number that occurs, of degree 8 in differences of 33 limbs (line.c): 264 limbs, and one to carry. */
+/* Room for the largest number that occurs, of degree 8 in differences of 33 limbs (line.c): 264
+ * limbs, and one to carry. */
 #define MW_BIG_LIMBS 265
 
 typedef struct mw_big {

@@ -8,7 +8,8 @@
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-/* The part of a segment that is nearest to a point: vertex a, or where `line` is set the inside of ab. */
+/* The part of a segment that is nearest to a point: vertex a, or where `line` is set the inside of
+ * ab. */
 typedef struct feature {
     mw_point a, b;
     bool line;
@@ -30,17 +31,19 @@ static feature nearest_feature(mw_point q, mw_point a, mw_point b)
     return (feature){a, b, true};
 }
 
-/* Rounding errors, u = 2^-53. The square of a length, two differences squared and added, is off by a factor of at most
- * (1 + u)^4. |orient2d| lies between area - bound and area + bound (predicates.h: the bound covers the error even
- * after a factor 1 - u), each off by (1 + u)^2; squared, and divided by the square of a length, that makes
- * (1 + u)^10. WIDEN = 2^4 u covers it together with its own rounding. FLOOR covers what underflows: an end that decides
- * a comparison is above FLOOR, and so what it was made of is normal as long as squares of lengths are at least SHORT:
- * 2^-800 * 2^-200 is well above 2^-1022. */
+/* Rounding errors, u = 2^-53. The square of a length, two differences squared and added, is off by
+ * a factor of at most (1 + u)^4. |orient2d| lies between area - bound and area + bound
+ * (predicates.h: the bound covers the error even after a factor 1 - u), each off by (1 + u)^2;
+ * squared, and divided by the square of a length, that makes (1 + u)^10. WIDEN = 2^4 u covers it
+ * together with its own rounding. FLOOR covers what underflows: an end that decides a comparison is
+ * above FLOOR, and so what it was made of is normal as long as squares of lengths are at least
+ * SHORT: 2^-800 * 2^-200 is well above 2^-1022. */
 #define WIDEN 0x1p-49
 #define FLOOR 0x1p-800
 #define SHORT 0x1p-200
 
-/* low..high made wider, so that it holds the true value; unbounded where something has overflowed. */
+/* low..high made wider, so that it holds the true value; unbounded where something has
+ * overflowed. */
 static interval interval_widened(double low, double high)
 {
     interval wide = {low * (1 - WIDEN), high * (1 + WIDEN) + FLOOR};

@@ -45,8 +45,8 @@ mw_expansion mw__expansion_difference(mw_arena *arena, double a, double b)
     return (mw_expansion){h, n};
 }
 
-/* h = e + sign * f, returns the number of parts. Merges the parts by magnitude and sums them up, smallest first
- * [Shewchuk's FAST-EXPANSION-SUM: keeps expansions "strongly nonoverlapping"]. */
+/* h = e + sign * f, returns the number of parts. Merges the parts by magnitude and sums them up,
+ * smallest first [Shewchuk's FAST-EXPANSION-SUM: keeps expansions "strongly nonoverlapping"]. */
 static int expansion_add(const double *e, int m, const double *f, int n, double sign, double *h)
 {
     int i = 0, j = 0, k = 0;
@@ -78,8 +78,8 @@ static int expansion_scale(const double *e, int m, double b, double *h)
     return k;
 }
 
-/* h = e * f, m and n > 0: by halves of f, so that every part takes part in log2(n) sums only. h and scratch have room
- * for 2 * m * n; each half is made in the other's array. */
+/* h = e * f, m and n > 0: by halves of f, so that every part takes part in log2(n) sums only. h and
+ * scratch have room for 2 * m * n; each half is made in the other's array. */
 static int expansion_multiply(const double *e, int m, const double *f, int n, double *h, double *scratch)
 {
     if (n == 1) return expansion_scale(e, m, f[0], h);

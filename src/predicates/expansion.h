@@ -1,12 +1,13 @@
 /* expansion.h - exact sums and products of doubles [Shewchuk 1997, sec. 2]. Private.
  *
- * An expansion is a number written as an unevaluated sum of doubles that do not overlap, in order of increasing
- * magnitude and without zeros; the number zero has no parts. Its last part has its sign. Rounding to nearest, ties to
- * even, is taken for granted, as are results that neither overflow nor need bits below 2^-1074: the predicates check
- * the range of their arguments first (mw__within).
+ * An expansion is a number written as an unevaluated sum of doubles that do not overlap, in order
+ * of increasing magnitude and without zeros; the number zero has no parts. Its last part has its
+ * sign. Rounding to nearest, ties to even, is taken for granted, as are results that neither
+ * overflow nor need bits below 2^-1074: the predicates check the range of their arguments first
+ * (mw__within).
  *
- * Results are put one after the other into an arena, an array of the caller's on the stack; each function says how
- * many doubles it may need there. */
+ * Results are put one after the other into an arena, an array of the caller's on the stack; each
+ * function says how many doubles it may need there. */
 #ifndef MW_SRC_EXPANSION_H
 #define MW_SRC_EXPANSION_H
 
@@ -31,7 +32,8 @@ mw_expansion mw__expansion_multiply(mw_arena *arena, mw_expansion e, mw_expansio
 /* The expansion as one double, with its sign: off by a few units in the last place. */
 double mw__expansion_estimate(mw_expansion e);
 
-/* a*d - b*c for expansions of at most two parts (differences): at most 16 parts. Takes 48 doubles. */
+/* a*d - b*c for expansions of at most two parts (differences): at most 16 parts. Takes 48
+ * doubles. */
 #define MW_CROSS_ROOM 48
 mw_expansion mw__expansion_cross(mw_arena *arena, mw_expansion a, mw_expansion b, mw_expansion c, mw_expansion d);
 

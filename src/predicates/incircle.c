@@ -1,16 +1,19 @@
-/* incircle.c - the exact stage of incircle: the determinant of the rows x, y, x^2 + y^2 of a - d, b - d, c - d. */
+/* incircle.c - the exact stage of incircle: the determinant of the rows x, y, x^2 + y^2 of a - d, b
+ * - d, c - d. */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
 __extension__ typedef __int128 incircle_wide;
 #define LOW_BITS (((incircle_wide)1 << 42) - 1)
 
-/* Expansions are exact for nonzero coordinates of magnitude 2^-216 to 2^253: products of four differences are multiples
- * of 2^(4 * (-216 - 52)) = 2^-1072, and the twelve of them are at most 12 * 2^(4 * 254) < 2^1020. */
+/* Expansions are exact for nonzero coordinates of magnitude 2^-216 to 2^253: products of four
+ * differences are multiples of 2^(4 * (-216 - 52)) = 2^-1072, and the twelve of them are at most 12
+ * * 2^(4 * 254) < 2^1020. */
 #define LOW 0x1p-216
 #define HIGH 0x1p253
 
-/* A term, lift times minor, has 16 * 16 * 2 = 512 parts, and takes room for both and twice its own. */
+/* A term, lift times minor, has 16 * 16 * 2 = 512 parts, and takes room for both and twice its
+ * own. */
 #define TERM_PARTS 512
 #define TERM_ROOM (2 * MW_CROSS_ROOM + 2 * TERM_PARTS)
 
@@ -27,10 +30,11 @@ static bool to_integer(mw_expansion x, double scale, int64_t *n)
     return (double)*n == scaled;
 }
 
-/* A short cut for points of a grid, of which many lie on one circle, and for points that lie close together far from
- * the origin: all differences are integers below 2^41 times one power of two. Then lifts and minors are below 2^83;
- * each lift is cut into high * 2^42 + low, and the sums of high * minor and of low * minor stay below 3 * 2^125. Two
- * (grid) to eight times as fast as expansions. False for other points. */
+/* A short cut for points of a grid, of which many lie on one circle, and for points that lie close
+ * together far from the origin: all differences are integers below 2^41 times one power of two.
+ * Then lifts and minors are below 2^83; each lift is cut into high * 2^42 + low, and the sums of
+ * high * minor and of low * minor stay below 3 * 2^125. Two (grid) to eight times as fast as
+ * expansions. False for other points. */
 static bool incircle_on_grid(const row p[3], double *det)
 {
     double largest = 0;

@@ -1,9 +1,10 @@
-/* length.c - the exact stage of the comparison of two lengths: the sign of |b - a|^2 - |d - c|^2. */
+/* length.c - the exact stage of the comparison of two lengths: the sign of |b - a|^2 - |d -
+ * c|^2. */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-/* Expansions are exact for nonzero coordinates of magnitude 2^-485 to 2^509: as in orient2d.c, but that there are four
- * products, together at most 2^1022. */
+/* Expansions are exact for nonzero coordinates of magnitude 2^-485 to 2^509: as in orient2d.c, but
+ * that there are four products, together at most 2^1022. */
 #define LOW 0x1p-485
 #define HIGH 0x1p509
 

@@ -1,9 +1,10 @@
-/* line.c - the exact stages of what is asked about a line in space: the line q + t m against edges and planes.
+/* line.c - the exact stages of what is asked about a line in space: the line q + t m against edges
+ * and planes.
  *
- * The plane of a triangle abc with normal n = (b - a) x (c - a) is met at t = N / M with N = n . (a - q) and M = n . m. N
- * and M are estimated in doubles, with bounds of their errors; big integers decide what those cannot, by
- * cross-multiplication. As long as coordinates are of similar size, these integers have few limbs and cost less than
- * expansions of so high a degree. */
+ * The plane of a triangle abc with normal n = (b - a) x (c - a) is met at t = N / M with N = n . (a
+ * - q) and M = n . m. N and M are estimated in doubles, with bounds of their errors; big integers
+ * decide what those cannot, by cross-multiplication. As long as coordinates are of similar size,
+ * these integers have few limbs and cost less than expansions of so high a degree. */
 #include "predicates/line.h"
 #include "predicates/big.h"
 #include "predicates/expansion.h"
@@ -11,10 +12,10 @@
 #include <limits.h>
 #include <stdlib.h>
 
-/* --- sides -------------------------------------------------------------------------------------------------------- */
+/* --- sides --- */
 
-/* Expansions are exact for nonzero coordinates of magnitude 2^-306 to 2^339, as in orient3d.c: m is a factor in the
- * place of a difference. */
+/* Expansions are exact for nonzero coordinates of magnitude 2^-306 to 2^339, as in orient3d.c: m is
+ * a factor in the place of a difference. */
 #define LOW 0x1p-306
 #define HIGH 0x1p339
 
@@ -92,14 +93,15 @@ double mw__side_exact(const mw_line *line, const double a[3], const double b[3])
     return mw__big_double(&side, exponent);
 }
 
-/* --- hits --------------------------------------------------------------------------------------------------------- */
+/* --- hits --- */
 
 /* A magnitude lies from low to high. */
 typedef struct sign_range {
     double low, high;
 } sign_range;
 
-/* A rounded value with its bound is off by bound + u |value|; what is rounded here, by less than 4u (|value| + bound). */
+/* A rounded value with its bound is off by bound + u |value|; what is rounded here, by less than 4u
+ * (|value| + bound). */
 #define WIDEN 0x1p-50
 
 static sign_range range_of(double value, double bound)
@@ -223,7 +225,8 @@ static int compare_hit_to_exact(const mw_line *line, const mw_corners s, double 
     return compare_products(&squares[0], &h.n, &h.m, &squares[1]);
 }
 
-/* Where |m|^2 lies here, its rounding errors are relative ones: less than 3u, and of the root 3u. */
+/* Where |m|^2 lies here, its rounding errors are relative ones: less than 3u, and of the root
+ * 3u. */
 #define SHORT 0x1p-900
 #define LONG 0x1p1000
 
@@ -244,10 +247,10 @@ int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d)
     return compare_hit_to_exact(line, s, d);
 }
 
-/* --- what is told of a hit ---------------------------------------------------------------------------------------- */
+/* --- what is told of a hit --- */
 
-/* An estimate is good enough for a distance where its bound is no more than this part of it: N, M and |m| are then off by
- * less than 2^-43 together. */
+/* An estimate is good enough for a distance where its bound is no more than this part of it: N, M
+ * and |m| are then off by less than 2^-43 together. */
 #define FINE 0x1p-45
 
 /* x * 2^exponent, not 0 unless x is, and then without a sign. */
@@ -278,7 +281,8 @@ static void exact_quotient(const mw_line *line, const mw_corners s, double fract
     exponent[1] += motion;
 }
 
-/* Products and quotients of a few such magnitudes, and squares of the largest of a vector, are normal doubles. */
+/* Products and quotients of a few such magnitudes, and squares of the largest of a vector, are
+ * normal doubles. */
 static bool is_ordinary(double x)
 {
     return fabs(x) > 0x1p-200 && fabs(x) < 0x1p200;
@@ -323,7 +327,8 @@ static void exact_sides(const mw_line *line, const mw_corners s, double side[3])
     for (int k = 0; k < 3; k++) side[k] = line_scaled(side[k], exponent[k] - largest);
 }
 
-/* A side whose sign is sure is good enough for weights where its bound is no more than this part of their sum. */
+/* A side whose sign is sure is good enough for weights where its bound is no more than this part of
+ * their sum. */
 #define WEIGHT_FINE 0x1p-44
 #define LEAST_SUM 0x1p-900
 #define MOST_SUM 0x1p900

@@ -1,7 +1,8 @@
-/* line.h - a line in space against edges and triangles, exactly: through a point q along a vector m. Private.
+/* line.h - a line in space against edges and triangles, exactly: through a point q along a vector
+ * m. Private.
  *
- * Seen along m, everything is planar: an edge ab passes the line on one side or on the other, and the line meets a
- * triangle where it passes all its three edges on the same side. */
+ * Seen along m, everything is planar: an edge ab passes the line on one side or on the other, and
+ * the line meets a triangle where it passes all its three edges on the same side. */
 #ifndef MW_SRC_LINE_H
 #define MW_SRC_LINE_H
 
@@ -14,12 +15,12 @@ typedef struct mw_line {
 /* The exact stage of mw__side: 0 with a coordinate that is not finite. */
 double mw__side_exact(const mw_line *line, const double a[3], const double b[3]);
 
-/* Bound for m . ((a - q) x (b - q)) in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as in orient3d; m
- * is exact, so the product with it, rounded, is off by (5u + 8u^2 + ...) |m| P, which is (5u + 18u^2 + ...) of its computed
- * permanent. The first sum adds u and a factor 1 + u: 6u + 23u^2; the sum of the permanents and the last rounding
- * make it 6u + 35u^2 + .... (6u + 64u^2)(1 - u)^2 is more.
- * Underflow: an error of 2^-1075 in each of six products is multiplied by a coordinate of m, and 2^-1075 added; with the
- * sum of m below 2^100 that is less than 2^-970. */
+/* Bound for m . ((a - q) x (b - q)) in terms of its permanent. A minor is off by (4u + 4u^2 + ...)
+ * P, as in orient3d; m is exact, so the product with it, rounded, is off by (5u + 8u^2 + ...) |m|
+ * P, which is (5u + 18u^2 + ...) of its computed permanent. The first sum adds u and a factor 1 +
+ * u: 6u + 23u^2; the sum of the permanents and the last rounding make it 6u + 35u^2 + .... (6u +
+ * 64u^2)(1 - u)^2 is more. Underflow: an error of 2^-1075 in each of six products is multiplied by
+ * a coordinate of m, and 2^-1075 added; with the sum of m below 2^100 that is less than 2^-970. */
 #define MW_SIDE_ERROR ((6.0 + 64.0 * 0x1p-53) * 0x1p-53)
 #define MW_SIDE_MOTION 0x1p100
 
@@ -37,9 +38,9 @@ static MW_INLINE double mw__side_rounded(const mw_line *line, const double a[3],
     return m[0] * (yz - zy) + m[1] * (zx - xz) + m[2] * (xy - yx);
 }
 
-/* Sign-exact. Over the sides of a triangle abc with normal n = (b - a) x (c - a) they add up to m . n: the line meets the
- * triangle where none is positive or none is negative, and not all are 0; m points at the front of it where none is
- * positive. */
+/* Sign-exact. Over the sides of a triangle abc with normal n = (b - a) x (c - a) they add up to m .
+ * n: the line meets the triangle where none is positive or none is negative, and not all are 0; m
+ * points at the front of it where none is positive. */
 static MW_INLINE double mw__side(const mw_line *line, const double a[3], const double b[3])
 {
     double bound, side = mw__side_rounded(line, a, b, &bound);
@@ -56,23 +57,26 @@ static MW_INLINE double mw__facing(const double m[3], const double a[3], const d
 /* A triangle's corners, for the functions below: the line is not parallel to its plane. */
 typedef const double *mw_corners[3];
 
-/* Compare how far from q the line meets the planes of two triangles, on either side: -1 where s is nearer, 0 where they
- * are equal, 1 where t is nearer. Exact. */
+/* Compare how far from q the line meets the planes of two triangles, on either side: -1 where s is
+ * nearer, 0 where they are equal, 1 where t is nearer. Exact. */
 int mw__compare_hits(const mw_line *line, const mw_corners s, const mw_corners t);
 
 /* The same against the length d >= 0, which may be infinite. */
 int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d);
 
-/* How far from q, along m: in units of length, negative behind q. Off by less than 2^-40 of itself; 0 only where it is 0:
- * below the normal doubles it has its sign at least, and beyond the largest double it is infinite. */
+/* How far from q, along m: in units of length, negative behind q. Off by less than 2^-40 of itself;
+ * 0 only where it is 0: below the normal doubles it has its sign at least, and beyond the largest
+ * double it is infinite. */
 double mw__hit_distance(const mw_line *line, const mw_corners s);
 
-/* Magnitudes of the three sides, each opposite to its corner, up to a common factor: exactly 0 where they are 0, off by
- * less than 2^-42 of their sum, which lies from 2^-900 to 2^900. For a triangle that the line meets. */
+/* Magnitudes of the three sides, each opposite to its corner, up to a common factor: exactly 0
+ * where they are 0, off by less than 2^-42 of their sum, which lies from 2^-900 to 2^900. For a
+ * triangle that the line meets. */
 void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3]);
 
-/* Does the line meet the triangle strictly inside, with m pointing at its front? Where doubles are enough to tell, and
- * for weights: then true, and side[] is that of mw__hit_sides. False tells nothing. */
+/* Does the line meet the triangle strictly inside, with m pointing at its front? Where doubles are
+ * enough to tell, and for weights: then true, and side[] is that of mw__hit_sides. False tells
+ * nothing. */
 bool mw__hit_inside(const mw_line *line, const mw_corners s, double side[3]);
 
 #endif

@@ -1,10 +1,11 @@
-/* orient2d.c - the exact stage of the predicates that are two products of differences: orient2d and dot2d. */
+/* orient2d.c - the exact stage of the predicates that are two products of differences: orient2d and
+ * dot2d. */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-/* Expansions are exact for nonzero coordinates of magnitude 2^-485 to 2^509. Below: differences are multiples of the
- * lowest bit, 2^(-485 - 52), and their products of 2^-1074, the lowest bit of a double. Above: differences are at most
- * 2^510, the two products together 2^1021. */
+/* Expansions are exact for nonzero coordinates of magnitude 2^-485 to 2^509. Below: differences are
+ * multiples of the lowest bit, 2^(-485 - 52), and their products of 2^-1074, the lowest bit of a
+ * double. Above: differences are at most 2^510, the two products together 2^1021. */
 #define LOW 0x1p-485
 #define HIGH 0x1p509
 

@@ -2,12 +2,14 @@
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-/* Expansions are exact for nonzero coordinates of magnitude 2^-306 to 2^339: products of three differences are
- * multiples of 2^(3 * (-306 - 52)) = 2^-1074, and six of them are at most 6 * 2^(3 * 340) < 2^1023. */
+/* Expansions are exact for nonzero coordinates of magnitude 2^-306 to 2^339: products of three
+ * differences are multiples of 2^(3 * (-306 - 52)) = 2^-1074, and six of them are at most 6 * 2^(3
+ * * 340) < 2^1023. */
 #define LOW 0x1p-306
 #define HIGH 0x1p339
 
-/* A term of a determinant has 16 * 2 * 2 = 64 parts, and takes room for a cross product and twice its own. */
+/* A term of a determinant has 16 * 2 * 2 = 64 parts, and takes room for a cross product and twice
+ * its own. */
 #define TERM_PARTS 64
 #define TERM_ROOM (MW_CROSS_ROOM + 2 * TERM_PARTS)
 

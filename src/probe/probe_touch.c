@@ -89,7 +89,7 @@ static bool points_equal3(const double a[3], const double b[3])
 }
 
 /* Does p lie strictly between a and b? All three are collinear. */
-static bool point_is_between(const double p[3], const double a[3], const double b[3])
+static bool touch_point_is_between(const double p[3], const double a[3], const double b[3])
 {
     for (int k = 0; k < 3; k++)
         if ((a[k] < p[k] && p[k] < b[k]) || (b[k] < p[k] && p[k] < a[k])) return true;
@@ -112,7 +112,7 @@ static bool touch_is_at_point(const touch_search *s, const double d[3])
 /* Do l and d, which are both not the point, lie on different sides of it? d as above. */
 static bool touch_is_parted(const touch_search *s, const double l[3], const double d[3])
 {
-    if (s->vertex) return point_is_between(s->vertex, l, d);
+    if (s->vertex) return touch_point_is_between(s->vertex, l, d);
     return (mw__side(s->line, s->apex, l) < 0) != (mw__side(s->line, s->apex, d) < 0);
 }
 
@@ -159,7 +159,7 @@ static void touch_search_look(touch_search *s, uint32_t t, uint32_t corner)
     double side = mw__side(s->line, a, b);
     if (side < 0) touch_search_note(s, t);
     if (side != 0 || !mw__collinear3(p, a, b)) return;
-    if (point_is_between(p, a, b) || points_equal3(p, a) || points_equal3(p, b)) touch_search_add_branch(s, t);
+    if (touch_point_is_between(p, a, b) || points_equal3(p, a) || points_equal3(p, b)) touch_search_add_branch(s, t);
 }
 
 /* Turn round the corner, over the given edge first, until the fan ends. Returns true if it
@@ -191,7 +191,7 @@ static void touch_search_branch_out(touch_search *s, uint32_t t)
     for (uint32_t k = 0; k < 3; k++) {
         const double *a = mw__surface_corner(s->surface, t, k), *b = mw__surface_corner(s->surface, t, k + 1);
         if (points_equal3(a, s->vertex)) touch_search_turn(s, t, k);
-        if (point_is_between(s->vertex, a, b)) touch_search_cross(s, mw__link(t, k));
+        if (touch_point_is_between(s->vertex, a, b)) touch_search_cross(s, mw__link(t, k));
     }
 }
 

@@ -1,18 +1,21 @@
-/* curve.c - tiles that lie in memory along a Hilbert curve are their own index: where q lies on the curve tells about
- * where its tile lies.
+/* curve.c - tiles that lie in memory along a Hilbert curve are their own index: where q lies on the
+ * curve tells about where its tile lies.
  *
- * Of every few tiles one is sampled, with the key of its lowest vertex. Between the two samples round the key of q the place of its
- * tile is estimated by the rule of three. Samples lie as dense as the tiles, so any distribution of vertices will do. What is near
- * on the curve is near in the plane; a walk is a few tiles longer than from a fine grid, but what it looks up is small enough
- * for a cache. Of tiles in any other order the sample before q is taken.
+ * Of every few tiles one is sampled, with the key of its lowest vertex. Between the two samples
+ * round the key of q the slot of its tile is interpolated linearly. Samples lie as dense as the
+ * tiles, so any distribution of vertices will do. What is near on the curve is near in the plane; a
+ * walk is a few tiles longer than from a fine grid, but what it looks up is small enough for a
+ * cache. Of tiles in any other order the sample before q is taken.
  *
- * Keys are looked up by their upper bits first: as many buckets as samples, or up to twice as many. */
+ * Keys are looked up by their upper bits first: as many buckets as samples, or up to twice as
+ * many. */
 #include "start/curve.h"
 
 #include <stdlib.h>
 
-/* The key of the lowest vertex: by that tiles of a mesh that is laid out are in order (mesh/layout.h). */
-static uint32_t key_of(const mw_curve *curve, const mw_tiling *tiling, uint32_t t)
+/* The key of the lowest vertex: by that tiles of a mesh that is laid out are in order
+ * (mesh/layout.h). */
+static uint32_t tile_key(const mw_curve *curve, const mw_tiling *tiling, uint32_t t)
 {
     const uint32_t *v = tiling->tri[t].v;
     uint32_t low = v[0] < v[1] ? v[0] : v[1];
@@ -31,11 +34,11 @@ static uint32_t curve_buckets(const mw_curve *curve)
 }
 
 /* Put all tiles of the sample, every `stride`-th, between the two ends of the curve. */
-static void take_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch)
+static void curve_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch)
 {
     uint32_t n = curve->count - 2, follow = 0;
     mw_key *sample = curve->sample + 1;
-    for (uint32_t i = 0; i < n; i++) sample[i] = (mw_key){key_of(curve, tiling, i * stride), i * stride};
+    for (uint32_t i = 0; i < n; i++) sample[i] = (mw_key){tile_key(curve, tiling, i * stride), i * stride};
     mw__sort_keys(sample, scratch, n);
     sample[-1] = (mw_key){0, sample[0].item};
     sample[n] = (mw_key){UINT32_MAX, sample[n - 1].item};
@@ -43,7 +46,7 @@ static void take_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t strid
     curve->regular = follow >= n - n / 8 - 1;
 }
 
-static void fill_buckets(mw_curve *curve)
+static void curve_fill_buckets(mw_curve *curve)
 {
     for (uint32_t b = 0, i = 0; b <= curve_buckets(curve); b++) {
         while (i < curve->count - 1 && curve->sample[i].key < (uint64_t)b << curve->shift) i++;
@@ -63,8 +66,8 @@ bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low
     mw_key *scratch = mw__alloc_lines(n, sizeof *scratch);
     bool done = curve->sample && curve->from && scratch;
     if (done) {
-        take_sample(curve, tiling, stride, scratch);
-        fill_buckets(curve);
+        curve_sample(curve, tiling, stride, scratch);
+        curve_fill_buckets(curve);
     }
     free(scratch);
     return done;

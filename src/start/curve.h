@@ -1,6 +1,6 @@
 /* curve.h - first tiles by the order in which the tiles lie in memory. Private. */
-#ifndef MW_SRC_CURVE_START_H
-#define MW_SRC_CURVE_START_H
+#ifndef MW_SRC_CURVE_H
+#define MW_SRC_CURVE_H
 
 #include "base/hilbert.h"
 #include "tiling/tiling.h"
@@ -18,8 +18,8 @@ typedef struct mw_curve {
         sparse; /* of a guide: its cells name a tile where few are; MW_NONE: ask the curve. Without it, tile is NULL */
 } mw_curve;
 
-/* Sample about `samples` tiles (0: MW_CURVE_STRIDE) of a tiling with the extent low..high. Returns false when out of
- * memory. */
+/* Sample about `samples` tiles (0: MW_CURVE_STRIDE) of a tiling with the extent low..high. Returns
+ * false when out of memory. */
 #define MW_CURVE_STRIDE 32 /* one of so many tiles */
 bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2], const double high[2],
                       uint32_t samples);

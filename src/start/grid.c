@@ -1,24 +1,31 @@
 /* grid.c - a uniform grid of buckets [Su, Drysdale 1997; thesis App. E, sec. 4.1].
  *
- * A cell of Su and Drysdale holds one of the vertices in it at most, as a tile that has it; a query begins there, and where
- * its cell has none they search the rings of cells round it, in a spiral, for every query. Here a cell holds the tile whose
- * middle is the nearest to its own, so that queries in it visit 2.3 tiles instead of 3.5 (uniform points); and the cells
- * without one are filled once: a walk to their middle from a cell beside them that is filled already. Where many are empty tiles are large, and
- * these walks short. So the cost of a query is bounded where most of the extent is empty. To walk to the middle of every cell makes it 2.2
- * tiles, and building 2.7 times as long.
+ * A cell of Su and Drysdale holds one of the vertices in it at most, as a tile that has it; a query
+ * begins there, and where its cell has none they search the rings of cells round it, in a spiral,
+ * for every query. Here a cell holds the tile whose middle is the nearest to its own, so that
+ * queries in it visit 2.3 tiles instead of 3.5 (uniform points); and the cells without one are
+ * filled once: a walk to their middle from a cell beside them that is filled already. Where many
+ * are empty tiles are large, and these walks short. So the cost of a query is bounded where most of
+ * the extent is empty. To walk to the middle of every cell makes it 2.2 tiles, and building 2.7
+ * times as long.
  *
- * Beyond the extent is a rim of cells that hold no middle of a tile. The walk to the middle of one ends at an edge of the hull that parts
- * it from the mesh. To the right of the extent no such edge faces left, so it parts all that lies farther to the right, too; and likewise on the other
- * sides. So nearly every query outside ends in its first tile. Without the rim it walked there from within, over 7 to 12
- * tiles that are ever longer: 112 and 147 ns (10^4 and 10^6 uniform points, in batches) instead of 46.
+ * Beyond the extent lies a margin: a frame of cells that hold no middle of a tile. The walk to the
+ * middle of one ends at an edge of the hull that parts it from the mesh. To the right of the extent
+ * no such edge faces left, so it parts all that lies farther to the right, too; and likewise on the
+ * other sides. So nearly every query outside ends in its first tile. Without the margin it walked
+ * there from within, over 7 to 12 tiles that are ever longer: 112 and 147 ns (10^4 and 10^6 uniform
+ * points, in batches) instead of 46.
  *
- * From a cell of k tiles walks visit about 1 + 0.6 sqrt(k). Where k is large a sample along the curve (curve.c) leads nearer, with 4 to 5 tiles for any k,
- * but takes longer to look up; in large triangles, between clusters, it leads astray. So where vertices are crowded the guide of a locator is both: a
- * grid whose crowded cells are left to the curve. 10^6 points in 100 clusters of a deviation of a thousandth, alone and in a batch: at random places 1300 ns
- * and 450 by the curve, 74 and 31 by both; at random triangles 3370 and 765 by the grid, 630 and 117 by the curve, 630 and 124 by both.
+ * From a cell of k tiles walks visit about 1 + 0.6 sqrt(k). Where k is large a sample along the
+ * curve (curve.c) leads nearer, with 4 to 5 tiles for any k, but takes longer to look up; in large
+ * triangles, between clusters, it leads astray. So where vertices are crowded the guide of a
+ * locator is both: a grid whose crowded cells are left to the curve. 10^6 points in 100 clusters of
+ * a deviation of a thousandth, alone and in a batch: at random points 1300 ns and 450 by the curve,
+ * 74 and 31 by both; at random triangles 3370 and 765 by the grid, 630 and 117 by the curve, 630
+ * and 124 by both.
  *
- * Number of cells: with more of them walks are shorter, but time hardly is, since the grid itself has to come from memory. 10^6
- * uniform points, one thread, ns per query, cells per vertex:
+ * Number of cells: with more of them walks are shorter, but time hardly is, since the grid itself
+ * has to come from memory. 10^6 uniform points, one thread, ns per query, cells per vertex:
  *     1/8  alone 519, in a batch 82        1/2  alone 453, in a batch 69        1  alone 430, in a batch 63
  * So one cell for two vertices: 2 bytes a vertex. */
 #include "start/grid.h"
@@ -37,7 +44,8 @@ enum {
     SHARE = 4
 };
 
-/* Of every few tiles, put the one nearest to the middle of a cell into it, and count them: share i, with sites of its own. */
+/* Of every few tiles, put the one nearest to the middle of a cell into it, and count them: share i,
+ * with sites of its own. */
 static void shares_look(const mw_grid *grid, const mw_grid_plan *plan, int i, int shares)
 {
     uint32_t cells = mw__lattice_cells(&grid->lattice);
@@ -70,7 +78,7 @@ static void cell_join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, in
     grid->tile[cell] = site->tile;
 }
 
-static void look_together(mw_grid *grid, const mw_grid_plan *plan, int shares)
+static void shares_look_together(mw_grid *grid, const mw_grid_plan *plan, int shares)
 {
 #ifdef _OPENMP
 #pragma omp parallel num_threads(shares) if (shares > 1)
@@ -111,7 +119,7 @@ static void plan_choose(mw_grid_plan *plan, uint32_t cells)
 }
 
 /* Look at the tiles that are in the cells of a lattice. */
-static bool look_at_cells(mw_grid *grid, mw_grid_plan *plan)
+static bool grid_look(mw_grid *grid, mw_grid_plan *plan)
 {
     uint32_t count = mw__lattice_cells(&grid->lattice);
     int shares = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
@@ -122,7 +130,7 @@ static bool look_at_cells(mw_grid *grid, mw_grid_plan *plan)
         free(plan->site);
         return false;
     }
-    look_together(grid, plan, shares);
+    shares_look_together(grid, plan, shares);
     return true;
 }
 
@@ -130,7 +138,7 @@ bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], cons
 {
     if (cells == 0) cells = mw__lattice_choose(plan->tiling);
     grid->lattice = mw__lattice_of(plan->tiling, low, high, cells);
-    if (!look_at_cells(grid, plan)) return false;
+    if (!grid_look(grid, plan)) return false;
     plan_choose(plan, mw__lattice_cells(&grid->lattice));
     return true;
 }
@@ -146,13 +154,13 @@ static uint32_t cell_settled(const mw_grid *grid, const mw_grid_plan *plan, uint
     return cell;
 }
 
-static bool is_outermost(const mw_lattice *lattice, uint32_t x, uint32_t y)
+static bool cell_is_outermost(const mw_lattice *lattice, uint32_t x, uint32_t y)
 {
     return x == 0 || y == 0 || x + 1 == lattice->columns || y + 1 == lattice->rows;
 }
 
 /* Does tile t have p? In plain doubles. */
-static MW_INLINE bool has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
+static MW_INLINE bool tile_has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
 {
     const uint32_t *v = tiling->tri[t].v;
     const mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
@@ -162,20 +170,20 @@ static MW_INLINE bool has_point(const mw_tiling *tiling, uint32_t t, mw_point p)
     return least > 0;
 }
 
-/* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long, as far as the fuel goes. Where the walk
- * leaves the hull, and tiles are beside, one of these: the hull may cross the cell, and from a long tile along it walks into the
- * mesh are long. */
-static void fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t, uint32_t fuel)
+/* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long,
+ * as far as the fuel goes. Where the walk leaves the hull, and tiles are beside, one of these: the
+ * hull may cross the cell, and from a long tile along it walks into the mesh are long. */
+static void cell_fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t, uint32_t fuel)
 {
     uint32_t cell = y * grid->lattice.columns + x, beside = cell;
     mw_point middle = mw__lattice_middle(&grid->lattice, x, y);
-    if (has_point(plan->tiling, t, middle)) {
+    if (tile_has_point(plan->tiling, t, middle)) {
         grid->tile[cell] = t;
         return;
     }
     mw_walk walk = mw__walk_begin(plan->tiling, middle, t, fuel, 0, NULL);
     bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_LEFT;
-    if (left && !is_outermost(&grid->lattice, x, y)) beside = cell_settled(grid, plan, x, y);
+    if (left && !cell_is_outermost(&grid->lattice, x, y)) beside = cell_settled(grid, plan, x, y);
     grid->tile[cell] = beside != cell ? grid->tile[beside] : walk.t;
 }
 
@@ -185,8 +193,9 @@ enum {
     FAR = 1 << 12 /* for the first one of a band                 */
 };
 
-/* A tile of the cell to the left or below, rather of one that was a gap too, where tiles are large. Gaps below the band from line
- * `first` on are not known, so that it does not matter which band is filled first. MW_NONE: there is no such cell. */
+/* A tile of the cell to the left or below, rather of one that was a gap too, where tiles are large.
+ * Gaps below the band from line `first` on are not known, so that it does not matter which band is
+ * filled first. MW_NONE: there is no such cell. */
 static uint32_t cell_tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t first)
 {
     uint32_t columns = grid->lattice.columns, cell = y * columns + x;
@@ -206,7 +215,7 @@ static uint32_t tile_after(const mw_grid *grid, const mw_grid_plan *plan, uint32
 }
 
 /* The cells within the outermost ones. */
-static void fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
+static void grid_fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
 {
     uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows;
     for (uint32_t y = first; y < first + BAND && y + 1 < rows; y++)
@@ -214,7 +223,7 @@ static void fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
             if (!cell_is_gap(plan, y * columns + x)) continue;
             uint32_t t = cell_tile_beside(grid, plan, x, y, first);
             bool near = t != MW_NONE;
-            fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x), near ? FUEL : FAR);
+            cell_fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x), near ? FUEL : FAR);
         }
 }
 
@@ -224,9 +233,9 @@ static uint32_t line_inwards(uint32_t line, uint32_t lines)
     return line + 1 == lines && line > 1 ? line - 1 : line;
 }
 
-/* The outermost cells come last, each from the one further in: tiles along the hull are long, so that near the one of the last
- * cell there may be none of the next. */
-static void fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
+/* The outermost cells come last, each from the one further in: tiles along the hull are long, so
+ * that near the one of the last cell there may be none of the next. */
+static void grid_fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 {
     uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows, bands = rows > 2 ? (rows - 3) / BAND + 1 : 0;
     int team = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
@@ -234,18 +243,18 @@ static void fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
 #endif
-    for (uint32_t b = 0; b < bands; b++) fill_band(grid, plan, 1 + b * BAND);
+    for (uint32_t b = 0; b < bands; b++) grid_fill_band(grid, plan, 1 + b * BAND);
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < columns; x++) {
-            if (!is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x)) continue;
+            if (!cell_is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x)) continue;
             uint32_t t = grid->tile[line_inwards(y, rows) * columns + line_inwards(x, columns)];
-            fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
+            cell_fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
         }
 }
 
 void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
 {
-    fill_gaps(grid, plan);
+    grid_fill_gaps(grid, plan);
     for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells; c++)
         grid->tile[c] = sparse && cell_has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);
     free(plan->site);
@@ -256,7 +265,7 @@ void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
     mw_grid fine = {.lattice = mw__lattice_finer(&grid->lattice)};
     mw_grid_plan plan = {.tiling = tiling, .stride = stride};
     if (!mw__lattice_is_finite(&fine.lattice)) return;
-    if (!look_at_cells(&fine, &plan)) {
+    if (!grid_look(&fine, &plan)) {
         mw__grid_release(&fine);
         return;
     }

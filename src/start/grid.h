@@ -9,8 +9,8 @@ typedef struct mw_grid {
     uint32_t *tile; /* of each cell: the name of the one that holds its middle, or near it */
 } mw_grid;
 
-/* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the extent of the tiling. Returns
- * false when out of memory. */
+/* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the
+ * extent of the tiling. Returns false when out of memory. */
 bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
 
 /* What is known of a cell while its grid is built. */
@@ -21,8 +21,8 @@ typedef struct mw_grid_site {
         count; /* tiles in it, of those that were looked at                                                          */
 } mw_grid_site;
 
-/* The same in two steps, so that between them the choice can be made by what was seen. Of the tiles every stride-th is looked at: more
- * make walks shorter. */
+/* The same in two steps, so that between them the choice can be made by what was seen. Of the tiles
+ * every stride-th is looked at: more make walks shorter. */
 typedef struct mw_grid_plan {
     const mw_tiling *tiling;
     uint32_t stride;
@@ -34,8 +34,9 @@ typedef struct mw_grid_plan {
 bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells);
 /* With `sparse` crowded cells are left without a tile: MW_NONE. */
 void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
-/* Make of each cell of a grid that ended four. Those in which no tile is, of every stride-th, have the tile of that cell, which takes no walk. Where memory
- * is short, or cells would be too small for doubles, it stays as it was. For the time being it takes 16 bytes a cell more. */
+/* Make of each cell of a grid that ended four. Those in which no tile is, of every stride-th, have
+ * the tile of that cell, which takes no walk. Where memory is short, or cells would be too small
+ * for doubles, it stays as it was. For the time being it takes 16 bytes a cell more. */
 void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);

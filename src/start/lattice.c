@@ -32,11 +32,11 @@ mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t column, uint32_t
     return (mw_point){lattice->middle[0] + x, lattice->middle[1] + y};
 }
 
-/* --- cells in the shape of the tiles ---------------------------------------------------------------------------------- */
+/* --- cells in the shape of the tiles --- */
 
-/* Add the tensor of a tile's edges, sum of e e^T, to xx, xy, yy: divided by its trace, times the tile's area, so that each place counts the
- * same. */
-static void add_shape(const mw_tiling *tiling, uint32_t t, double shape[3])
+/* Add the tensor of a tile's edges, sum of e e^T, to xx, xy, yy: divided by its trace, times the
+ * tile's area, so that each part of the mesh counts by its area. */
+static void tile_add_shape(const mw_tiling *tiling, uint32_t t, double shape[3])
 {
     const mw_point *p = tiling->point;
     const uint32_t *v = tiling->tri[t].v;
@@ -55,12 +55,12 @@ static void add_shape(const mw_tiling *tiling, uint32_t t, double shape[3])
 }
 
 /* The direction in which tiles are long, and how many times longer than across. Looks at a few. */
-static double find_shape(const mw_tiling *tiling, double direction[2])
+static double tiles_shape(const mw_tiling *tiling, double direction[2])
 {
     enum { PROBES = 1024 };
     double shape[3] = {0};
     for (uint32_t i = 0; i < PROBES && i < tiling->tri_count; i++)
-        add_shape(tiling, (uint32_t)((uint64_t)i * tiling->tri_count / PROBES % tiling->tri_count), shape);
+        tile_add_shape(tiling, (uint32_t)((uint64_t)i * tiling->tri_count / PROBES % tiling->tri_count), shape);
     if (!(shape[0] + shape[2] > 0 && shape[0] + shape[2] < INFINITY)) return 1; /* beyond the doubles */
     double half = (shape[0] - shape[2]) / 2, root = hypot(half, shape[1]), sum = shape[0] + shape[2];
     double angle = atan2(shape[1], half) / 2;
@@ -74,7 +74,7 @@ static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], co
 {
     static const double common = 4, most = 0x1p20; /* tiles that are less long than the first are common */
     mw_lattice lattice = mw__lattice(low, high, cells);
-    double d[2], aspect = fmin(find_shape(tiling, d), most);
+    double d[2], aspect = fmin(tiles_shape(tiling, d), most);
     if (!(aspect > common)) return lattice;
     const double axis[2][2] = {{-d[1] * aspect, d[0] * aspect}, {d[0], d[1]}};
     double least[2], greatest[2];
@@ -128,10 +128,10 @@ bool mw__lattice_is_finite(const mw_lattice *lattice)
     return isfinite(sum);
 }
 
-/* --- what cells hold -------------------------------------------------------------------------------------------------- */
+/* --- what cells hold --- */
 
-/* From the cells that have an entry outwards, ring by ring: each cell is reached first from one at the least distance in
- * rings, which is where a spiral search round it would end. */
+/* From the cells that have an entry outwards, ring by ring: each cell is reached first from one at
+ * the least distance in rings, which is where a spiral search round it would end. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue)
 {
     uint32_t cells = mw__lattice_cells(lattice), columns = lattice->columns, head = 0, tail = 0;

@@ -1,20 +1,24 @@
-/* lattice.h - columns and rows of equal cells over an extent: what the grids are made of. Private. */
+/* lattice.h - columns and rows of equal cells over an extent: what the grids are made of.
+ * Private. */
 #ifndef MW_SRC_LATTICE_H
 #define MW_SRC_LATTICE_H
 
 #include "tiling/tiling.h"
 
-/* Column and row of p: along[k] . (p - middle) + half[k], half[k] being half the number of columns or rows. */
+/* Column and row of p: along[k] . (p - middle) + half[k], half[k] being half the number of columns
+ * or rows. */
 typedef struct mw_lattice {
     double middle[2], along[2][2], half[2];
     uint32_t columns, rows;
 } mw_lattice;
 
-/* At most `cells` (1 to MW_MAX_CELLS) about square ones over the extent low..high, which may be flat. */
+/* At most `cells` (1 to MW_MAX_CELLS) about square ones over the extent low..high, which may be
+ * flat. */
 mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells);
 
-/* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so too. Where there are more
- * than a few, a rim of further cells surrounds the extent, to which all points outside of it belong. */
+/* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so
+ * too. Where there are more than a few, a margin of further cells surrounds the extent, to which
+ * all points outside of it belong. */
 mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
 
 /* The same with cells half as wide and half as high. */
@@ -65,7 +69,8 @@ static MW_INLINE bool mw__lattice_covers(const mw_lattice *lattice, mw_point p)
 /* The middle of a cell. */
 mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t column, uint32_t row);
 
-/* The cell of p, and the square of how far p is off its middle, in widths of a cell; NaN is as far as can be. */
+/* The cell of p, and the square of how far p is off its middle, in widths of a cell; NaN is as far
+ * as can be. */
 static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_point p, float *off)
 {
     double at[2];
@@ -77,15 +82,16 @@ static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_poi
     return row * lattice->columns + column;
 }
 
-/* What an entry is given by who follows edits. */
-typedef struct mw_entry {
-    mw_point p;    /* a place in or at the tile            */
+/* A tile offered to a grid or a lattice by an edit (edit/upkeep.h). */
+typedef struct mw_cell_entry {
+    mw_point p;    /* a point in or at the tile            */
     uint32_t name; /* its name                             */
     bool anyway;   /* even if p is not near a cell's middle */
-} mw_entry;
+} mw_cell_entry;
 
-/* Give the cell of e->p another tile, if that is near its middle: else what it has is likely to be nearer. */
-static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry, const mw_entry *e)
+/* Give the cell of e->p another tile, if that is near its middle: else what it has is likely to be
+ * nearer. */
+static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry, const mw_cell_entry *e)
 {
     const float near = 1.0f / 16; /* a quarter of a cell's width, squared */
     float off;
@@ -106,11 +112,13 @@ static MW_INLINE mw_point mw__tile_middle(const mw_tiling *tiling, uint32_t t)
     return mw__middle(tiling->point[v[0]], tiling->point[v[1]], tiling->point[v[2]]);
 }
 
-/* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell, that of a cell in the
- * first ring of cells round it that has an entry. Not all are MW_NONE. queue: room for as many numbers as cells. */
+/* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell,
+ * that of a cell in the first ring of cells round it that has an entry. Not all are MW_NONE. queue:
+ * room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);
 
-/* Cells for a tiling, where nothing is said: one for two vertices, which are half as many as tiles. See grid.c. */
+/* Cells for a tiling, where nothing is said: one for two vertices, which are half as many as tiles.
+ * See grid.c. */
 static MW_INLINE uint32_t mw__lattice_choose(const mw_tiling *tiling)
 {
     return tiling->tri_count / 4 + 1;

@@ -1,12 +1,14 @@
-/* layers.c - the layered hierarchy [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis App. C, sec. 2, 3].
+/* layers.c - the layered hierarchy [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis
+ * App. C, sec. 2, 3].
  *
- * A small share of the vertices of a layer, chosen at random, makes the next, which is triangulated. A search walks in
- * the highest layer from any tile to q, goes down at a vertex near q of the tile found, walks in the layer below from a
- * tile at that vertex, and so on to the mesh. Every walk but the first is expected to be short, whatever the
- * distribution of the vertices.
+ * A small share of the vertices of a layer, chosen at random, makes the next, which is
+ * triangulated. A search walks in the highest layer from any tile to q, goes down at a vertex near
+ * q of the tile found, walks in the layer below from a tile at that vertex, and so on to the mesh.
+ * Every walk but the first is expected to be short, whatever the distribution of the vertices.
  *
- * The vertex to go down at is the nearest one. Where the walk has the orientation coordinates of q, as the direct and the
- * barycentric walk have, it is the one with the largest, which costs no further test [thesis App. C, sec. 3]. */
+ * The vertex to go down at is the nearest one. Where the walk has the orientation coordinates of q,
+ * as the direct and the barycentric walk have, it is the one with the largest, which costs no
+ * further test [thesis App. C, sec. 3]. */
 #include "start/layers.h"
 
 #include "base/random.h"
@@ -16,23 +18,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* By size: a mesh gets a layer where walks in it can be long. A layer gets another where that is expected to save tiles,
- * about 9 for the walk in it against 1.1 times the root of its vertices without (so from 100 on, with little gained up to
- * 200); and 200, with a ratio of 0.025, gives the layers of the thesis' measurements: 2, 2, 3, 3, 4, 4 for 10^2 to 10^7
- * vertices. */
+/* By size: a mesh gets a layer where walks in it can be long. A layer gets another where that is
+ * expected to save tiles, about 9 for the walk in it against 1.1 times the root of its vertices
+ * without (so from 100 on, with little gained up to 200); and 200, with a ratio of 0.025, gives the
+ * layers of the thesis' measurements: 2, 2, 3, 3, 4, 4 for 10^2 to 10^7 vertices. */
 enum { LARGE_MESH = 64, LARGE_LAYER = 200 };
 
-/* --- building ---------------------------------------------------------------------------------------------------- */
+/* --- building --- */
 
 /* How many of `vertices` vertices the layer above has. */
-static uint32_t size_above(uint32_t vertices, double ratio)
+static uint32_t layer_size_above(uint32_t vertices, double ratio)
 {
     double size = round(ratio * vertices);
     return size > 3 ? (uint32_t)size : 3;
 }
 
-/* Fill point and below of *layer with `size` of the `vertices` vertices that have a tile, every set of them with the same
- * chance [Fan, Muller, Rezucha 1962]. Returns false when out of memory. */
+/* Fill point and below of *layer with `size` of the `vertices` vertices that have a tile, every set
+ * of them with the same chance [Fan, Muller, Rezucha 1962]. Returns false when out of memory. */
 static bool layer_choose(const mw_tiling *tiling, const uint32_t *at, uint32_t vertices, uint32_t size, uint64_t random,
                          mw_layer *layer)
 {
@@ -48,31 +50,32 @@ static bool layer_choose(const mw_tiling *tiling, const uint32_t *at, uint32_t v
     return true;
 }
 
-/* Number the vertices in the order in which the tiles use them; one that merged with another is dropped. */
-static mw_status order_vertices(mw_layer *layer, mw_error *error)
+/* Number the vertices in the order in which the tiles use them; one that merged with another is
+ * dropped. */
+static mw_status layer_order_vertices(mw_layer *layer, mw_error *error)
 {
     mw_tiling *tiling = &layer->tiling;
     uint32_t n = tiling->point_count, next = 0;
-    uint32_t *place = mw__alloc(n, sizeof *place), *below = mw__alloc(n, sizeof *below);
+    uint32_t *slot = mw__alloc(n, sizeof *slot), *below = mw__alloc(n, sizeof *below);
     mw_point *point = mw__alloc_lines(n, sizeof *point);
-    if (!place || !below || !point) {
-        free(place);
+    if (!slot || !below || !point) {
+        free(slot);
         free(below);
         free(point);
         return mw__fail_memory(error);
     }
-    memset(place, 0xff, n * sizeof *place); /* MW_NONE */
+    memset(slot, 0xff, n * sizeof *slot); /* MW_NONE */
     for (uint32_t t = 0; t < tiling->tri_count; t++)
         for (int k = 0; k < 4; k++) {
             uint32_t v = tiling->tri[t].v[k];
-            if (place[v] == MW_NONE) {
-                place[v] = next;
+            if (slot[v] == MW_NONE) {
+                slot[v] = next;
                 point[next] = tiling->point[v];
                 below[next++] = layer->below[v];
             }
-            tiling->tri[t].v[k] = place[v];
+            tiling->tri[t].v[k] = slot[v];
         }
-    free(place);
+    free(slot);
     free(tiling->point);
     free(layer->below);
     tiling->point = point;
@@ -87,12 +90,12 @@ static mw_status layer_triangulate(mw_layer *layer, mw_error *error)
     mw_tiling *tiling = &layer->tiling;
     mw_status status =
         mw__delaunay_triangles(tiling->point, tiling->point_count, NULL, NULL, &tiling->tri, &tiling->tri_count, error);
-    if (!status) status = order_vertices(layer, error);
+    if (!status) status = layer_order_vertices(layer, error);
     if (!status) status = mw__tiling_areas(tiling, error);
     return status;
 }
 
-static void release_layer(mw_layer *layer)
+static void layer_release(mw_layer *layer)
 {
     mw__tiling_release(&layer->tiling);
     free(layer->below);
@@ -100,7 +103,7 @@ static void release_layer(mw_layer *layer)
 }
 
 /* Vertices of layer i, the mesh being 0. */
-static uint32_t vertex_count(const mw_layers *layers, uint32_t i)
+static uint32_t layer_vertex_count(const mw_layers *layers, uint32_t i)
 {
     return i == 0 ? layers->vertices : layers->layer[i - 1].tiling.point_count - layers->layer[i - 1].vacant;
 }
@@ -110,12 +113,12 @@ static mw_status layers_add(mw_layers *layers, const mw_tiling *tiling, const ui
                             uint64_t seed, mw_error *error)
 {
     mw_layer *layer = &layers->layer[layers->count - 1];
-    uint32_t vertices = vertex_count(layers, layers->count - 1);
+    uint32_t vertices = layer_vertex_count(layers, layers->count - 1);
     layer->tiling.embedding = true;
     bool chosen = layer_choose(tiling, at, vertices, size, mw__random_seed(seed, layers->count), layer);
     mw_status status = chosen ? layer_triangulate(layer, error) : mw__fail_memory(error);
     if (status)
-        release_layer(layer);
+        layer_release(layer);
     else
         layers->count++;
     return status;
@@ -126,12 +129,12 @@ static uint32_t layers_by_size(uint32_t vertices, double ratio)
 {
     if (vertices <= LARGE_MESH) return 1;
     uint32_t layers = 2;
-    for (uint32_t size = size_above(vertices, ratio); size > LARGE_LAYER && layers < MW_MAX_LAYERS; layers++)
-        size = size_above(size, ratio);
+    for (uint32_t size = layer_size_above(vertices, ratio); size > LARGE_LAYER && layers < MW_MAX_LAYERS; layers++)
+        size = layer_size_above(size, ratio);
     return layers;
 }
 
-static uint32_t count_used(const uint32_t *at, uint32_t n)
+static uint32_t vertices_in_use(const uint32_t *at, uint32_t n)
 {
     uint32_t used = 0;
     for (uint32_t v = 0; v < n; v++) used += at[v] != MW_NONE;
@@ -155,12 +158,12 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
     mw_status status = layers_check(options, error);
     if (status) return status;
     double ratio = options->ratio > 0 ? options->ratio : MW_LAYER_RATIO;
-    uint32_t *at = mw__tile_of_vertices(tiling), size = at ? count_used(at, tiling->point_count) : 0;
+    uint32_t *at = mw__tile_of_vertices(tiling), size = at ? vertices_in_use(at, tiling->point_count) : 0;
     uint32_t wanted = options->layers ? options->layers : layers_by_size(size, ratio);
     out->vertices = size;
     mw_error reason;
-    while (at && !status && out->count < wanted && size_above(size, ratio) < size) {
-        status = layers_add(out, tiling, at, size_above(size, ratio), options->seed, &reason);
+    while (at && !status && out->count < wanted && layer_size_above(size, ratio) < size) {
+        status = layers_add(out, tiling, at, layer_size_above(size, ratio), options->seed, &reason);
         if (status) break;
         tiling = &out->layer[out->count - 2].tiling;
         size = tiling->point_count;
@@ -176,7 +179,7 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
 
 void mw__layers_cut(mw_layers *layers, uint32_t count)
 {
-    while (layers->count > count) release_layer(&layers->layer[--layers->count - 1]);
+    while (layers->count > count) layer_release(&layers->layer[--layers->count - 1]);
 }
 
 void mw__layers_release(mw_layers *layers)
@@ -196,14 +199,15 @@ size_t mw__layers_bytes(const mw_layers *layers)
 
 void mw__layers_describe(const mw_layers *layers, uint32_t vertices[MW_MAX_LAYERS])
 {
-    for (uint32_t i = 0; i < MW_MAX_LAYERS; i++) vertices[i] = i < layers->count ? vertex_count(layers, i) : 0;
+    for (uint32_t i = 0; i < MW_MAX_LAYERS; i++) vertices[i] = i < layers->count ? layer_vertex_count(layers, i) : 0;
 }
 
-/* --- the search -------------------------------------------------------------------------------------------------- */
+/* --- the search --- */
 
-/* Does the walk know the orientation coordinates of q in the tile where it ends? None of them is surely negative there,
- * so that the tile is good enough to go down from, without the final location. */
-static bool has_coordinates(mw_walk_kind walk)
+/* Does the walk know the orientation coordinates of q in the tile where it ends? None of them is
+ * surely negative there, so that the tile is good enough to go down from, without the final
+ * location. */
+static bool walk_has_coordinates(mw_walk_kind walk)
 {
     return walk == MW_WALK_DIRECT || walk == MW_WALK_BARYCENTRIC;
 }
@@ -213,7 +217,7 @@ static void layer_find(const mw_tiling *tiling, const mw_layer_walk *how, mw_wal
 {
     const mw_kernels *kernels = mw__walk_kernels(how->walk, tiling);
     mw_verdict verdict = kernels->run[how->exact][how->count](walk);
-    if (verdict != MW_CLOSE || has_coordinates(how->walk)) return;
+    if (verdict != MW_CLOSE || walk_has_coordinates(how->walk)) return;
     uint32_t fuel = mw__walk_fuel(how->finish, how->exact ? MW_EXACT : MW_DOUBLE, tiling);
     mw__walk_finish(walk, how->finish, fuel, tiling, how->exact, how->count);
 }
@@ -227,21 +231,22 @@ static uint32_t layer_nearest(const mw_walk *walk)
     return best;
 }
 
-/* The vertex with the largest orientation coordinate: opposite to the edge that makes the largest triangle with q. Two
- * tests, which the walks that know the coordinates have made already. */
-static uint32_t most_weight(mw_walk *walk, const mw_layer_walk *how)
+/* The vertex with the largest orientation coordinate: opposite to the edge that makes the largest
+ * triangle with q. Two tests, which the walks that know the coordinates have made already. */
+static uint32_t layer_heaviest(mw_walk *walk, const mw_layer_walk *how)
 {
     const uint32_t *v = walk->tri[walk->t].v;
     const mw_point *p = walk->point;
     double at0 = mw__orient2d_double(p[v[1]], p[v[2]], walk->q), at1 = mw__orient2d_double(p[v[2]], p[v[0]], walk->q);
     double all = walk->tiling->area ? walk->tiling->area[walk->t] : mw__orient2d_double(p[v[0]], p[v[1]], p[v[2]]);
     double at2 = all - at0 - at1;
-    if (how->count && !has_coordinates(how->walk)) walk->work->orient[MW_STAGE_WALK] += walk->tiling->area ? 2 : 3;
+    if (how->count && !walk_has_coordinates(how->walk)) walk->work->orient[MW_STAGE_WALK] += walk->tiling->area ? 2 : 3;
     if (at0 >= at1 && at0 >= at2) return v[0];
     return at1 >= at2 ? v[1] : v[2];
 }
 
-/* The name of a tile to begin at in the layer `beneath`, by what the one above keeps of a vertex. */
+/* The name of a tile to begin at in the layer `beneath`, by what the one above keeps of a
+ * vertex. */
 static uint32_t name_below(const mw_layers *layers, const mw_tiling *beneath, uint32_t below)
 {
     if (!layers->live || below >= beneath->point_count || beneath->tile_at[below] == MW_NONE) return below;
@@ -251,8 +256,8 @@ static uint32_t name_below(const mw_layers *layers, const mw_tiling *beneath, ui
 uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
                             mw_work *work, uint32_t *tile)
 {
-    bool by_weight =
-        layers->descent == MW_DESCENT_COORDINATE || (layers->descent == MW_DESCENT_AUTO && has_coordinates(how->walk));
+    bool by_weight = layers->descent == MW_DESCENT_COORDINATE ||
+                     (layers->descent == MW_DESCENT_AUTO && walk_has_coordinates(how->walk));
     mw_arithmetic arithmetic = how->exact ? MW_EXACT : MW_DOUBLE;
     uint32_t top = layers->count - 1;
     uint32_t t = mw__random_below(random, top ? layers->layer[top - 1].tiling.tri_count : layers->tiles);
@@ -263,7 +268,7 @@ uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_
         mw_walk walk = mw__walk_begin(&layer->tiling, q, t, fuel, mw__random(random), how->count ? work : NULL);
         layer_find(&layer->tiling, how, &walk);
         if (tile) tile[i] = walk.t;
-        t = name_below(layers, beneath, layer->below[by_weight ? most_weight(&walk, how) : layer_nearest(&walk)]);
+        t = name_below(layers, beneath, layer->below[by_weight ? layer_heaviest(&walk, how) : layer_nearest(&walk)]);
         if (i > 0) t = mw__tile_named(beneath, t);
     }
     return t;

@@ -1,17 +1,19 @@
-/* layers.h - the layered hierarchy: random vertices of the mesh, triangulated, above it, random ones of these above them,
- * and so on [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis App. C, sec. 2 and 3]. Private. */
+/* layers.h - the layered hierarchy: random vertices of the mesh, triangulated, above it, random
+ * ones of these above them, and so on [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy";
+ * thesis App. C, sec. 2 and 3]. Private. */
 #ifndef MW_SRC_LAYERS_H
 #define MW_SRC_LAYERS_H
 
 #include "walk/walk.h"
 
-/* One layer above the mesh: the Delaunay triangulation of its vertices. Tiles lie along a Hilbert curve, vertices as the
- * tiles use them; areas are stored. Live layers follow a mesh that is edited (edit/live_layers.h): with owners, without areas. */
+/* One layer above the mesh: the Delaunay triangulation of its vertices. Tiles lie along a Hilbert
+ * curve, vertices as the tiles use them; areas are stored. Live layers follow a mesh that is edited
+ * (edit/live_layers.h): with owners, without areas. */
 typedef struct mw_layer {
     mw_tiling tiling;
     uint32_t *below; /* per vertex: the name of a tile that has it, in the layer below; at last, in the mesh.
-                        Live: its place there */
-    uint32_t vacant; /* live: places of vertices that are gone */
+                        Live: its slot there */
+    uint32_t vacant; /* live: slots of vertices that are gone */
 } mw_layer;
 
 /* Keeps nothing of the tiling it was made from but the names of tiles. */
@@ -32,9 +34,10 @@ typedef struct mw_layers_options {
     uint64_t seed;
 } mw_layers_options;
 
-/* Layers above the tiling: of the vertices of one, the share `ratio`, or 3, chosen at random, make the next. There may be
- * fewer layers than asked for: they end where the vertices chosen would lie on one line or be no fewer than those below.
- * MW_ERROR_ARGUMENT for options out of range, MW_ERROR_MEMORY. *out may be released in either case. */
+/* Layers above the tiling: of the vertices of one, the share `ratio`, or 3, chosen at random, make
+ * the next. There may be fewer layers than asked for: they end where the vertices chosen would lie
+ * on one line or be no fewer than those below. MW_ERROR_ARGUMENT for options out of range,
+ * MW_ERROR_MEMORY. *out may be released in either case. */
 mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_layers *out, mw_error *error);
 void mw__layers_release(mw_layers *layers);
 void mw__layers_cut(mw_layers *layers, uint32_t count); /* keep so many, the mesh itself counted */
@@ -50,13 +53,15 @@ typedef struct mw_layer_walk {
     const mw_tiling *mesh; /* NULL will do where the layers are not live */
 } mw_layer_walk;
 
-/* The name of the tile at which a walk to q begins in the mesh. With how->count, what the walks in the layers did is added
- * to *work (else NULL will do). A layer in which a walk ran out of steps is left where it stopped. The fast stochastic walk makes no
- * steps with one test: the walks are short. */
+/* The name of the tile at which a walk to q begins in the mesh. With how->count, what the walks in
+ * the layers did is added to *work (else NULL will do). A layer in which a walk ran out of steps is
+ * left where it stopped. The fast stochastic walk makes no steps with one test: the walks are
+ * short. */
 uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
                           mw_work *work);
 
-/* The same, which also tells the tile of each layer where its walk ended; tile: NULL, or room for all layers but the mesh. */
+/* The same, which also tells the tile of each layer where its walk ended; tile: NULL, or room for
+ * all layers but the mesh. */
 uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
                             mw_work *work, uint32_t *tile);
 

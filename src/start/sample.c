@@ -1,5 +1,5 @@
-/* sample.c - jump and walk: the nearest of a few random tiles [Muecke, Saias, Zhu 1996]. Nearness is that of one vertex
- * and is rounded: a farther first tile costs steps, never the answer. */
+/* sample.c - jump and walk: the nearest of a few random tiles [Muecke, Saias, Zhu 1996]. Nearness
+ * is that of one vertex and is rounded: a farther first tile costs steps, never the answer. */
 #include "base/random.h"
 #include "start/start.h"
 

@@ -1,11 +1,12 @@
-/* sorted.c - queries in order along a Hilbert curve, so that each can begin where the one before ended
- * [thesis App. E, sec. 4.1; Amenta, Choi, Rote 2003 for the order]. */
+/* sorted.c - queries in order along a Hilbert curve, so that each can begin where the one before
+ * ended [thesis App. E, sec. 4.1; Amenta, Choi, Rote 2003 for the order]. */
 #include "start/start.h"
 
 void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2], const double high[2],
                       mw_key *order, mw_key *scratch)
 {
-    /* The extent of the queries within that of the mesh: a stray query must not make the cells coarse. */
+    /* The extent of the queries within that of the mesh: a stray query must not make the cells
+     * coarse. */
     double from[2] = {high[0], high[1]}, to[2] = {low[0], low[1]};
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < 2; k++) {

@@ -1,14 +1,16 @@
-/* two_level_grid.c - a grid of two levels, adaptive to the density, after the one that finds the nearest point in
- * [Zalik, Kolingerova 2003].
+/* two_level_grid.c - a grid of two levels, adaptive to the density, after the one that finds the
+ * nearest point in [Zalik, Kolingerova 2003].
  *
- * A coarse uniform grid; a cell with more than CROWDED vertices is a grid itself, with a cell for each of its vertices.
- * Here that grid spans the extent of those vertices rather than the cell, so that a cluster is resolved however small it
- * is, and empty cells have an entry as in the uniform grid: where the nearest cell is crowded its grid, of which a query
- * from outside gets a cell at the rim.
+ * A coarse uniform grid; a cell with more than CROWDED vertices is a grid itself, with a cell for
+ * each of its vertices. Here that grid spans the extent of those vertices rather than the cell, so
+ * that a cluster is resolved however small it is, and empty cells have an entry as in the uniform
+ * grid: where the nearest cell is crowded its grid, of which a query from outside gets one of the
+ * outermost cells.
  *
- * The coarse grid has one cell for two vertices: on uniform points about one cell in 20 is crowded then, and the other
- * queries take no longer than with the uniform grid. With 10^5 points in 32 clusters and queries at them, walks visit
- * 3.8 triangles instead of 65. Clusters within clusters would need a third level; layers have as many as it takes. */
+ * The coarse grid has one cell for two vertices: on uniform points about one cell in 20 is crowded
+ * then, and the other queries take no longer than with the uniform grid. With 10^5 points in 32
+ * clusters and queries at them, walks visit 3.8 triangles instead of 65. Clusters within clusters
+ * would need a third level; layers have as many as it takes. */
 #include "start/two_level_grid.h"
 
 #include "start/start.h"
@@ -17,22 +19,22 @@
 
 enum { CROWDED = 4 };
 
-/* What only the building needs. */
-typedef struct yard {
+/* What is needed only while the grid is built. */
+typedef struct two_level_build {
     const mw_tiling *tiling;
     uint32_t *tile;      /* of each vertex, or MW_NONE */
     uint32_t *vertices;  /* in each coarse cell        */
     double (*extent)[4]; /* of each fine grid: low x, y, then minus high x, y */
     uint32_t *queue;
-} yard;
+} two_level_build;
 
-static uint32_t coarse_cell(const mw_two_level_grid *grid, const yard *y, uint32_t v)
+static uint32_t coarse_cell(const mw_two_level_grid *grid, const two_level_build *y, uint32_t v)
 {
     return mw__lattice_cell(&grid->lattice, y->tiling->point[v]);
 }
 
 /* Count the vertices of each cell, and number the crowded ones. */
-static bool find_crowded(mw_two_level_grid *grid, yard *y)
+static bool two_level_find_crowded(mw_two_level_grid *grid, two_level_build *y)
 {
     uint32_t cells = mw__lattice_cells(&grid->lattice);
     y->tile = mw__tile_of_vertices(y->tiling);
@@ -47,7 +49,7 @@ static bool find_crowded(mw_two_level_grid *grid, yard *y)
 }
 
 /* Find the extent of the vertices of each crowded cell. */
-static bool find_extents(const mw_two_level_grid *grid, yard *y)
+static bool two_level_find_extents(const mw_two_level_grid *grid, two_level_build *y)
 {
     y->extent = mw__alloc(grid->grid_count, sizeof *y->extent);
     if (!y->extent) return false;
@@ -66,7 +68,7 @@ static bool find_extents(const mw_two_level_grid *grid, yard *y)
 }
 
 /* Lay out a fine grid for each crowded cell. */
-static bool two_level_lay_out(mw_two_level_grid *grid, const yard *y)
+static bool two_level_lay_out(mw_two_level_grid *grid, const two_level_build *y)
 {
     grid->grid = mw__alloc(grid->grid_count, sizeof *grid->grid);
     if (!grid->grid) return false;
@@ -82,7 +84,7 @@ static bool two_level_lay_out(mw_two_level_grid *grid, const yard *y)
 }
 
 /* Give every cell its tile. */
-static bool two_level_fill(mw_two_level_grid *grid, yard *y)
+static bool two_level_fill(mw_two_level_grid *grid, two_level_build *y)
 {
     uint32_t cells = mw__lattice_cells(&grid->lattice);
     y->queue = mw__alloc(cells > grid->fine_count ? cells : grid->fine_count, sizeof *y->queue);
@@ -106,11 +108,11 @@ static bool two_level_fill(mw_two_level_grid *grid, yard *y)
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
                                const double high[2], uint32_t cells)
 {
-    yard y = {.tiling = tiling};
+    two_level_build y = {.tiling = tiling};
     *grid =
         (mw_two_level_grid){.lattice = mw__lattice_of(tiling, low, high, cells ? cells : mw__lattice_choose(tiling))};
-    bool done =
-        find_crowded(grid, &y) && find_extents(grid, &y) && two_level_lay_out(grid, &y) && two_level_fill(grid, &y);
+    bool done = two_level_find_crowded(grid, &y) && two_level_find_extents(grid, &y) && two_level_lay_out(grid, &y) &&
+                two_level_fill(grid, &y);
     free(y.tile);
     free(y.vertices);
     free(y.extent);
@@ -119,18 +121,18 @@ bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
 }
 
 /* Is the grid that a cell has its own? An empty cell may have that of a crowded one near by. */
-static bool is_own(const mw_two_level_grid *grid, uint32_t cell, const mw_fine_grid *fine)
+static bool fine_grid_is_own(const mw_two_level_grid *grid, uint32_t cell, const mw_fine_grid *fine)
 {
     return mw__lattice_cell(&grid->lattice, (mw_point){fine->lattice.middle[0], fine->lattice.middle[1]}) == cell;
 }
 
-void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_entry *e)
+void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_cell_entry *e)
 {
     uint32_t cell = mw__lattice_cell(&grid->lattice, e->p), entry = grid->coarse[cell];
     const mw_fine_grid *fine = entry & MW_FINE ? &grid->grid[entry - MW_FINE] : NULL;
     if (!fine)
         mw__lattice_put(&grid->lattice, grid->coarse, e);
-    else if (is_own(grid, cell, fine))
+    else if (fine_grid_is_own(grid, cell, fine))
         mw__lattice_put(&fine->lattice, grid->fine + fine->first, e);
     else
         grid->coarse[cell] = e->name;
@@ -142,7 +144,7 @@ bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p)
     uint32_t cell = mw__lattice_cell(&grid->lattice, p), entry = grid->coarse[cell];
     if (!(entry & MW_FINE)) return true;
     const mw_fine_grid *fine = &grid->grid[entry - MW_FINE];
-    return is_own(grid, cell, fine) && mw__lattice_covers(&fine->lattice, p);
+    return fine_grid_is_own(grid, cell, fine) && mw__lattice_covers(&fine->lattice, p);
 }
 
 void mw__two_level_grid_release(mw_two_level_grid *grid)

@@ -4,7 +4,8 @@
 
 #include "start/lattice.h"
 
-/* The grid of a crowded cell: over the extent of the vertices there, which may be a small part of the cell. */
+/* The grid of a crowded cell: over the extent of the vertices there, which may be a small part of
+ * the cell. */
 typedef struct mw_fine_grid {
     mw_lattice lattice;
     uint32_t first; /* of its cells */
@@ -20,13 +21,13 @@ typedef struct mw_two_level_grid {
     uint32_t grid_count, fine_count;
 } mw_two_level_grid;
 
-/* About `cells` coarse cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the extent of the
- * tiling. Returns false when out of memory. */
+/* About `cells` coarse cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high,
+ * the extent of the tiling. Returns false when out of memory. */
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
                                const double high[2], uint32_t cells);
 /* See mw__lattice_put. */
-void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_entry *e);
-/* Does p lie in a cell of its own level, and not beyond the rim of a grid? */
+void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_cell_entry *e);
+/* Does p lie in a cell of its own level, and not beyond the outermost cells of a grid? */
 bool mw__two_level_grid_covers(const mw_two_level_grid *grid, mw_point p);
 void mw__two_level_grid_release(mw_two_level_grid *grid);
 size_t mw__two_level_grid_bytes(const mw_two_level_grid *grid);

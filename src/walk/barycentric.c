@@ -5,13 +5,13 @@
  *        /    `   * q    least one, if it is negative: here b0. Three tests a tile: two of the areas over edges, and
  *      t0------t1        that of the tile, since the coordinates add up to 1. Dividing by the signed area makes the
  *                        walk independent of the tile's orientation (all tiles are counter-clockwise here).
- * Departure from the printed pseudocode: the coordinates are rounded, and b2, a difference, even in sign. In exact
- * arithmetic an edge is crossed only where its coordinate is below zero by more than all may be off; so q surely lies
- * beyond it. Where the least coordinate is not, q is in the tile or all but in it, and the exact final location ends
- * the walk. The same happens where a coordinate is no number: in flat tiles (of a mesh that is no embedding), and far
- * outside the range of areas.
- * Ends on Delaunay meshes as Lawson's walk does. On others it may go round in a cycle, in exact arithmetic too [thesis
- * App. E, fig. 6]; then its fuel runs out and it hands over. */
+ * Departure from the printed pseudocode: the coordinates are rounded, and b2, a difference, even in
+ * sign. In exact arithmetic an edge is crossed only where its coordinate is below zero by more than
+ * all may be off; so q surely lies beyond it. Where the least coordinate is not, q is in the tile
+ * or all but in it, and the exact final location ends the walk. The same happens where a coordinate
+ * is no number: in flat tiles (of a mesh that is no embedding), and far outside the range of areas.
+ * Ends on Delaunay meshes as Lawson's walk does. On others it may go round in a cycle, in exact
+ * arithmetic too [thesis App. E, fig. 6]; then its fuel runs out and it hands over. */
 #include "walk/drive.h"
 #include "walk/value.h"
 
@@ -19,11 +19,11 @@ static MW_INLINE mw_verdict barycentric_step(mw_walk *w, mw_policy P)
 {
     mw_point t0 = corner(w, 0), t1 = corner(w, 1), t2 = corner(w, 2);
     double off = 0;
-    double area = value(w, t0, t1, t2, &off, P);
-    double b0 = value(w, t1, t2, w->q, &off, P) / area;
-    double b1 = value(w, t2, t0, w->q, &off, P) / area;
+    double area = area_value(w, t0, t1, t2, &off, P);
+    double b0 = area_value(w, t1, t2, w->q, &off, P) / area;
+    double b1 = area_value(w, t2, t0, w->q, &off, P) / area;
     double b2 = 1 - b0 - b1;
-    off = off / fabs(area) + rounding(1, b0, b1, P);
+    off = off / fabs(area) + sum_rounding(1, b0, b1, P);
     double least = b0;
     uint32_t e = 1;
     if (b1 < least) {

@@ -7,18 +7,21 @@
  *    `-----\ : /            edge, q lies on the far side of it: outside, or in the hole that it bounds.
  *      r----:----l  out
  *           p
- * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right, on both ways: the walk
- * follows a line that is moved a little to the left, and meets no vertex. Whether an edge is met behind the way out is
- * decided by the ends of both edges, which do not cross; no point of intersection is computed. p is the middle of the edge, or
- * rather any point from which the line to q has the edge's ends on different sides; where rounding has moved the middle so
- * far that it has not, p is the right end. A vertex of the border on the line is compared with q, and so is an edge along the
- * line: such a q may lie on the border where the line passes outside. Where several fans of tiles meet in a vertex, the
- * border goes on round the face beyond it (open.h).
- * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the line leaves.
- * Ends on every embedding: each time the line comes back it does so farther on than it left. But it may come back very often,
- * and go along the same border each time. So its steps are limited, and a second form takes over, which goes all along a
- * border and on where the line comes back last: if it ever leaves over the same border again, it is for good.
- * docs/guarantees.md has the proofs. */
+ * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right,
+ * on both ways: the walk follows a line that is moved a little to the left, and meets no vertex.
+ * Whether an edge is met behind the way out is decided by the ends of both edges, which do not
+ * cross; no point of intersection is computed. p is the middle of the edge, or rather any point
+ * from which the line to q has the edge's ends on different sides; where rounding has moved the
+ * middle so far that it has not, p is the right end. A vertex of the border on the line is compared
+ * with q, and so is an edge along the line: such a q may lie on the border where the line passes
+ * outside. Where several fans of tiles meet in a vertex, the border goes on round the face beyond
+ * it (tiling/border_loops.h).
+ * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the
+ * line leaves.
+ * Ends on every embedding: each time the line comes back it does so farther on than it left. But it
+ * may come back very often, and go along the same border each time. So its steps are limited, and a
+ * second form takes over, which goes all along a border and on where the line comes back last: if
+ * it ever leaves over the same border again, it is for good. docs/guarantees.md has the proofs. */
 #include "walk/drive.h"
 
 enum { FIRST, FOLLOW, ROUND_LEFT, ROUND_RIGHT, ROUND_ON }; /* phases; round: where the border's last vertex lies */
@@ -29,7 +32,7 @@ static MW_INLINE double border_side(mw_walk *w, mw_point s, mw_policy P)
     return orient(w, w->p, w->q, s, P);
 }
 
-static MW_INLINE void begin_run(mw_walk *w, uint32_t phase, uint32_t stage, mw_policy P)
+static MW_INLINE void border_begin_run(mw_walk *w, uint32_t phase, uint32_t stage, mw_policy P)
 {
     w->phase = phase;
     if (!P.count) return;
@@ -38,8 +41,9 @@ static MW_INLINE void begin_run(mw_walk *w, uint32_t phase, uint32_t stage, mw_p
     w->work->border_runs += stage == MW_STAGE_BORDER;
 }
 
-/* From border edge e on along the border: to the edge that begins at its end, or to a tile beyond a turn. */
-static MW_INLINE mw_verdict turn_corner(mw_walk *w, uint32_t e, mw_policy P)
+/* From border edge e on along the border: to the edge that begins at its end, or to a tile beyond a
+ * turn. */
+static MW_INLINE mw_verdict border_turn_corner(mw_walk *w, uint32_t e, mw_policy P)
 {
     const mw_border_loops *loops = w->tiling->border_loops;
     uint32_t turn =
@@ -55,22 +59,23 @@ static MW_INLINE mw_verdict turn_corner(mw_walk *w, uint32_t e, mw_policy P)
     return MW_GO;
 }
 
-/* Leave over edge e, whose end lies strictly to the left: into the next tile, or along the border. */
+/* Leave over edge e, whose end lies strictly to the left: into the next tile, or along the
+ * border. */
 static MW_INLINE mw_verdict border_go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (MW_LIKELY(w->tri[w->t].link[e] != MW_NONE)) return cross(w, e, P);
     if (!w->tiling->border_loops && w->tiling->embedding) return MW_LEFT;
     w->exit = w->lowest = mw__link(w->t, e);
     w->farthest = MW_NONE;
-    begin_run(w, ROUND_LEFT, MW_STAGE_BORDER, P);
-    return turn_corner(w, e, P);
+    border_begin_run(w, ROUND_LEFT, MW_STAGE_BORDER, P);
+    return border_turn_corner(w, e, P);
 }
 
 /* The first tile: the first edge that q lies beyond, and p on it. */
 static MW_INLINE mw_verdict border_aim(mw_walk *w, mw_policy P)
 {
     uint32_t e = 0;
-    begin_run(w, FOLLOW, MW_STAGE_WALK, P);
+    border_begin_run(w, FOLLOW, MW_STAGE_WALK, P);
     while (!beyond(w, e, P))
         if (++e == 3) return MW_FOUND;
     mw_point r = corner(w, e), l = corner(w, e + 1);
@@ -87,12 +92,13 @@ static MW_INLINE mw_verdict border_follow(mw_walk *w, mw_policy P)
 }
 
 /* An edge that the line crosses, by the ends on its right and left. */
-typedef struct crossed {
+typedef struct crossed_edge {
     mw_point r, l;
-} crossed;
+} crossed_edge;
 
-/* Does the line meet edge `there` behind edge `here`? One of the two lies on one side of the other, as they do not cross. */
-static MW_INLINE bool is_behind(mw_walk *w, crossed here, crossed there, mw_policy P)
+/* Does the line meet edge `there` behind edge `here`? One of the two lies on one side of the other,
+ * as they do not cross. */
+static MW_INLINE bool edge_is_behind(mw_walk *w, crossed_edge here, crossed_edge there, mw_policy P)
 {
     double r = orient(w, here.r, here.l, there.r, P), l = orient(w, here.r, here.l, there.l, P);
     if (r <= 0 && l <= 0) return true;
@@ -106,30 +112,31 @@ static MW_INLINE mw_point half_end(const mw_walk *w, uint32_t half, uint32_t end
     return w->point[w->tri[mw__link_triangle(half)].v[mw__link_edge(half) + end]];
 }
 
-/* Does the line come back over the border edge ab, behind the place where it left and not behind q? */
-static MW_INLINE bool comes_back(mw_walk *w, mw_point a, mw_point b, mw_policy P)
+/* Does the line come back over the border edge ab, behind the point where it left and not behind
+ * q? */
+static MW_INLINE bool border_comes_back(mw_walk *w, mw_point a, mw_point b, mw_policy P)
 {
-    crossed out = {half_end(w, w->exit, 0), half_end(w, w->exit, 1)};
-    return orient(w, a, b, w->q, P) >= 0 && is_behind(w, out, (crossed){b, a}, P);
+    crossed_edge out = {half_end(w, w->exit, 0), half_end(w, w->exit, 1)};
+    return orient(w, a, b, w->q, P) >= 0 && edge_is_behind(w, out, (crossed_edge){b, a}, P);
 }
 
 /* Is it behind all others over which the line comes back? */
-static MW_INLINE bool is_farthest(mw_walk *w, mw_point a, mw_point b, mw_policy P)
+static MW_INLINE bool border_is_farthest(mw_walk *w, mw_point a, mw_point b, mw_policy P)
 {
     if (w->farthest == MW_NONE) return true;
-    crossed last = {half_end(w, w->farthest, 1), half_end(w, w->farthest, 0)};
-    return is_behind(w, last, (crossed){b, a}, P);
+    crossed_edge last = {half_end(w, w->farthest, 1), half_end(w, w->farthest, 0)};
+    return edge_is_behind(w, last, (crossed_edge){b, a}, P);
 }
 
-static MW_INLINE bool point_in_box(mw_point a, mw_point q, mw_point b)
+static MW_INLINE bool border_point_is_between(mw_point a, mw_point q, mw_point b)
 {
     return fmin(a.x, b.x) <= q.x && q.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= q.y && q.y <= fmax(a.y, b.y);
 }
 
 /* The walk goes on in the tile of a border edge, over which the line comes back. */
-static MW_INLINE mw_verdict come_back(mw_walk *w, uint32_t half, mw_policy P)
+static MW_INLINE mw_verdict border_come_back(mw_walk *w, uint32_t half, mw_policy P)
 {
-    begin_run(w, FOLLOW, MW_STAGE_WALK, P);
+    border_begin_run(w, FOLLOW, MW_STAGE_WALK, P);
     if (P.count) w->work->triangles[MW_STAGE_WALK]++;
     w->t = mw__link_triangle(half);
     w->e = mw__link_edge(half);
@@ -137,32 +144,32 @@ static MW_INLINE mw_verdict come_back(mw_walk *w, uint32_t half, mw_policy P)
 }
 
 /* Along border edge e to its end: is q there, or does the line come back over it? */
-static MW_INLINE mw_verdict pass_border(mw_walk *w, uint32_t e, bool all, mw_policy P)
+static MW_INLINE mw_verdict border_pass(mw_walk *w, uint32_t e, bool all, mw_policy P)
 {
     mw_point a = corner(w, e), b = corner(w, e + 1);
     double s = border_side(w, b, P);
     uint32_t half = mw__link(w->t, e);
     if (P.count) w->work->border_edges++;
     if (half < w->lowest) w->lowest = half;
-    if (MW_UNLIKELY(s == 0 && point_in_box(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
-    if (w->phase == ROUND_LEFT && s <= 0 && comes_back(w, a, b, P)) {
-        if (!all) return come_back(w, half, P);
-        if (is_farthest(w, a, b, P)) w->farthest = half;
+    if (MW_UNLIKELY(s == 0 && border_point_is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
+    if (w->phase == ROUND_LEFT && s <= 0 && border_comes_back(w, a, b, P)) {
+        if (!all) return border_come_back(w, half, P);
+        if (border_is_farthest(w, a, b, P)) w->farthest = half;
     }
     w->phase = s > 0 ? ROUND_LEFT : s < 0 ? ROUND_RIGHT : ROUND_ON;
-    return turn_corner(w, e, P);
+    return border_turn_corner(w, e, P);
 }
 
-/* Edge e begins at the border's last vertex: turn round that through tiles to the border's next edge. Ends: the turn began at
- * a border edge, and no tile has two tiles before it. */
+/* Edge e begins at the border's last vertex: turn round that through tiles to the border's next
+ * edge. Ends: the turn began at a border edge, and no tile has two tiles before it. */
 static MW_INLINE mw_verdict border_go_round(mw_walk *w, bool all, mw_policy P)
 {
     while (w->tri[w->t].link[w->e] != MW_NONE) {
         cross(w, w->e, P);
         w->e = mw__next(w->e);
     }
-    if (mw__link(w->t, w->e) != w->exit) return pass_border(w, w->e, all, P);
-    return all && w->farthest != MW_NONE ? come_back(w, w->farthest, P) : MW_LEFT;
+    if (mw__link(w->t, w->e) != w->exit) return border_pass(w, w->e, all, P);
+    return all && w->farthest != MW_NONE ? border_come_back(w, w->farthest, P) : MW_LEFT;
 }
 
 static MW_INLINE mw_verdict border_step(mw_walk *w, bool all, mw_policy P)

@@ -1,4 +1,5 @@
-/* celestial.c - the celestial walk [Kuijper, Ermolaev, Devillers 2017, arXiv 1710.01620], for triangles.
+/* celestial.c - the celestial walk [Kuijper, Ermolaev, Devillers 2017, arXiv 1710.01620], for
+ * triangles.
  *
  *        b                 The edges that q lies beyond form a chain, one or two edges of a triangle. Begin at its first
  *       / `                edge, counter-clockwise: ac. If the corner c between it and the next edge cb is obtuse and q lies
@@ -7,13 +8,15 @@
  *    a----------c          The perpendicular parts an obtuse angle into a right and an acute one, as the paper asks of the
  *               :          line; it is decided by the signs of two dot products.
  *               : * q
- * Ends on every tiling: the edge crossed holds the point x of the tile nearest to q, so the distance from q to the tile
- * never grows. It stays the same only if x is a vertex, and then the walk turns one way round x. docs/guarantees.md has
- * the proof. So no tile is entered twice. Memory is not needed for that; remembering the edge it came by saves a test. */
+ * Ends on every tiling: the edge crossed holds the point x of the tile nearest to q, so the
+ * distance from q to the tile never grows. It stays the same only if x is a vertex, and then the
+ * walk turns one way round x. docs/guarantees.md has the proof. So no tile is entered twice. Memory
+ * is not needed for that; remembering the edge it came by saves a test. */
 #include "walk/drive.h"
 
-/* Cross edge e, the first of the chain, or the next edge if q lies round the corner between them. */
-static MW_INLINE mw_verdict cross_chain(mw_walk *w, uint32_t e, mw_policy P)
+/* Cross edge e, the first of the chain, or the next edge if q lies round the corner between
+ * them. */
+static MW_INLINE mw_verdict celestial_cross_chain(mw_walk *w, uint32_t e, mw_policy P)
 {
     uint32_t next = mw__next(e);
     mw_point a = corner(w, e), c = corner(w, next), b = apex(w, e);
@@ -25,11 +28,11 @@ static MW_INLINE mw_verdict celestial_step(mw_walk *w, mw_policy P)
 {
     if (MW_UNLIKELY(w->e == MW_NO_EDGE)) {
         /* Where q lies beyond edges 0 and 2, the chain begins with 2. */
-        if (beyond(w, 0, P)) return cross_chain(w, beyond(w, 2, P) ? 2 : 0, P);
+        if (beyond(w, 0, P)) return celestial_cross_chain(w, beyond(w, 2, P) ? 2 : 0, P);
         w->e = 0; /* as if entered there: the rest is the same */
     }
     uint32_t next = mw__next(w->e);
-    if (beyond(w, next, P)) return cross_chain(w, next, P);
+    if (beyond(w, next, P)) return celestial_cross_chain(w, next, P);
     return leave(w, mw__prev(w->e), P);
 }
 

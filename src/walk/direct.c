@@ -6,28 +6,28 @@
  *      t0------t1        one is tested, and the last is 2A less both. One test a tile where 2A is stored, else two;
  *                        one more in the first tile.
  *
- * The walk of the paper also takes clockwise tiles, but its printed pseudocode fails there, because it passes on
- * coordinates that it has flipped (slip 5). It has to keep all of them normalised: the known one always -c, the tested
- * one sgn(A) times the test, and the last one |2A| less both. Here sgn(A) is 1: the mesh turns clockwise triangles when
- * it is created, so that all tiles are counter-clockwise.
- * Another departure: coordinates are rounded, and what is derived from them takes the errors of all tiles before along.
- * In exact arithmetic an edge is crossed only where its coordinate is surely negative, and that coordinate is passed on
- * with the most by which it may be off added. So what is known in the next tile is a lower bound, what is derived from
- * it an upper one, and a negative one is sure again. Where no coordinate is, q is in the tile or all but in it, and the
- * exact final location ends the walk.
- * Ends and cycles as the barycentric walk does. */
+ * The walk of the paper also takes clockwise tiles, but its printed pseudocode fails there, because
+ * it passes on coordinates that it has flipped (slip 5). It has to keep all of them normalised: the
+ * known one always -c, the tested one sgn(A) times the test, and the last one |2A| less both. Here
+ * sgn(A) is 1: the mesh turns clockwise triangles when it is created, so that all tiles are
+ * counter-clockwise. Another departure: coordinates are rounded, and what is derived from them
+ * takes the errors of all tiles before along. In exact arithmetic an edge is crossed only where its
+ * coordinate is surely negative, and that coordinate is passed on with the most by which it may be
+ * off added. So what is known in the next tile is a lower bound, what is derived from it an upper
+ * one, and a negative one is sure again. Where no coordinate is, q is in the tile or all but in it,
+ * and the exact final location ends the walk. Ends and cycles as the barycentric walk does. */
 #include "walk/drive.h"
 #include "walk/value.h"
 
 static MW_INLINE double direct_side(mw_walk *w, uint32_t e, double *off, mw_policy P)
 {
-    return value(w, corner(w, e), corner(w, e + 1), w->q, off, P);
+    return area_value(w, corner(w, e), corner(w, e + 1), w->q, off, P);
 }
 
 /* Twice the area of the tile. */
 static MW_INLINE double direct_double_area(mw_walk *w, bool stored, double *off, mw_policy P)
 {
-    if (!stored) return value(w, corner(w, 0), corner(w, 1), corner(w, 2), off, P);
+    if (!stored) return area_value(w, corner(w, 0), corner(w, 1), corner(w, 2), off, P);
     double area = w->tiling->area[w->t];
     if (P.exact) *off += MW_AREA_ERROR * area;
     return area;
@@ -42,7 +42,7 @@ static MW_INLINE mw_verdict direct_step_with(mw_walk *w, bool stored, mw_policy 
     double tested = direct_side(w, next, &off, P);
     double area = direct_double_area(w, stored, &off, P);
     double last = area - known - tested;
-    off += rounding(area, known, tested, P);
+    off += sum_rounding(area, known, tested, P);
     bool turn = last < tested;
     double least = turn ? last : tested;
     uint32_t out = turn ? mw__prev(e) : next;

@@ -28,8 +28,9 @@ static MW_INLINE mw_verdict drive_once(mw_walk *w, mw_step step, mw_policy P)
     return step(w, P);
 }
 
-/* Many walks in flight: while one waits for memory the others go on. After a step the new tile's record is prefetched,
- * half a lap later (when the record has come) its vertices, and another half lap later the step finds them in cache. */
+/* Many walks that take turns: while one waits for memory the others go on. After a step the new
+ * tile's record is prefetched, half a lap later (when the record has come) its vertices, and
+ * another half lap later the step finds them in cache. */
 static MW_INLINE void drive_ring(mw_feed *feed, uint32_t lane_count, mw_step step, mw_policy P)
 {
     mw_walk lane[MW_MAX_LANES];

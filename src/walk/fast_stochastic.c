@@ -1,22 +1,24 @@
-/* fast_stochastic.c - the fast remembering stochastic walk [Kolingerova 2006; thesis App. E, sec. 5.3].
+/* fast_stochastic.c - the fast remembering stochastic walk [Kolingerova 2006; thesis App. E, sec.
+ * 5.3].
  *
  *          c             Entered over ab, far from q, the walk has to leave over bc or ca. So it tests one of the two,
  *         / `            chosen by a coin: q lies beyond it, or else, very likely, beyond the other, which is crossed
  *        /   `    * q    without a test. In the first tile any edge is tested, and if q does not lie beyond it, one of
  *       a-----b          the other two is crossed.
  *          ^
- * One test a tile, but no step notices that it has arrived: near q the walk goes round it. Therefore only the first k
- * steps are so; then it goes on as the remembering stochastic walk, which begins without an edge that it came by,
- * because q may lie beyond one that was crossed without a test. The paper takes k from experiments with the number of
- * vertices; here it is given, or estimated from the distance for each query (mw__depart).
- * A hull edge crossed without a test does not mean that q is outside: then the final location goes on. Ends as the
- * stochastic walk does, k steps later at most. */
+ * One test a tile, but no step notices that it has arrived: near q the walk goes round it.
+ * Therefore only the first k steps are so; then it goes on as the remembering stochastic walk,
+ * which begins without an edge that it came by, because q may lie beyond one that was crossed
+ * without a test. The paper takes k from experiments with the number of vertices; here it is given,
+ * or estimated from the distance for each query (mw__query_begin).
+ * A hull edge crossed without a test does not mean that q is outside: then the final location goes
+ * on. Ends as the stochastic walk does, k steps later at most. */
 #include "walk/drive.h"
 #include "walk/stochastic.h"
 
 enum { FAST, SURE }; /* phases */
 
-static MW_INLINE mw_verdict fast_step(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict stochastic_fast_step(mw_walk *w, mw_policy P)
 {
     uint64_t coin = mw__toss(&w->random);
     bool first = w->e == MW_NO_EDGE;
@@ -29,7 +31,7 @@ static MW_INLINE mw_verdict fast_stochastic_step(mw_walk *w, mw_policy P)
 {
     if (MW_LIKELY(w->steps)) {
         w->steps--;
-        return fast_step(w, P);
+        return stochastic_fast_step(w, P);
     }
     if (MW_UNLIKELY(w->phase == FAST)) {
         w->phase = SURE;

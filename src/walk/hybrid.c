@@ -7,16 +7,17 @@
  *       \|/        .       and ends where x' of s is at least that of q. Otherwise the line leaves over rs where s lies
  *        r                 above it, over sl where not. Then an exact walk goes the last steps.
  *
- * Departures from the printed pseudocode. The printed matrix turns by the wrong sign, so that p->q ends at twice its
- * angle (slip 4). Coordinates are relative to p: q' = (|a|^2, 0), p' = 0, and nothing cancels far from the origin. The
- * first tile is seen from its vertex 0; like the straight walk, and like the printed one, the turn takes the short way
- * round. It ends at the tile that the line enters, whose last tested vertex is the first s: its x' belongs to the
- * walk, its y' is not compared again. On the line counts as below it, everywhere; the printed loop has it the other
- * way.
- * Edge cases. q = p: an exact walk starts in the first tile. Where the turn or the walk meets the hull, q is outside
- * or on the hull but for rounding: an exact walk goes on from there.
- * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that rounding could do is
- * lead it back to the edge it began with, or keep it turning round p: docs/guarantees.md. */
+ * Departures from the printed pseudocode. The printed matrix turns by the wrong sign, so that p->q
+ * ends at twice its angle (slip 4). Coordinates are relative to p: q' = (|a|^2, 0), p' = 0, and
+ * nothing cancels far from the origin. The first tile is seen from its vertex 0; like the straight
+ * walk, and like the printed one, the turn takes the short way round. It ends at the tile that the
+ * line enters, whose last tested vertex is the first s: its x' belongs to the walk, its y' is not
+ * compared again. On the line counts as below it, everywhere; the printed loop has it the other
+ * way. Edge cases. q = p: an exact walk starts in the first tile. Where the turn or the walk meets
+ * the hull, q is outside or on the hull but for rounding: an exact walk goes on from there. Ends by
+ * running out of fuel at worst. In exact arithmetic it enters no tile twice; all that rounding
+ * could do is lead it back to the edge it began with, or keep it turning round p:
+ * docs/guarantees.md. */
 #include "walk/drive.h"
 
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
@@ -35,7 +36,8 @@ static MW_INLINE bool hybrid_past(mw_walk *w, mw_point s, mw_policy P)
     return !(ahead(w, w->p, s) < ahead(w, w->p, w->q));
 }
 
-/* The turn ends in this tile: the line leaves it through edge e, off p. Its vertex s was the last one tested. */
+/* The turn ends in this tile: the line leaves it through edge e, off p. Its vertex s was the last
+ * one tested. */
 static MW_INLINE mw_verdict hybrid_follow(mw_walk *w, uint32_t e, mw_point s, mw_policy P)
 {
     w->phase = FOLLOW;

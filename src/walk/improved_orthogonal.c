@@ -1,5 +1,5 @@
-/* improved_orthogonal.c - the improved orthogonal walk [Purchart, Kolingerova, Benes 2012; thesis App. E, sec. 7.2 and
- * Alg. 7].
+/* improved_orthogonal.c - the improved orthogonal walk [Purchart, Kolingerova, Benes 2012; thesis
+ * App. E, sec. 7.2 and Alg. 7].
  *
  *           l             p is a point inside the first tile, so there is no vertex to turn round. In each tile two
  *          /|\            comparisons: is s, the vertex off the entry edge, past the end of the leg? If not, on which
@@ -7,23 +7,25 @@
  *         \ | / s         go the same way along the vertical line through q. The tile where that ends is not tested:
  *          \|/            q is there or near, and an exact walk ends the search.
  *           r
- * Departures from the printed pseudocode. In the first tile of a leg, s, the vertex farthest along the heading, tells
- * whether the tile is past the end, as printed; but not the edge to leave over, which need not be one at s: that runs
- * from a vertex on the right to one on the left. p is the centroid. The other directions are the same code in turned
- * coordinates: axis.h.
- * Leaving the hull. In the horizontal leg: then the vertical leg from here, along the line through the centroid of the
- * tile, as the text of App. E has it. In the vertical leg: the exact walk. App. B moves the line to the last vertex
- * tested instead, and its Table II is of that: uniform points in a 2:1 rectangle turned by pi/6, not enclosed, 10^4
- * vertices, 142.17 + 17.45 triangles. Simulated there (means of 8 meshes), with the rectangle lying on its long side or
- * standing on its short one before it is turned, which the text leaves open:
+ * Departures from the printed pseudocode. In the first tile of a leg, s, the vertex farthest along
+ * the heading, tells whether the tile is past the end, as printed; but not the edge to leave over,
+ * which need not be one at s: that runs from a vertex on the right to one on the left. p is the
+ * centroid. The other directions are the same code in turned coordinates: axis.h.
+ * Leaving the hull. In the horizontal leg: then the vertical leg from here, along the line through
+ * the centroid of the tile, as the text of App. E has it. In the vertical leg: the exact walk. App.
+ * B moves the line to the last vertex tested instead, and its Table II is of that: uniform points
+ * in a 2:1 rectangle turned by pi/6, not enclosed, 10^4 vertices, 142.17 + 17.45 triangles.
+ * Simulated there (means of 8 meshes), with the rectangle lying on its long side or standing on its
+ * short one before it is turned, which the text leaves open:
  *     App. E lying 141.5 + 12.8, standing 145.5 + 9.3; App. B lying 138.9 + 18.6, standing 139.9 + 16.5
  *     (or 133.4 + 15.3 and 139.6 + 16.5, by the side on which the vertex tested last counts).
- * Edge cases. q level with p, or above or below it: its leg ends where it begins. A vertex on the line of a leg counts
- * as right of it, but where the walk turns to the right, as left (turn_upright). Where rounding puts the centroid
- * beside the tile, so that the line misses it, the exact walk takes over. A leg moves by comparisons of coordinates
- * only, so this walk takes the same way in both arithmetics.
- * Ends on every tiling: there are two legs, and the point where a leg's line leaves the tile comes on with each step. A
- * tile may come once in each. */
+ * Edge cases. q level with p, or above or below it: its leg ends where it begins. A vertex on the
+ * line of a leg counts as right of it, but where the walk turns to the right, as left
+ * (axis_turn_upright). Where rounding puts the centroid beside the tile, so that the line misses
+ * it, the exact walk takes over. A leg moves by comparisons of coordinates only, so this walk takes
+ * the same way in both arithmetics.
+ * Ends on every tiling: there are two legs, and the point where a leg's line leaves the tile comes
+ * on with each step. A tile may come once in each. */
 #include "walk/axis.h"
 #include "walk/drive.h"
 
@@ -32,8 +34,8 @@ enum { START, SET_OUT, FOLLOW }; /* phases */
 /* The tile is past the end of the leg. */
 static MW_INLINE mw_verdict improved_arrive(mw_walk *w, mw_policy P)
 {
-    if (is_vertical(w)) return MW_CLOSE;
-    turn_upright(w, P);
+    if (axis_is_vertical(w)) return MW_CLOSE;
+    axis_turn_upright(w, P);
     w->phase = SET_OUT;
     return MW_GO;
 }
@@ -42,8 +44,8 @@ static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, mw_
 {
     mw_verdict verdict = cross(w, e, P);
     if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
-    if (is_vertical(w)) return MW_CLOSE;
-    head_upright(w, inner_point(w), P);
+    if (axis_is_vertical(w)) return MW_CLOSE;
+    axis_head_upright(w, tile_inner_point(w), P);
     w->phase = SET_OUT;
     return MW_GO;
 }
@@ -60,7 +62,7 @@ static MW_INLINE mw_point improved_farthest(mw_walk *w, mw_policy P)
 /* In the first tile of a leg. */
 static MW_INLINE mw_verdict improved_set_out(mw_walk *w, mw_policy P)
 {
-    if (is_past(w, improved_farthest(w, P), P)) return improved_arrive(w, P);
+    if (axis_is_past(w, improved_farthest(w, P), P)) return improved_arrive(w, P);
     uint32_t e = axis_exit_edge(w, P);
     if (e == MW_NO_EDGE) return MW_CLOSE;
     w->phase = FOLLOW;
@@ -71,10 +73,10 @@ static MW_INLINE mw_verdict improved_orthogonal_step(mw_walk *w, mw_policy P)
 {
     if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
         mw_point s = apex(w, w->e);
-        if (MW_UNLIKELY(is_past(w, s, P))) return improved_arrive(w, P);
+        if (MW_UNLIKELY(axis_is_past(w, s, P))) return improved_arrive(w, P);
         return improved_cross_or_detour(w, axis_is_left(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
     }
-    if (w->phase == START) head_across(w, inner_point(w), P);
+    if (w->phase == START) axis_head_across(w, tile_inner_point(w), P);
     return improved_set_out(w, P);
 }
 

@@ -1,5 +1,5 @@
-/* normal_straight.c - the straight walk that stops at a normal line [Soukal, Kolingerova 2009: thesis App. A, Alg. 2 and
- * App. E, Alg. 5].
+/* normal_straight.c - the straight walk that stops at a normal line [Soukal, Kolingerova 2009:
+ * thesis App. A, Alg. 2 and App. E, Alg. 5].
  *
  *      l               . n     The line leads from p, the middle of the edge of the first tile that faces the vertex s
  *      |\              .       nearest to q, to q; n is its normal at q. With l and r the left and right ends of the edge
@@ -8,35 +8,37 @@
  *      |___s           .       positions by the equations of two fixed lines a tile, no orientation test; then an exact
  *      r                       walk goes the last steps.
  *
- * Departures from the printed pseudocode. The normal has the minus sign that eq. 7 lost (slip 1), and over which edge
- * the line leaves is as in the prose of App. A and in Alg. 5 (slip 2). Both equations take s relative to q: their
- * constants vanish, for which two subtractions are to be made; nothing is saved, but nothing cancels far from the
- * origin. Nor is p itself needed, only the direction d from p to q: the mean of those from l and r.
- * Edge cases. In a flat first tile q may lie behind lr although s is the nearest vertex; the printed walk then goes
- * away from q. Therefore the first tile first asks whether the edge to be crossed has its ends on different sides of
- * the line, one position more a query. If not, the walk starts over lr, into the tile that the line enters. Where d is
- * zero (q = p), s of the first tile is past n, the line leaves the hull, or no edge of the first tile will do (in
- * tiles a few roundings wide), an exact walk goes on from there.
- * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that rounding could do is
- * lead it back to the edge it began with: docs/guarantees.md. */
+ * Departures from the printed pseudocode. The normal has the minus sign that eq. 7 lost (slip 1),
+ * and over which edge the line leaves is as in the prose of App. A and in Alg. 5 (slip 2). Both
+ * equations take s relative to q: their constants vanish, for which two subtractions are to be
+ * made; nothing is saved, but nothing cancels far from the origin. Nor is p itself needed, only the
+ * direction d from p to q: the mean of those from l and r. Edge cases. In a flat first tile q may
+ * lie behind lr although s is the nearest vertex; the printed walk then goes away from q. Therefore
+ * the first tile first asks whether the edge to be crossed has its ends on different sides of the
+ * line, one position more a query. If not, the walk starts over lr, into the tile that the line
+ * enters. Where d is zero (q = p), s of the first tile is past n, the line leaves the hull, or no
+ * edge of the first tile will do (in tiles a few roundings wide), an exact walk goes on from there.
+ * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that
+ * rounding could do is lead it back to the edge it began with: docs/guarantees.md. */
 #include "walk/drive.h"
 
 /* position(lambda, s) > 0: s lies to the left of the line. */
-static MW_INLINE bool left_of_line(mw_walk *w, mw_point s, mw_policy P)
+static MW_INLINE bool normal_left_of_line(mw_walk *w, mw_point s, mw_policy P)
 {
     if (P.count) w->work->implicit++;
     return leftward(w, w->q, s) > 0;
 }
 
-/* position(lambda_n, s): s lies on the normal or on its far side. Not a number counts as past it. */
-static MW_INLINE bool past_normal(mw_walk *w, mw_point s, mw_policy P)
+/* position(lambda_n, s): s lies on the normal or on its far side. Not a number counts as past
+ * it. */
+static MW_INLINE bool normal_is_past(mw_walk *w, mw_point s, mw_policy P)
 {
     if (P.count) w->work->implicit++;
     return !(ahead(w, w->q, s) < 0);
 }
 
 /* The edge of the current tile that faces its vertex nearest to q. */
-static MW_INLINE uint32_t facing_nearest(const mw_walk *w)
+static MW_INLINE uint32_t edge_facing_nearest(const mw_walk *w)
 {
     double distance[3];
     for (uint32_t k = 0; k < 3; k++) {
@@ -50,22 +52,22 @@ static MW_INLINE uint32_t facing_nearest(const mw_walk *w)
 /* The first tile. */
 static MW_INLINE mw_verdict normal_aim(mw_walk *w, mw_policy P)
 {
-    uint32_t e = facing_nearest(w);
+    uint32_t e = edge_facing_nearest(w);
     mw_point l = corner(w, e), r = corner(w, e + 1), s = apex(w, e);
     double x = ((w->q.x - l.x) + (w->q.x - r.x)) / 2, y = ((w->q.y - l.y) + (w->q.y - r.y)) / 2;
     if (MW_UNLIKELY(!set_direction(w, x, y))) return MW_CLOSE;
-    bool left = left_of_line(w, s, P);
-    if (MW_UNLIKELY(left_of_line(w, left ? r : l, P) == left))
-        return left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P) : MW_CLOSE;
-    return past_normal(w, s, P) ? MW_CLOSE : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
+    bool left = normal_left_of_line(w, s, P);
+    if (MW_UNLIKELY(normal_left_of_line(w, left ? r : l, P) == left))
+        return normal_left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P) : MW_CLOSE;
+    return normal_is_past(w, s, P) ? MW_CLOSE : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
 }
 
 static MW_INLINE mw_verdict normal_straight_step(mw_walk *w, mw_policy P)
 {
     if (MW_UNLIKELY(w->e == MW_NO_EDGE)) return normal_aim(w, P);
     mw_point s = apex(w, w->e); /* entered over edge e = lr */
-    if (past_normal(w, s, P)) return MW_CLOSE;
-    return cross_unsure(w, left_of_line(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
+    if (normal_is_past(w, s, P)) return MW_CLOSE;
+    return cross_unsure(w, normal_left_of_line(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
 }
 
 MW_STAMP_WALK(normal_straight, false)

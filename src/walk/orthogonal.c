@@ -1,4 +1,5 @@
-/* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002; thesis App. E, sec. 7.1, Alg. 6].
+/* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002; thesis App. E, sec. 7.1, Alg.
+ * 6].
  *
  *          l          * q    First turn round p, a vertex of the first tile, to the tile at p that the horizontal line
  *         /|\         :      through p enters on its way to a, the point above or below q: a comparison a tile. Then
@@ -18,24 +19,26 @@
  *   tile (between its centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from
  *   there, from the vertex nearest to q. In a thin hull askew to the axes all this does not help; so after RESTARTS it
  *   is left to an exact walk.
- * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical leg, from p. q at the
- * height of p: a is q, and the horizontal leg finds it. A vertex on the line of a leg counts as right of it, but where
- * the walk turns to the right, as left (turn_upright). p on the hull: where the turn meets the hull first, the line
- * points out of the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
- * MW_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right, the walk follows a
- * line moved by next to nothing, so every tile has points of it inside, and its part of the true line runs from the
- * entry edge, or p, to the exit edge. What the leg looks for lies ahead of p; then ahead of each entry edge, since it
- * was beyond that; so it is in the tile unless it is beyond the exit edge. The vertical leg begins likewise in the tile
- * that holds a, which has points just before the vertical line. Legs along another line find nothing, they only lead
- * nearer.
- * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point where a leg's line
- * leaves the tile comes on with each step; and there are at most 2 (RESTARTS + 1) legs. Each meets a
- * tile once at most. */
+ * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical
+ * leg, from p. q at the height of p: a is q, and the horizontal leg finds it. A vertex on the line
+ * of a leg counts as right of it, but where the walk turns to the right, as left
+ * (axis_turn_upright). p on the hull: where the turn meets the hull first, the line points out of
+ * the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
+ * MW_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right,
+ * the walk follows a line moved by next to nothing, so every tile has points of it inside, and its
+ * part of the true line runs from the entry edge, or p, to the exit edge. What the leg looks for
+ * lies ahead of p; then ahead of each entry edge, since it was beyond that; so it is in the tile
+ * unless it is beyond the exit edge. The vertical leg begins likewise in the tile that holds a,
+ * which has points just before the vertical line. Legs along another line find nothing, they only
+ * lead nearer.
+ * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point
+ * where a leg's line leaves the tile comes on with each step; and there are at most 2 (RESTARTS +
+ * 1) legs. Each meets a tile once at most. */
 #include "walk/axis.h"
 #include "walk/drive.h"
 
-/* The phase of a walk: one of the first five; MOVED, where the vertical line is not that through q; and the number of
- * restarts. */
+/* The phase of a walk: one of the first five; MOVED, where the vertical line is not that through q;
+ * and the number of restarts. */
 enum { START, TURN_RIGHT, TURN_LEFT, SET_OUT, FOLLOW, STEP = 7, MOVED = 8, RESTART = 16, RESTARTS = 2 };
 
 static MW_INLINE void orthogonal_enter(mw_walk *w, uint32_t phase)
@@ -46,7 +49,7 @@ static MW_INLINE void orthogonal_enter(mw_walk *w, uint32_t phase)
 /* Where the leg ends: a, q, or the point of another vertical line at the height of q. */
 static MW_INLINE mw_point leg_end(const mw_walk *w)
 {
-    if (!is_vertical(w)) return (mw_point){w->q.x, w->d.x * w->p.y};
+    if (!axis_is_vertical(w)) return (mw_point){w->q.x, w->d.x * w->p.y};
     return w->phase & MOVED ? (mw_point){-w->d.y * w->p.y, w->q.y} : w->q;
 }
 
@@ -70,8 +73,8 @@ static MW_INLINE mw_verdict orthogonal_restart(mw_walk *w)
 /* The horizontal leg would leave the hull: a vertical one from here instead. */
 static MW_INLINE mw_verdict orthogonal_detour(mw_walk *w, mw_policy P)
 {
-    mw_point c = inner_point(w), v = corner(w, nearest_corner(w));
-    head_upright(w, (mw_point){c.x / 2 + v.x / 2, c.y / 2 + v.y / 2}, P);
+    mw_point c = tile_inner_point(w), v = corner(w, nearest_corner(w));
+    axis_head_upright(w, (mw_point){c.x / 2 + v.x / 2, c.y / 2 + v.y / 2}, P);
     if (w->stage == MW_STAGE_INIT) begin_stage(w, MW_STAGE_WALK, P);
     w->phase |= MOVED;
     orthogonal_enter(w, SET_OUT);
@@ -84,15 +87,15 @@ static MW_INLINE mw_verdict orthogonal_cross_or_detour(mw_walk *w, uint32_t e, m
     mw_verdict verdict = cross(w, e, P);
     if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
     if (beyond(w, e, P)) return MW_LEFT;
-    return is_vertical(w) ? orthogonal_restart(w) : orthogonal_detour(w, P);
+    return axis_is_vertical(w) ? orthogonal_restart(w) : orthogonal_detour(w, P);
 }
 
 /* The tile holds the end of the leg. */
 static MW_INLINE mw_verdict orthogonal_arrive(mw_walk *w, mw_policy P)
 {
     if (w->phase & MOVED) return orthogonal_restart(w);
-    if (is_vertical(w) || w->q.y == leg_end(w).y) return MW_FOUND;
-    turn_upright(w, P);
+    if (axis_is_vertical(w) || w->q.y == leg_end(w).y) return MW_FOUND;
+    axis_turn_upright(w, P);
     orthogonal_enter(w, SET_OUT);
     return MW_GO;
 }
@@ -101,13 +104,13 @@ static MW_INLINE mw_verdict orthogonal_arrive(mw_walk *w, mw_policy P)
 static MW_INLINE mw_verdict orthogonal_go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_point r = corner(w, e), l = corner(w, e + 1);
-    bool r_past = is_past(w, r, P), l_past = is_past(w, l, P);
+    bool r_past = axis_is_past(w, r, P), l_past = axis_is_past(w, l, P);
     if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, leg_end(w), P) >= 0) return orthogonal_arrive(w, P);
     return orthogonal_cross_or_detour(w, e, P);
 }
 
 /* The line leaves the tile over edge e, off p: the turn ends here. */
-static MW_INLINE mw_verdict end_turn(mw_walk *w, uint32_t e, mw_policy P)
+static MW_INLINE mw_verdict orthogonal_end_turn(mw_walk *w, uint32_t e, mw_policy P)
 {
     orthogonal_enter(w, FOLLOW);
     begin_stage(w, MW_STAGE_WALK, P);
@@ -132,12 +135,12 @@ static MW_INLINE mw_verdict orthogonal_start(mw_walk *w, mw_policy P)
     mw_point p = corner(w, k);
     if (w->q.x == p.x && w->q.y == p.y) return MW_FOUND;
     if (w->q.x != p.x)
-        head_across(w, p, P);
+        axis_head_across(w, p, P);
     else
-        head_upright(w, p, P);
+        axis_head_upright(w, p, P);
     if (axis_is_left(w, corner(w, k + 1), P)) return orthogonal_turn(w, TURN_RIGHT, k, P);
     if (!axis_is_left(w, apex(w, k), P)) return orthogonal_turn(w, TURN_LEFT, mw__prev(k), P);
-    return end_turn(w, mw__next(k), P);
+    return orthogonal_end_turn(w, mw__next(k), P);
 }
 
 /* In the first tile of a vertical leg. */
@@ -155,9 +158,11 @@ static MW_INLINE mw_verdict orthogonal_step(mw_walk *w, mw_policy P)
     if (MW_LIKELY(step == FOLLOW)) /* entered over edge e = lr */
         return orthogonal_go_on(w, axis_is_left(w, apex(w, w->e), P) ? next : prev, P);
     if (step == TURN_RIGHT) /* entered over edge e = lp, the new r is off it */
-        return axis_is_left(w, apex(w, w->e), P) ? orthogonal_cross_or_detour(w, next, P) : end_turn(w, prev, P);
+        return axis_is_left(w, apex(w, w->e), P) ? orthogonal_cross_or_detour(w, next, P)
+                                                 : orthogonal_end_turn(w, prev, P);
     if (step == TURN_LEFT) /* entered over edge e = pr, the new l is off it */
-        return axis_is_left(w, apex(w, w->e), P) ? end_turn(w, next, P) : orthogonal_cross_or_detour(w, prev, P);
+        return axis_is_left(w, apex(w, w->e), P) ? orthogonal_end_turn(w, next, P)
+                                                 : orthogonal_cross_or_detour(w, prev, P);
     return step == SET_OUT ? orthogonal_set_out(w, P) : orthogonal_start(w, P);
 }
 

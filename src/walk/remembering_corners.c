@@ -1,4 +1,5 @@
-/* remembering_corners.c - what takes over where the remembering walk of the corners does not end. */
+/* remembering_corners.c - what takes over where the remembering walk of the corners does not
+ * end. */
 #include "walk/remembering_corners.h"
 
 mw_walk_end mw__corners_surely(const mw_tiling *tiling, mw_point q, uint32_t t, mw_lifted_vertex corner[3])

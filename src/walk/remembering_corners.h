@@ -2,12 +2,12 @@
  *
  * Which walk: that of remembering.c, in exact arithmetic.
  *
- * Why it exists: an insertion goes on with the corners of the last tile as seen from the point: with
- * their differences from it, and the squares of these. A step here takes over two corners from the
- * tile before and computes the third. The squares also give the bound of the side tests. And it asks
- * memory for the tiles beyond: the walk goes there next, or the hole that is dug. A single query by
- * this step took 1.02 to 1.13 times as long as by remembering_fast.h; an insertion by that one would
- * have to compute the corners anew.
+ * Why it exists: an insertion goes on with the corners of the last tile as seen from the point:
+ * with their differences from it, and the squares of these. A step here takes over two corners from
+ * the tile before and computes the third. The squares also give the bound of the side tests. And it
+ * asks memory for the tiles beyond: the walk goes there next, or the cavity of the insertion grows
+ * there. A single query by this step took 1.02 to 1.13 times as long as by remembering_fast.h; an
+ * insertion by that one would have to compute the corners anew.
  *
  * Why it takes the same way: all signs are exact. In the first tile it tries the edges in order;
  * later the two edges after that by which it came, in turn, where remembering.c takes the lower one
@@ -18,7 +18,7 @@
 #ifndef MW_SRC_REMEMBERING_CORNERS_H
 #define MW_SRC_REMEMBERING_CORNERS_H
 
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "walk/lifted.h"
 #include "walk/walk.h"
 
@@ -57,8 +57,8 @@ static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw
         t = mw__link_triangle(link);
         if (MW_UNLIKELY(fuel-- == 0)) return mw__corners_surely(tiling, q, t, corner);
         e = mw__link_edge(link);
-        mw__fetch_tile(tiling, tri[t].link[mw__next(e)]);
-        mw__fetch_tile(tiling, tri[t].link[mw__prev(e)]);
+        mw__prefetch_tile(tiling, tri[t].link[mw__next(e)]);
+        mw__prefetch_tile(tiling, tri[t].link[mw__prev(e)]);
         c = mw__lift_vertex(tiling, tri[t].v[mw__prev(e)], q);
         exit = MW_NONE;
         ab = 1; /* it came over this edge */

@@ -15,28 +15,28 @@
  * may go: it never crosses an edge that q does not lie beyond.
  *
  * Why it ends: on a Delaunay mesh each step lowers the power of q with respect to the circle of the
- * tile, as for every way of Lawson's walk (docs/guarantees.md). Elsewhere it may go in cycles: after
- * MW_FAST_STEPS steps it gives up. What it could not decide, or not in so many steps, goes on by a
- * walk of drive.h from the tile where it stands. */
+ * tile, as for every way of Lawson's walk (docs/guarantees.md). Elsewhere it may go in cycles:
+ * after MW_FAST_STEPS steps it gives up. What it could not decide, or not in so many steps, goes on
+ * by a walk of drive.h from the tile where it stands. */
 #ifndef MW_SRC_REMEMBERING_FAST_H
 #define MW_SRC_REMEMBERING_FAST_H
 
-#include "walk/fetch.h"
+#include "walk/prefetch.h"
 #include "walk/walk.h"
 
 #define MW_FAST_STEPS 64
 
 /* Shares of rounded areas are weights if the bound on the error is below this part of the sum, and
- * the sum between these limits. The exact conclusion (mw__areas, mw__place in locate/location.c)
- * would then take the same rounded areas, and come to the very same weights: it allows 2^-42, with
- * a bound for each area in the place of one for all, and the same sums. */
+ * the sum between these limits. The exact conclusion (mw__location_areas, mw__location_of in
+ * locate/location.c) would then take the same rounded areas, and come to the very same weights: it
+ * allows 2^-42, with a bound for each area in the place of one for all, and the same sums. */
 #define MW_WEIGHT_ERROR 0x1p-44
 #define MW_WEIGHT_SUM_LEAST 0x1p-900
 #define MW_WEIGHT_SUM_MOST 0x1p900
 
 /* Areas (twice) of the triangles that q makes with the sides of a tile, area[k] opposite to corner
- * k, as mw__areas has them where it need not be exact. The bound is that of orient2d, with the
- * products of all three in the place of the two of each: no less than any of theirs. */
+ * k, as mw__location_areas has them where it need not be exact. The bound is that of orient2d, with
+ * the products of all three in the place of the two of each: no less than any of theirs. */
 typedef struct mw_rounded_areas {
     double area[3], bound;
 } mw_rounded_areas;
@@ -71,7 +71,7 @@ static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_poi
     const mw_triangle *tri = tiling->tri, *tile = &tri[*t];
     mw_verdict verdict = MW_DRY;
     for (uint32_t steps = 0; steps < MW_FAST_STEPS; steps++) {
-        mw__fetch_across(tri, tile);
+        mw__prefetch_across(tri, tile);
         const mw_rounded_areas of = mw__rounded_areas(tiling->point, tile, q);
         uint32_t link;
         if (of.area[2] < -of.bound) {

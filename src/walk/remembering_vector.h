@@ -4,8 +4,8 @@
  *
  * Why it exists: a batch has other walks to go on with while one waits, so its steps should guess
  * nothing. Here four walks, the lanes of vectors of four doubles, step together without a jump:
- * areas, signs and edges to cross are selected. Only whether a walk has ended is guessed.
- * 10^6 uniform vertices and queries in random order, one thread, ns a query, from a grid: 350 by the
+ * areas, signs and edges to cross are selected. Only whether a walk has ended is guessed. 10^6
+ * uniform vertices and queries in random order, one thread, ns a query, from a grid: 350 by the
  * ring of single walks (drive.h) with the conclusion apart, 124 by areas but one walk at a time, 90
  * with four; 10^4 vertices: 188, 90, 53. Without AVX2 four take 1.4 and 1.9 times as long.
  *

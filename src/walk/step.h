@@ -1,10 +1,12 @@
-/* step.h - the vocabulary of the planar walks: the only place where policy is looked at. Private. */
+/* step.h - the vocabulary of the planar walks: the only place where policy is looked at.
+ * Private. */
 #ifndef MW_SRC_STEP_H
 #define MW_SRC_STEP_H
 
 #include "walk/walk.h"
 
-/* How a kernel works. Always a literal where a kernel is stamped; the compiler deletes what is off. */
+/* How a kernel works. Always a literal where a kernel is stamped; the compiler deletes what is
+ * off. */
 typedef struct mw_policy {
     bool exact, count, lanes;
 } mw_policy;
@@ -48,10 +50,10 @@ static MW_INLINE mw_point apex(const mw_walk *w, uint32_t e)
     return corner(w, mw__prev(e));
 }
 
-/* The cheap walks that follow a line from p to q place vertices by its direction d, in plain doubles. Set it; a very long
- * or short one is scaled by a power of two, so that products with differences of the same size are about 1 or, of long
- * ones, of that size: they hardly over- or underflow. False where there is no line: q is at p, or d is too long for
- * doubles. */
+/* The cheap walks that follow a line from p to q place vertices by its direction d, in plain
+ * doubles. Set it; a very long or short one is scaled by a power of two, so that products with
+ * differences of the same size are about 1 or, of long ones, of that size: they hardly over- or
+ * underflow. False where there is no line: q is at p, or d is too long for doubles. */
 static MW_INLINE bool set_direction(mw_walk *w, double x, double y)
 {
     double length = fabs(x) + fabs(y);
@@ -67,7 +69,8 @@ static MW_INLINE bool set_direction(mw_walk *w, double x, double y)
     return true;
 }
 
-/* How far s lies ahead of the point o, in direction d, and how far to the left of the line through o: both times |d|. */
+/* How far s lies ahead of the point o, in direction d, and how far to the left of the line through
+ * o: both times |d|. */
 static MW_INLINE double ahead(const mw_walk *w, mw_point o, mw_point s)
 {
     return w->d.x * (s.x - o.x) + w->d.y * (s.y - o.y);
@@ -98,15 +101,17 @@ static MW_INLINE mw_verdict cross(mw_walk *w, uint32_t e, mw_policy P)
     return MW_GO;
 }
 
-/* The same for the cheap walks: that they would leave the hull here does not mean that q lies outside. */
+/* The same for the cheap walks: that they would leave the hull here does not mean that q lies
+ * outside. */
 static MW_INLINE mw_verdict cross_unsure(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
     return MW_UNLIKELY(verdict == MW_LEFT) ? MW_CLOSE : verdict;
 }
 
-/* Cross edge e, which came out of values. A walk alone should not wait for them: a jump lets the processor guess, and have
- * the next tile on its way. Many walks in flight have time, and no use for wrong guesses. */
+/* Cross edge e, which came out of values. A walk alone should not wait for them: a jump lets the
+ * processor guess, and have the next tile on its way. Many walks that take turns have time, and
+ * wrong guesses only cost them. */
 static MW_INLINE mw_verdict cross_guessed(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (P.lanes) return cross(w, e, P);
@@ -128,9 +133,9 @@ static MW_INLINE mw_verdict leave(mw_walk *w, uint32_t e, mw_policy P)
     return beyond(w, e, P) ? cross(w, e, P) : MW_FOUND;
 }
 
-/* Leave through `first`, or else `second`, if q lies beyond it; otherwise q is here. Many walks in flight hide the time
- * of a second test, but not a jump that the processor guessed wrong: they make both tests and select. When tests are
- * counted, they are made as the algorithm says. */
+/* Leave through `first`, or else `second`, if q lies beyond it; otherwise q is here. Many walks
+ * that take turns hide the time of a second test, but not a jump that the processor guessed wrong:
+ * they make both tests and select. When tests are counted, they are made as the algorithm says. */
 static MW_INLINE mw_verdict leave_either(mw_walk *w, uint32_t first, uint32_t second, mw_policy P)
 {
     if (!P.lanes || P.count) {

@@ -1,4 +1,5 @@
-/* stochastic.h - a coin, and the remembering stochastic step: for the walks that toss one. Private. */
+/* stochastic.h - a coin, and the remembering stochastic step: for the walks that toss one.
+ * Private. */
 #ifndef MW_SRC_STOCHASTIC_H
 #define MW_SRC_STOCHASTIC_H
 

@@ -12,9 +12,10 @@ void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk)
     trace_record(trace, &walk->tri[walk->t]);
 }
 
-/* In one step the border walk turns round a vertex of the border: over edge e of tile t, then over each edge that follows
- * there, up to the border; from there it may turn on into a tile beyond, or go back to one on the way round. */
-static void record_turn(mw_walk_trace *trace, const mw_walk *walk, uint32_t t, uint32_t e, uint64_t entered)
+/* In one step the border walk turns round a vertex of the border: over edge e of tile t, then over
+ * each edge that follows there, up to the border; from there it may turn on into a tile beyond, or
+ * go back to one on the way round. */
+static void trace_record_turn(mw_walk_trace *trace, const mw_walk *walk, uint32_t t, uint32_t e, uint64_t entered)
 {
     for (; entered && walk->tri[t].link[e] != MW_NONE; entered--) {
         uint32_t link = walk->tri[t].link[e];
@@ -25,7 +26,7 @@ static void record_turn(mw_walk_trace *trace, const mw_walk *walk, uint32_t t, u
     if (t != walk->t) mw__walk_record(trace, walk);
 }
 
-static mw_verdict step_and_record(mw_walk *walk, const mw_kernels *kernels)
+static mw_verdict walk_step_recorded(mw_walk *walk, const mw_kernels *kernels)
 {
     mw_work *work = walk->work;
     uint32_t t = walk->t, e = walk->e;
@@ -33,7 +34,7 @@ static mw_verdict step_and_record(mw_walk *walk, const mw_kernels *kernels)
     bool turns = walk->stage == MW_STAGE_BORDER;
     mw_verdict verdict = kernels->step(walk);
     if (turns)
-        record_turn(work->trace, walk, t, e, work->visited - visited);
+        trace_record_turn(work->trace, walk, t, e, work->visited - visited);
     else if (work->visited > visited)
         mw__walk_record(work->trace, walk);
     return verdict;
@@ -44,7 +45,7 @@ mw_verdict mw__walk_run(mw_walk *walk, const mw_kernels *kernels, bool exact, bo
     if (MW_LIKELY(!count || !walk->work->trace)) return kernels->run[exact][count](walk);
     while (walk->fuel) {
         walk->fuel--;
-        mw_verdict verdict = step_and_record(walk, kernels);
+        mw_verdict verdict = walk_step_recorded(walk, kernels);
         if (verdict != MW_GO) return verdict;
     }
     return MW_DRY;

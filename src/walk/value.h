@@ -1,16 +1,16 @@
 /* value.h - orientation tests whose value counts: for the walks that compare areas. Private.
  *
- * The value is rounded. In exact arithmetic it comes with a bound on its error, so that a walk can tell what is sure:
- * one that crosses an edge only where q surely lies beyond it is not misled by rounding. In plain doubles the bounds
- * are 0. */
+ * The value is rounded. In exact arithmetic it comes with a bound on its error, so that a walk can
+ * tell what is sure: one that crosses an edge only where q surely lies beyond it is not misled by
+ * rounding. In plain doubles the bounds are 0. */
 #ifndef MW_SRC_VALUE_H
 #define MW_SRC_VALUE_H
 
 #include "walk/step.h"
 
-/* Twice the area of abc. Its sign is exact; adds to *off the most by which the value may be off: what the filter says,
- * or, from the exact stage, 2^-50 of it and what underflow takes. */
-static MW_INLINE double value(mw_walk *w, mw_point a, mw_point b, mw_point c, double *off, mw_policy P)
+/* Twice the area of abc. Its sign is exact; adds to *off the most by which the value may be off:
+ * what the filter says, or, from the exact stage, 2^-50 of it and what underflow takes. */
+static MW_INLINE double area_value(mw_walk *w, mw_point a, mw_point b, mw_point c, double *off, mw_policy P)
 {
     if (!P.exact) return orient(w, a, b, c, P);
     if (P.count) w->work->orient[w->stage]++;
@@ -23,9 +23,10 @@ static MW_INLINE double value(mw_walk *w, mw_point a, mw_point b, mw_point c, do
     return at;
 }
 
-/* The most that rounding adds in sums of three terms. A rounding is at most u = 2^-53 of the sum of magnitudes; there
- * are up to four in the terms and the sum, and as many in the bound itself wherever it is less than that sum. 16 u. */
-static MW_INLINE double rounding(double a, double b, double c, mw_policy P)
+/* The most that rounding adds in sums of three terms. A rounding is at most u = 2^-53 of the sum of
+ * magnitudes; there are up to four in the terms and the sum, and as many in the bound itself
+ * wherever it is less than that sum. 16 u. */
+static MW_INLINE double sum_rounding(double a, double b, double c, mw_policy P)
 {
     return P.exact ? 0x1p-49 * (fabs(a) + fabs(b) + fabs(c)) : 0;
 }

@@ -1,8 +1,9 @@
 /* walk.h - what a walk is to those who drive it. Private.
  *
- * A walk is a small state and a step function. One step looks at one tile and either ends there or crosses one of its
- * edges. Each algorithm is written once (one file each); drive.h makes its kernels from it: alone or many in flight,
- * exact or in plain doubles, counting or not. */
+ * A walk is a small state and a step function. One step looks at one tile and either ends there or
+ * crosses one of its edges. Each algorithm is written once (one file each); drive.h makes its
+ * kernels from it: one walk alone, or many that take turns, exact or in plain doubles, counting or
+ * not. */
 #ifndef MW_SRC_WALK_H
 #define MW_SRC_WALK_H
 
@@ -20,8 +21,9 @@ typedef enum mw_verdict {
 
 #define MW_NO_EDGE 3u
 
-/* The stages of a search, counted apart: turning round the first vertex, the walk, the final location that ends the
- * cheap walks, and the way along a border. Each but the last counts the tile it begins in. */
+/* The stages of a search, counted apart: turning round the first vertex, the walk, the final
+ * location that ends the cheap walks, and the way along a border. Each but the last counts the tile
+ * it begins in. */
 enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGE_BORDER, MW_STAGES };
 
 /* The user's triangles that walks enter, in order. */
@@ -65,8 +67,8 @@ typedef struct mw_walk {
     mw_work *work;  /* of counting kernels                                                    */
 } mw_walk;
 
-/* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict MW_GO: there is none
- * yet) and puts the next one in its place; false: no more for this lane. */
+/* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict
+ * MW_GO: there is none yet) and replaces it by the next one; false: no more for this lane. */
 typedef struct mw_feed {
     bool (*deliver)(struct mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verdict);
 } mw_feed;
@@ -84,19 +86,20 @@ typedef struct mw_kernels {
 extern const mw_kernels mw__direct_stored; /* the direct walk where areas are stored */
 extern const mw_kernels mw__border_sure;   /* the border walk that goes along no border more than twice */
 
-/* Phase of a border walk that ends at once: q is in no piece's box. */
+/* Phase of a border walk that ends at once: no component's box holds q. */
 #define MW_PHASE_AWAY 15u
 
 /* The kernels of a walk on this tiling; not for MW_WALK_AUTO. */
 const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling);
 
-/* Steps after which a walk hands over. Walks that end get what they can need at most; the others about 45 times the
- * square root of the number of tiles, far above the length of any walk on Delaunay meshes of spread points, plus a
- * constant for small meshes; the border walk also four times the number of border edges. */
+/* Steps after which a walk hands over. Walks that end get what they can need at most; the others
+ * about 45 times the square root of the number of tiles, far above the length of any walk on
+ * Delaunay meshes of points without clusters, plus a constant for small meshes; the border walk
+ * also four times the number of border edges. */
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling);
 
-/* One walk, from its t to its end: at full speed; or, if its work has a trace, step by step, exactly. The tile where it
- * begins is not written down. */
+/* One walk, from its t to its end: at full speed; or, if its work has a trace, step by step,
+ * exactly. The tile where it begins is not written down. */
 mw_verdict mw__walk_run(mw_walk *walk, const mw_kernels *kernels, bool exact, bool count);
 
 /* The user's triangle of the current tile is the next one of the way; ghosts are passed over. */
@@ -106,10 +109,12 @@ void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk);
 mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
                            bool count);
 
-/* Go on from tile walk->t with an exact walk that ends on every embedding. MW_DRY only where the mesh is none. */
+/* Go on from tile walk->t with an exact walk that ends on every embedding. MW_DRY only where the
+ * mesh is none. */
 mw_verdict mw__walk_surely(mw_walk *walk, bool count);
 
-/* A walk to q from tile t, which is counted in *work, unless that is NULL. Touches no mesh memory. */
+/* A walk to q from tile t, which is counted in *work, unless that is NULL. Touches no mesh
+ * memory. */
 static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uint32_t t, uint32_t fuel, uint64_t random,
                                         mw_work *work)
 {

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "locate/spread.h"
+#include "locate/batch_profile.h"
 #include "support/meshes.h"
 
 #include <math.h>
@@ -208,9 +208,9 @@ static void test_caches(void **state)
     assert_int_equal(a.reach, b.reach);
 }
 
-static mw_room room_touched(const auto_place *p, const mw_caches *caches, const double *q, size_t n)
+static mw_cache_level level_of_queries(const auto_place *p, const mw_caches *caches, const double *q, size_t n)
 {
-    return mw__room_touched(p->locator, caches, &(mw_queries){q, n, 2});
+    return mw__cache_level_of_queries(p->locator, caches, &(mw_queries){q, n, 2});
 }
 
 static void test_room(void **state)
@@ -220,29 +220,29 @@ static void test_room(void **state)
     print_message("seed %llu\n", (unsigned long long)random);
     enum { N = 20000, FEW = 600, FEWER = 100 };
     const mw_caches small = {20000, 100000}, middling = {100000, 1000000}, large = {1000000, 2000000};
-    assert_int_equal(mw__room_of_all(p->locator, &small), MW_ROOM_BEYOND);
-    assert_int_equal(mw__room_of_all(p->locator, &middling), MW_ROOM_REACH);
-    assert_int_equal(mw__room_of_all(p->locator, &large), MW_ROOM_SECOND);
+    assert_int_equal(mw__cache_level_of_mesh(p->locator, &small), MW_CACHE_NONE);
+    assert_int_equal(mw__cache_level_of_mesh(p->locator, &middling), MW_CACHE_SHARED);
+    assert_int_equal(mw__cache_level_of_mesh(p->locator, &large), MW_CACHE_OWN);
     double *all = draw(ANYWHERE, N, 2, &random), *part = draw(SMALL_PART, N, 2, &random);
-    assert_int_equal(room_touched(p, &small, all, N), MW_ROOM_BEYOND);
-    assert_int_equal(room_touched(p, &middling, all, N), MW_ROOM_REACH);
-    assert_int_equal(room_touched(p, &large, all, N), MW_ROOM_SECOND);
-    assert_int_equal(room_touched(p, &small, part, N), MW_ROOM_SECOND); /* 8 KB */
-    assert_int_equal(room_touched(p, &middling, part, N), MW_ROOM_SECOND);
-    assert_int_equal(room_touched(p, &small, part, FEW), MW_ROOM_SECOND);
-    assert_int_equal(room_touched(p, &small, part, FEWER), MW_ROOM_BEYOND); /* not looked at */
+    assert_int_equal(level_of_queries(p, &small, all, N), MW_CACHE_NONE);
+    assert_int_equal(level_of_queries(p, &middling, all, N), MW_CACHE_SHARED);
+    assert_int_equal(level_of_queries(p, &large, all, N), MW_CACHE_OWN);
+    assert_int_equal(level_of_queries(p, &small, part, N), MW_CACHE_OWN); /* 8 KB */
+    assert_int_equal(level_of_queries(p, &middling, part, N), MW_CACHE_OWN);
+    assert_int_equal(level_of_queries(p, &small, part, FEW), MW_CACHE_OWN);
+    assert_int_equal(level_of_queries(p, &small, part, FEWER), MW_CACHE_NONE); /* not looked at */
     for (size_t i = 0; i < N; i++) part[2 * i] = i % 2 ? NAN : part[2 * i];
-    assert_int_equal(room_touched(p, &small, part, N), MW_ROOM_SECOND);
+    assert_int_equal(level_of_queries(p, &small, part, N), MW_CACHE_OWN);
     for (size_t i = 0; i < N; i++) part[2 * i] = part[2 * i + 1] = NAN;
-    room_touched(p, &small, part, N);
+    level_of_queries(p, &small, part, N);
     part[0] = -INFINITY;
     part[N] = INFINITY;
     part[1] = -1e300;
-    room_touched(p, &small, part, N);
+    level_of_queries(p, &small, part, N);
     const mw_caches quarter = {200000, 400000};
     draw_box(part, N, 2, 0.3 * SIDE, 0.7 * SIDE, &random); /* 128 KB */
-    assert_int_equal(room_touched(p, &quarter, part, N), MW_ROOM_SECOND);
-    assert_int_equal(room_touched(p, &quarter, part, FEW), MW_ROOM_BEYOND); /* seldom met again */
+    assert_int_equal(level_of_queries(p, &quarter, part, N), MW_CACHE_OWN);
+    assert_int_equal(level_of_queries(p, &quarter, part, FEW), MW_CACHE_NONE); /* seldom met again */
     free(all);
     free(part);
 }
@@ -260,9 +260,9 @@ static void test_refined(void **state)
     auto_place p = {mesh, mesh_locator(mesh, (mw_locator_options){0})};
     const mw_caches caches = {20000, 100000};
     draw_box(q, N, 2, 40, 43, &random);
-    assert_int_equal(room_touched(&p, &caches, q, N), MW_ROOM_BEYOND);
+    assert_int_equal(level_of_queries(&p, &caches, q, N), MW_CACHE_NONE);
     draw_box(q, N, 2, 70, 73, &random);
-    assert_int_equal(room_touched(&p, &caches, q, N), MW_ROOM_SECOND);
+    assert_int_equal(level_of_queries(&p, &caches, q, N), MW_CACHE_OWN);
     mw_locator_destroy(p.locator);
     mw_mesh_destroy(mesh);
     free(q);
@@ -278,7 +278,7 @@ static verdict judge(const auto_place *p, query_spread kind, size_t n, size_t at
     double *q = draw(kind, n, 3, random);
     if (at < n) q[3 * at] = change;
     mw_queries queries = {q, n, 3};
-    verdict v = {mw__come_densely(p->locator, &queries), mw__come_in_order(p->locator, &queries)};
+    verdict v = {mw__queries_are_dense(p->locator, &queries), mw__queries_are_in_order(p->locator, &queries)};
     free(q);
     return v;
 }
@@ -317,7 +317,7 @@ static void test_stray(void **state)
     print_message("seed %llu\n", (unsigned long long)random);
     double *q = draw(SMALL_PART, 64, 2, &random);
     q[0] = q[1] = 0.99 * SIDE;
-    assert_false(mw__come_in_order(p->locator, &(mw_queries){q, 64, 2}));
+    assert_false(mw__queries_are_in_order(p->locator, &(mw_queries){q, 64, 2}));
     free(q);
 }
 

@@ -171,13 +171,13 @@ static void test_steps_and_fuel(void **state)
     mw_query_options options = {.walk = MW_WALK_FAST_STOCHASTIC, .start = MW_START_CENTRE};
     mw_cursor cursor;
     assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
-    mw_walk walk = mw__depart(locator, &cursor, cursor.last, (mw_point){N - 1, N - 1}, &random, NULL);
+    mw_walk walk = mw__query_begin(locator, &cursor, cursor.last, (mw_point){N - 1, N - 1}, &random, NULL);
     assert_true(walk.steps > 1.7 * N / 2 * sqrt(2) && walk.steps < 2.5 * N / 2 * sqrt(2)); /* 2.16 a unit of length */
     assert_int_equal(walk.fuel, cursor.fuel + walk.steps);
-    walk = mw__depart(locator, &cursor, cursor.last, (mw_point){1e308, -1e308}, &random, NULL);
+    walk = mw__query_begin(locator, &cursor, cursor.last, (mw_point){1e308, -1e308}, &random, NULL);
     assert_int_equal(walk.steps, cursor.fuel);
     cursor.steps = UINT32_MAX;
-    walk = mw__depart(locator, &cursor, cursor.last, (mw_point){1, 1}, &random, NULL);
+    walk = mw__query_begin(locator, &cursor, cursor.last, (mw_point){1, 1}, &random, NULL);
     assert_true(walk.steps == cursor.fuel && walk.fuel == 2 * cursor.fuel);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);

@@ -1,5 +1,6 @@
-/* brio.c - what is forced in one by one, in random rounds: each depends on few that come after it, and the order
- * within a round, which is the caller's, keeps what is near in the plane near in memory. */
+/* brio.c - what is forced in one by one, in random rounds: each depends on few that come after it,
+ * and the order within a round, which is the caller's, keeps what is near in the plane near in
+ * memory. */
 #include "triangulate/constrained/brio.h"
 
 #include "base/random.h"

@@ -1,8 +1,10 @@
-/* cdt.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew 1989].
+/* cdt.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew
+ * 1989].
  *
- * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c), the triangles that are to be
- * kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments cross and are to be split, points
- * are put there (cdt_split.c) and all is made anew, until nothing crosses. */
+ * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c),
+ * the triangles that are to be kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments
+ * cross and are to be split, points are put there (cdt_split.c) and all is made anew, until nothing
+ * crosses. */
 #include "base/hilbert.h"
 #include "triangulate/constrained/cdt_keep.h"
 #include "triangulate/constrained/cdt_output.h"
@@ -48,49 +50,51 @@ static void cdt_release(mw_cdt *m)
     free(m->point);
     free(m->twin);
     free(m->tri);
-    free(m->stretches.item);
-    free(m->pieces.item);
+    free(m->parts.item);
+    free(m->subsegments.item);
     free(m->crossing.item);
-    free(m->run);
+    free(m->owner);
     free(m->kept);
 }
 
 /* --- forcing the stretches in --- */
 
-/* A piece is made, or one made before is a part of another stretch too. */
-static bool note_piece(mw_cdt *m, const mw_subsegment *piece, uint32_t segment)
+/* A subsegment was made, or one made before has another owner now. */
+static bool note_subsegment(mw_cdt *m, const mw_subsegment *subsegment, uint32_t segment)
 {
-    mw_stretch stretch = {piece->from, piece->to, segment};
-    if (piece->number == m->pieces.count) {
-        if (!mw__stretches_add(&m->pieces, stretch)) return false;
-    } else if (segment < m->pieces.item[piece->number].segment) {
-        m->pieces.item[piece->number] = stretch;
+    mw_segment_part part = {subsegment->from, subsegment->to, segment};
+    if (subsegment->number == m->subsegments.count) {
+        if (!mw__segment_parts_add(&m->subsegments, part)) return false;
+    } else if (segment < m->subsegments.item[subsegment->number].segment) {
+        m->subsegments.item[subsegment->number] = part;
     }
-    return mw__run_add(m, (mw_run){piece->number, segment});
+    return mw__subsegment_owner_add(m, (mw_subsegment_owner){subsegment->number, segment});
 }
 
-/* Force in a stretch, or as much of it as lies before what it crosses. Returns false when out of memory. */
-static bool stretch_force(mw_cdt *m, mw_stretch s)
+/* Force in a part, or as much of it as lies before what it crosses. Returns false when out of
+ * memory. */
+static bool part_force(mw_cdt *m, mw_segment_part s)
 {
     while (s.from != s.to) {
-        mw_subsegment piece;
-        mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &piece);
-        if (result == MW_SUBSEGMENT_CROSSES) return mw__stretches_add(&m->crossing, s);
-        if (result != MW_SUBSEGMENT_DONE || !note_piece(m, &piece, s.segment)) return false;
+        mw_subsegment subsegment;
+        mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &subsegment);
+        if (result == MW_SUBSEGMENT_CROSSES) return mw__segment_parts_add(&m->crossing, s);
+        if (result != MW_SUBSEGMENT_DONE || !note_subsegment(m, &subsegment, s.segment)) return false;
     }
     return true;
 }
 
-/* Stretches in random rounds, so that long ones are expected to be among the first, and to shield what lies behind them
- * from those that follow; in each round along the Hilbert curve of the triangles, so that what is near is near in
- * memory. NULL when out of memory. */
-static uint32_t *order_stretches(const mw_cdt *m)
+/* Parts in a biased randomized order (brio.h), so that long ones are expected to be among the
+ * first, and to shield what lies behind them from those that follow; in each round along the
+ * Hilbert curve of the triangles, so that what is near is near in memory. NULL when out of
+ * memory. */
+static uint32_t *order_parts(const mw_cdt *m)
 {
-    uint32_t n = (uint32_t)m->stretches.count, *order = mw__brio_order(n);
+    uint32_t n = (uint32_t)m->parts.count, *order = mw__brio_order(n);
     mw_key *along = mw__alloc(n, sizeof *along), *scratch = mw__alloc(n, sizeof *scratch);
     bool done = order && along && scratch;
     if (done) {
-        for (uint32_t i = 0; i < n; i++) along[i] = (mw_key){m->net.at[m->stretches.item[i].from], i};
+        for (uint32_t i = 0; i < n; i++) along[i] = (mw_key){m->net.at[m->parts.item[i].from], i};
         mw__sort_keys(along, scratch, n);
         for (uint32_t i = 0; i < n; i++) order[i] = along[order[i]].item;
     }
@@ -101,31 +105,32 @@ static uint32_t *order_stretches(const mw_cdt *m)
     return NULL;
 }
 
-/* Triangulate the points and force the stretches in, as far as nothing crosses, or, if `all`, all that do not cross. */
+/* Triangulate the points and force the parts in, as far as nothing crosses, or, if `all`, all that
+ * do not cross. */
 static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_error *error)
 {
     uint32_t n = (uint32_t)m->point_count;
-    if (m->stretches.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
+    if (m->parts.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
     m->twin = mw__alloc(n, sizeof *m->twin);
     if (!m->twin) return mw__fail_memory(error);
     const mw_delaunay_setup setup = {.threads = m->threads};
     mw_status status = mw__delaunay_set_up(m->point, n, &setup, m->twin, report, &m->tri, &m->tri_count, error);
     if (status) return status;
     if (!mw__segment_insertion_create(&m->net, m->point, n, m->tri, m->tri_count)) return mw__fail_memory(error);
-    for (size_t i = 0; i < m->stretches.count; i++) {
-        m->stretches.item[i].from = mw__vertex_of(m, m->stretches.item[i].from);
-        m->stretches.item[i].to = mw__vertex_of(m, m->stretches.item[i].to);
+    for (size_t i = 0; i < m->parts.count; i++) {
+        m->parts.item[i].from = mw__vertex_of(m, m->parts.item[i].from);
+        m->parts.item[i].to = mw__vertex_of(m, m->parts.item[i].to);
     }
-    uint32_t *order = order_stretches(m);
+    uint32_t *order = order_parts(m);
     bool done = order;
-    for (size_t i = 0; i < m->stretches.count && done && (all || !m->crossing.count); i++)
-        done = stretch_force(m, m->stretches.item[order[i]]);
+    for (size_t i = 0; i < m->parts.count && done && (all || !m->crossing.count); i++)
+        done = part_force(m, m->parts.item[order[i]]);
     m->crossed += m->net.crossed + m->net.wasted;
     free(order);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
-/* Forget what was made, but not the points and stretches. */
+/* Forget what was made, but not the points and parts. */
 static void cdt_unmake(mw_cdt *m)
 {
     mw__segment_insertion_release(&m->net);
@@ -133,76 +138,76 @@ static void cdt_unmake(mw_cdt *m)
     free(m->tri);
     m->twin = NULL;
     m->tri = NULL;
-    m->pieces.count = m->crossing.count = m->run_count = 0;
+    m->subsegments.count = m->crossing.count = m->owner_count = 0;
 }
 
 /* --- segments that cross --- */
 
 typedef struct finder {
     const mw_cdt *m;
-    uint32_t piece;
+    uint32_t subsegment;
 } finder;
 
-static bool find_piece(void *context, uint32_t piece, uint32_t vertex)
+static bool find_subsegment(void *context, uint32_t subsegment, uint32_t vertex)
 {
     finder *f = context;
     (void)vertex;
-    f->piece = piece;
-    return piece == MW_NONE;
+    f->subsegment = subsegment;
+    return subsegment == MW_NONE;
 }
 
 /* Name the first pair found that crosses. */
 static mw_status fail_crossing(const mw_cdt *m, const char *why, mw_constrain_report *report, mw_error *error)
 {
-    const mw_stretch *s = &m->crossing.item[0];
+    const mw_segment_part *s = &m->crossing.item[0];
     finder f = {m, MW_NONE};
-    mw__segment_insertion_trace(&m->net, s->from, s->to, find_piece, &f);
-    const mw_stretch *p = &m->pieces.item[f.piece];
+    mw__segment_insertion_trace(&m->net, s->from, s->to, find_subsegment, &f);
+    const mw_segment_part *p = &m->subsegments.item[f.subsegment];
     report->crossing_segments[0] = s->segment < p->segment ? s->segment : p->segment;
     report->crossing_segments[1] = s->segment < p->segment ? p->segment : s->segment;
     const uint32_t *a = &m->given->segments[2 * (size_t)report->crossing_segments[0]];
     const uint32_t *b = &m->given->segments[2 * (size_t)report->crossing_segments[1]];
-    mw_point place = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
+    mw_point crossing = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
     return mw__fail(error, MW_ERROR_INPUT,
                     "segments %" PRIu32 " (from point %" PRIu32 " to %" PRIu32 ") and %" PRIu32 " (from point %" PRIu32
                     " to %" PRIu32 ") cross near %.9g %.9g%s",
-                    report->crossing_segments[0], a[0], a[1], report->crossing_segments[1], b[0], b[1], place.x,
-                    place.y, why);
+                    report->crossing_segments[0], a[0], a[1], report->crossing_segments[1], b[0], b[1], crossing.x,
+                    crossing.y, why);
 }
 
 static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
                           mw_error *error);
 
-/* The ends of stretches, in the order of their numbers: number[p] is the one of point p among them, or MW_NONE. */
+/* The ends of parts, in the order of their numbers: number[p] is the one of point p among them, or
+ * MW_NONE. */
 static uint32_t number_ends(const mw_cdt *m, uint32_t *number)
 {
     uint32_t count = 0;
     for (size_t p = 0; p < m->point_count; p++) number[p] = MW_NONE;
-    for (size_t i = 0; i < m->stretches.count; i++)
-        number[m->stretches.item[i].from] = number[m->stretches.item[i].to] = 0;
+    for (size_t i = 0; i < m->parts.count; i++) number[m->parts.item[i].from] = number[m->parts.item[i].to] = 0;
     for (size_t p = 0; p < m->point_count; p++)
         if (number[p] != MW_NONE) number[p] = count++;
     return count;
 }
 
-/* Only the stretches and their ends, numbered as `number` says. */
+/* Only the parts and their ends, numbered as `number` says. */
 static bool take_ends(const mw_cdt *m, const uint32_t *number, uint32_t count, mw_cdt *ends)
 {
     ends->point = mw__alloc_lines(count, sizeof *ends->point);
-    ends->stretches.item = mw__alloc(m->stretches.count, sizeof *ends->stretches.item);
-    if (!ends->point || !ends->stretches.item) return false;
+    ends->parts.item = mw__alloc(m->parts.count, sizeof *ends->parts.item);
+    if (!ends->point || !ends->parts.item) return false;
     ends->point_count = count;
-    ends->stretches.count = ends->stretches.capacity = m->stretches.count;
+    ends->parts.count = ends->parts.capacity = m->parts.count;
     for (size_t p = 0; p < m->point_count; p++)
         if (number[p] != MW_NONE) ends->point[number[p]] = m->point[p];
-    for (size_t i = 0; i < m->stretches.count; i++) {
-        mw_stretch s = m->stretches.item[i];
-        ends->stretches.item[i] = (mw_stretch){number[s.from], number[s.to], s.segment};
+    for (size_t i = 0; i < m->parts.count; i++) {
+        mw_segment_part s = m->parts.item[i];
+        ends->parts.item[i] = (mw_segment_part){number[s.from], number[s.to], s.segment};
     }
     return true;
 }
 
-/* The other way: take the stretches of `ends`, and the points made there beyond the first `count`. */
+/* The other way: take the parts of `ends`, and the points made there beyond the first `count`. */
 static bool take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
 {
     size_t n = m->point_count, made = ends->point_count - count;
@@ -212,23 +217,24 @@ static bool take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
     for (uint32_t p = 0; p < n; p++)
         if (number[p] != MW_NONE)
             number[number[p]] = p; /* no less than its own number, so read before it is overwritten */
-    for (size_t i = 0; i < ends->stretches.count; i++) {
-        mw_stretch *s = &ends->stretches.item[i];
+    for (size_t i = 0; i < ends->parts.count; i++) {
+        mw_segment_part *s = &ends->parts.item[i];
         s->from = s->from < count ? number[s->from] : (uint32_t)n + (s->from - count);
         s->to = s->to < count ? number[s->to] : (uint32_t)n + (s->to - count);
     }
     free(m->point);
-    free(m->stretches.item);
+    free(m->parts.item);
     m->point = point;
     m->point_count = n + made;
-    m->stretches = ends->stretches;
-    ends->stretches = (mw_stretches){0};
+    m->parts = ends->parts;
+    ends->parts = (mw_segment_parts){0};
     return true;
 }
 
-/* Whether stretches cross has nothing to do with the other points. Where these are many, split the stretches without
- * them, until nothing crosses. make_all, which calls this, does that, and may come here again; but not deep, as each
- * time at most half the points remain. Hardly ever twice: nearly all points are ends then. */
+/* Whether parts cross has nothing to do with the other points. Where these are many, split the
+ * parts without them, until nothing crosses. make_all, which calls this, does that, and may come
+ * here again; but not deep, as each time at most half the points remain. Hardly ever twice: nearly
+ * all points are ends then. */
 static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -247,8 +253,9 @@ static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *e
     return status;
 }
 
-/* Each round puts points where stretches cross. Most are then done; but points are rounded, so a stretch may come to
- * cross another by that, and of many that cross one another each round lets some in, and parts the others. */
+/* Each round puts points where parts cross. Most are then done; but points are rounded, so a part
+ * may come to cross another by that, and of many that cross one another each round lets some in,
+ * and parts the others. */
 static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
                           mw_error *error)
 {
@@ -275,14 +282,14 @@ static mw_status cdt_take(mw_cdt *m, mw_error *error)
     const mw_constraints *given = m->given;
     size_t stride = given->stride ? given->stride : 2;
     m->point = mw__alloc_lines(given->point_count, sizeof *m->point);
-    m->stretches.item = mw__alloc(given->segment_count, sizeof *m->stretches.item);
-    if (!m->point || !m->stretches.item) return mw__fail_memory(error);
+    m->parts.item = mw__alloc(given->segment_count, sizeof *m->parts.item);
+    if (!m->point || !m->parts.item) return mw__fail_memory(error);
     m->point_count = given->point_count;
     for (size_t i = 0; i < given->point_count; i++)
         m->point[i] = (mw_point){given->points[i * stride], given->points[i * stride + 1]};
-    m->stretches.count = m->stretches.capacity = given->segment_count;
+    m->parts.count = m->parts.capacity = given->segment_count;
     for (size_t i = 0; i < given->segment_count; i++)
-        m->stretches.item[i] = (mw_stretch){given->segments[2 * i], given->segments[2 * i + 1], (uint32_t)i};
+        m->parts.item[i] = (mw_segment_part){given->segments[2 * i], given->segments[2 * i + 1], (uint32_t)i};
     return MW_OK;
 }
 

@@ -1,5 +1,5 @@
-/* cdt_keep.c - which triangles of a constrained triangulation are kept: those inside polygons, or not reached
- * from outside, and not in holes. */
+/* cdt_keep.c - which triangles of a constrained triangulation are kept: those inside polygons, or
+ * not reached from outside, and not in holes. */
 #include "triangulate/constrained/cdt_keep.h"
 
 #include "base/hilbert.h"
@@ -8,7 +8,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-static uint32_t piece_at(const mw_cdt *m, uint32_t half)
+static uint32_t subsegment_at(const mw_cdt *m, uint32_t half)
 {
     return m->net.subsegment[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
 }
@@ -18,7 +18,7 @@ static uint32_t piece_at(const mw_cdt *m, uint32_t half)
 /* The polygons as they were given have any numbers: here they count from 0. */
 typedef struct parity {
     const mw_cdt *m;
-    mw_runs runs;
+    mw_subsegment_owners owners;
     uint32_t *rank; /* per segment: its polygon, MW_NONE */
     uint8_t *odd;   /* per polygon: has an odd number of its segments been crossed? */
     uint32_t odd_count;
@@ -26,7 +26,7 @@ typedef struct parity {
 
 static void parity_release(parity *p)
 {
-    mw__runs_release(&p->runs);
+    mw__subsegment_owners_release(&p->owners);
     free(p->rank);
     free(p->odd);
 }
@@ -63,7 +63,7 @@ static bool rank_polygons(parity *p, const mw_key *key, size_t count)
     return p->odd;
 }
 
-/* Inside and outside make sense where at each place an even number of a polygon's segments end. */
+/* Inside and outside make sense where at each vertex an even number of a polygon's segments end. */
 static mw_status check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
 {
     uint8_t *odd = mw__calloc(m->given->point_count, sizeof *odd);
@@ -87,7 +87,7 @@ static mw_status parity_prepare(parity *p, mw_error *error)
     size_t count;
     mw_key *key = sort_by_polygon(p->m->given, &count);
     mw_status status = key ? check_closed(p->m, key, count, error) : mw__fail_memory(error);
-    if (status == MW_OK && !(rank_polygons(p, key, count) && mw__runs_create(&p->runs, p->m)))
+    if (status == MW_OK && !(rank_polygons(p, key, count) && mw__subsegment_owners_create(&p->owners, p->m)))
         status = mw__fail_memory(error);
     free(key);
     return status;
@@ -96,10 +96,10 @@ static mw_status parity_prepare(parity *p, mw_error *error)
 /* Cross a half-edge, either way. */
 static void parity_cross(parity *p, uint32_t half)
 {
-    uint32_t piece = piece_at(p->m, half);
-    if (piece == MW_NONE) return;
-    for (size_t i = p->runs.first[piece]; i < p->runs.first[piece + 1]; i++) {
-        uint32_t rank = p->rank[p->runs.segment[i]];
+    uint32_t subsegment = subsegment_at(p->m, half);
+    if (subsegment == MW_NONE) return;
+    for (size_t i = p->owners.first[subsegment]; i < p->owners.first[subsegment + 1]; i++) {
+        uint32_t rank = p->rank[p->owners.segment[i]];
         if (rank == MW_NONE) continue;
         p->odd[rank] ^= 1;
         p->odd_count += p->odd[rank] ? 1 : UINT32_MAX; /* less one */
@@ -117,8 +117,8 @@ static uint32_t hull_half(const mw_cdt *m)
     return mw__link(t, k);
 }
 
-/* Go through all triangles depth first, from outside the hull, keeping the parities of where one is. The way back is
- * the way in: entry[t] is the edge by which triangle t was entered. */
+/* Go through all triangles depth first, from outside the hull, keeping the parities of where one
+ * is. The way back is the way in: entry[t] is the edge by which triangle t was entered. */
 static void keep_odd(parity *p, uint8_t *entry)
 {
     enum { UNSEEN = 3 };
@@ -169,14 +169,15 @@ static void remove_triangle(flood *f, uint32_t t)
     f->stack[f->top++] = t;
 }
 
-/* Remove what hangs together with the triangles on the stack, and no piece parts from them. */
+/* Remove what hangs together with the triangles on the stack, and no subsegment separates from
+ * them. */
 static void flood_spread(flood *f)
 {
     while (f->top > 0) {
         uint32_t t = f->stack[--f->top];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = f->m->tri[t].link[k];
-            if (link != MW_NONE && piece_at(f->m, mw__link(t, k)) == MW_NONE)
+            if (link != MW_NONE && subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
                 remove_triangle(f, mw__link_triangle(link));
         }
     }
@@ -186,7 +187,8 @@ static void remove_outside(flood *f)
 {
     for (uint32_t t = 0; t < f->m->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++)
-            if (f->m->tri[t].link[k] == MW_NONE && piece_at(f->m, mw__link(t, k)) == MW_NONE) remove_triangle(f, t);
+            if (f->m->tri[t].link[k] == MW_NONE && subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
+                remove_triangle(f, t);
     flood_spread(f);
 }
 
@@ -198,8 +200,8 @@ static double half_side(const mw_cdt *m, uint32_t half, mw_point q)
     return mw__orient2d(m->point[t->v[mw__link_edge(half)]], m->point[t->v[mw__link_edge(half) + 1]], q);
 }
 
-/* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried from a random one on:
- * the walk ends with probability 1 [Devillers, Pion, Teillaud 2002]. */
+/* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried
+ * from a random one on: the walk ends with probability 1 [Devillers, Pion, Teillaud 2002]. */
 static bool keep_walk(const mw_cdt *m, mw_point q, uint64_t *random, uint32_t *t)
 {
     for (;;) {

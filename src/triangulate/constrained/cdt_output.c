@@ -1,4 +1,4 @@
-/* cdt_output.c - what was made, as a mesh and a list of pieces. */
+/* cdt_output.c - what was made, as a mesh and a list of subsegments. */
 #include "triangulate/constrained/cdt_output.h"
 
 #include "mesh/layout.h"
@@ -14,8 +14,8 @@ void mw_constrained_edges_release(mw_constrained_edges *edges)
     *edges = (mw_constrained_edges){0};
 }
 
-/* Points made twice, or where one of the caller's lies, are not vertices: number those that are. NULL when out of
- * memory. */
+/* Points made twice, or where one of the caller's lies, are not vertices: number those that are.
+ * NULL when out of memory. */
 static uint32_t *number_points(const mw_cdt *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -25,8 +25,8 @@ static uint32_t *number_points(const mw_cdt *m, uint32_t *count)
     return number;
 }
 
-/* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve from the beginning.
- * NULL when out of memory. */
+/* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve
+ * from the beginning. NULL when out of memory. */
 static uint32_t *number_triangles(const mw_cdt *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->tri_count, sizeof *number);
@@ -60,17 +60,18 @@ static void move_triangles(mw_cdt *m, mw_mesh *mesh)
     m->tri = NULL;
 }
 
-/* Pieces of the triangles kept, each once, in the order of the triangles. With out NULL they are only counted. */
+/* Subsegments of the triangles kept, each once, in the order of the triangles. With out NULL they
+ * are only counted. */
 static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_constrained_edges *out)
 {
     size_t made = 0;
     for (uint32_t t = 0; t < m->tri_count; t++)
         for (uint32_t k = 0; k < 3 && m->kept[t]; k++) {
-            uint32_t piece = m->net.subsegment[3 * (size_t)t + k], link = m->tri[t].link[k];
-            if (piece == MW_NONE) continue;
+            uint32_t subsegment = m->net.subsegment[3 * (size_t)t + k], link = m->tri[t].link[k];
+            if (subsegment == MW_NONE) continue;
             if (link != MW_NONE && mw__link_triangle(link) < t && m->kept[mw__link_triangle(link)]) continue;
             if (out) {
-                const mw_stretch *p = &m->pieces.item[piece];
+                const mw_segment_part *p = &m->subsegments.item[subsegment];
                 out->edge[2 * made] = vertex[p->from];
                 out->edge[2 * made + 1] = vertex[p->to];
                 out->segment[made] = p->segment;
@@ -80,7 +81,7 @@ static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_const
     return made;
 }
 
-static bool give_pieces(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
+static bool give_subsegments(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
 {
     if (!out) return true;
     out->edge = mw__alloc(2 * count, sizeof *out->edge);
@@ -120,7 +121,7 @@ static bool give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edg
         report->triangles_removed = m->tri_count - mesh->tri_count;
         report->vertices_added = mesh->point_count - m->given->point_count;
         report->constrained_edges = list_subsegments(m, vertex, NULL);
-        done = give_pieces(m, vertex, report->constrained_edges, edges) && give_triangles(m, number, vertex, mesh);
+        done = give_subsegments(m, vertex, report->constrained_edges, edges) && give_triangles(m, number, vertex, mesh);
     }
     if (done) give_points(m, vertex, mesh);
     free(vertex);

@@ -1,15 +1,17 @@
 /* cdt_split.c - points where segments cross.
  *
- * What could not be forced in is followed through the triangulation, where it meets pieces that it crosses and vertices
- * that lie on it. A piece, and each such remainder, is a link that is cut at the points made on it; the parts of all links,
- * for each segment that runs along them, are the stretches of the next round. So stretches still end at all vertices that
- * lie on them exactly. Points are rounded, but lie in the boxes of both links that cross there: a part's box is smaller
- * than its link's.
+ * What could not be forced in is followed through the triangulation, where it meets subsegments
+ * that it crosses and vertices that lie on it. A subsegment, and each such remainder, is a link
+ * that is cut at the points made on it; what remains of all links, once for each segment that owns
+ * them, are the parts of the next round. So parts still end at all vertices that lie on them
+ * exactly. Points are rounded, but lie in the boxes of both links that cross there: a part's box is
+ * smaller than its link's.
  *
- * Rounding moves links a little, past vertices that lie close to them, so they come to cross others. Among long links that
- * are nearly parallel that could go on for very long, one new point beside the other. So after the first round, as in snap
- * rounding [Hobby 1999; Guibas, Marimont 1998], a link that crosses another and passes close by its end is led through
- * that end, and no point is made. Why this ends: see docs/guarantees.md. */
+ * Rounding moves links a little, past vertices that lie close to them, so they come to cross
+ * others. Among long links that are nearly parallel that could go on for very long, one new point
+ * beside the other. So after the first round, as in snap rounding [Hobby 1999; Guibas, Marimont
+ * 1998], a link that crosses another and passes close by its end is led through that end, and no
+ * point is made. Why this ends: see docs/guarantees.md. */
 #include "triangulate/constrained/cdt_split.h"
 
 #include <float.h>
@@ -22,7 +24,7 @@ static double value_clamp(double x, double low, double high)
     return x < low ? low : x > high ? high : x;
 }
 
-/* In the boxes of both, which have a place in common. */
+/* In the boxes of both, which have a point in common. */
 static double clamp_both(double x, double a, double b, double c, double d)
 {
     return value_clamp(x, fmax(fmin(a, b), fmin(c, d)), fmin(fmax(a, b), fmax(c, d)));
@@ -42,7 +44,7 @@ static double segment_extent(mw_point a, mw_point b)
 
 mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 {
-    mw_point e[4] = {a, b, c, d}; /* the place is reckoned on the shorter of the two, from its nearer end */
+    mw_point e[4] = {a, b, c, d}; /* the point is computed on the shorter of the two, from its nearer end */
     if (segment_extent(a, b) > segment_extent(c, d)) e[0] = c, e[1] = d, e[2] = a, e[3] = b;
     int exponent[2];
     double area[2];
@@ -57,7 +59,7 @@ mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 
 /* --- cuts --- */
 
-/* Links are pieces, by number, then the remainders. */
+/* Links are subsegments, by number, then the remainders. */
 typedef struct cut {
     size_t link;
     uint32_t point;
@@ -76,9 +78,9 @@ typedef struct splitter {
     bool too_many;
 } splitter;
 
-static const mw_stretch *link_at(const mw_cdt *m, size_t link)
+static const mw_segment_part *link_at(const mw_cdt *m, size_t link)
 {
-    return link < m->pieces.count ? &m->pieces.item[link] : &m->crossing.item[link - m->pieces.count];
+    return link < m->subsegments.count ? &m->subsegments.item[link] : &m->crossing.item[link - m->subsegments.count];
 }
 
 static mw_point point_at(const splitter *s, uint32_t p)
@@ -86,9 +88,9 @@ static mw_point point_at(const splitter *s, uint32_t p)
     return p < s->m->point_count ? s->m->point[p] : s->made[p - s->m->point_count];
 }
 
-/* How far p is along a link: the coordinate in which the link is longer, then the other, both growing from the link's
- * beginning to its end. */
-static mw_point point_along(const splitter *s, const mw_stretch *link, mw_point p)
+/* How far p is along a link: the coordinate in which the link is longer, then the other, both
+ * growing from the link's beginning to its end. */
+static mw_point point_along(const splitter *s, const mw_segment_part *link, mw_point p)
 {
     mw_point a = s->m->point[link->from], b = s->m->point[link->to];
     double x = b.x > a.x ? p.x : -p.x, y = b.y > a.y ? p.y : -p.y;
@@ -98,7 +100,7 @@ static mw_point point_along(const splitter *s, const mw_stretch *link, mw_point 
 /* Note that a link is to be cut at a point, unless it ends there. */
 static bool splitter_add_cut(splitter *s, size_t link, uint32_t point, bool exact)
 {
-    const mw_stretch *l = link_at(s->m, link);
+    const mw_segment_part *l = link_at(s->m, link);
     mw_point p = point_at(s, point);
     if (mw__points_equal(p, s->m->point[l->from]) || mw__points_equal(p, s->m->point[l->to])) return true;
     if (s->cut_count == s->cut_capacity) {
@@ -112,8 +114,9 @@ static bool splitter_add_cut(splitter *s, size_t link, uint32_t point, bool exac
     return true;
 }
 
-/* The number of a point where two links cross: an end of one of them, or a new one. MW_NONE when out of memory. */
-static uint32_t make_point(splitter *s, const mw_stretch *a, const mw_stretch *b)
+/* The number of a point where two links cross: an end of one of them, or a new one. MW_NONE when
+ * out of memory. */
+static uint32_t make_point(splitter *s, const mw_segment_part *a, const mw_segment_part *b)
 {
     const mw_point *point = s->m->point;
     uint32_t ends[4] = {a->from, a->to, b->from, b->to};
@@ -133,7 +136,8 @@ static uint32_t make_point(splitter *s, const mw_stretch *a, const mw_stretch *b
     return (uint32_t)(s->m->point_count + s->made_count - 1);
 }
 
-/* Scale three coordinates by a power of two, to at most 1. Returns the distance of doubles at the largest then. */
+/* Scale three coordinates by a power of two, to at most 1. Returns the distance of doubles at the
+ * largest then. */
 static double rescale_line(double c[3])
 {
     int exponent;
@@ -147,8 +151,8 @@ static bool value_is_between(double a, double b, double x)
     return x >= fmin(a, b) && x <= fmax(a, b);
 }
 
-/* Does ab, with p in its box, pass by p so closely that it would go through p if the coordinates were off by that many
- * times the distance of doubles? */
+/* Does ab, with p in its box, pass by p so closely that it would go through p if the coordinates
+ * were off by that many times the distance of doubles? */
 static bool passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
 {
     if (!value_is_between(a.x, b.x, p.x) || !value_is_between(a.y, b.y, p.y)) return false;
@@ -163,7 +167,7 @@ static bool passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
 static bool cut_at_ends(splitter *s, size_t link, size_t other)
 {
     const mw_point *point = s->m->point;
-    const mw_stretch *l = link_at(s->m, link), *o = link_at(s->m, other);
+    const mw_segment_part *l = link_at(s->m, link), *o = link_at(s->m, other);
     for (int i = 0; i < 2; i++) {
         uint32_t end = i == 0 ? o->from : o->to;
         if (passes_by(point[l->from], point[l->to], point[end], s->tolerance) && !splitter_add_cut(s, link, end, false))
@@ -172,23 +176,23 @@ static bool cut_at_ends(splitter *s, size_t link, size_t other)
     return true;
 }
 
-static bool splitter_meet(void *context, uint32_t piece, uint32_t vertex)
+static bool splitter_meet(void *context, uint32_t subsegment, uint32_t vertex)
 {
     splitter *s = context;
-    size_t link = s->m->pieces.count + s->remainder;
-    if (piece == MW_NONE) return splitter_add_cut(s, link, vertex, true);
+    size_t link = s->m->subsegments.count + s->remainder;
+    if (subsegment == MW_NONE) return splitter_add_cut(s, link, vertex, true);
     size_t before = s->cut_count;
-    if (s->tolerance > 0 && !(cut_at_ends(s, link, piece) && cut_at_ends(s, piece, link))) return false;
+    if (s->tolerance > 0 && !(cut_at_ends(s, link, subsegment) && cut_at_ends(s, subsegment, link))) return false;
     if (s->cut_count > before) return true;
-    uint32_t point = make_point(s, link_at(s->m, link), &s->m->pieces.item[piece]);
-    return point != MW_NONE && splitter_add_cut(s, link, point, false) && splitter_add_cut(s, piece, point, false);
+    uint32_t point = make_point(s, link_at(s->m, link), &s->m->subsegments.item[subsegment]);
+    return point != MW_NONE && splitter_add_cut(s, link, point, false) && splitter_add_cut(s, subsegment, point, false);
 }
 
 static bool find_cuts(splitter *s)
 {
-    const mw_stretches *crossing = &s->m->crossing;
+    const mw_segment_parts *crossing = &s->m->crossing;
     for (s->remainder = 0; s->remainder < crossing->count; s->remainder++) {
-        const mw_stretch *r = &crossing->item[s->remainder];
+        const mw_segment_part *r = &crossing->item[s->remainder];
         if (!mw__segment_insertion_trace(&s->m->net, r->from, r->to, splitter_meet, s)) return false;
     }
     return true;
@@ -205,10 +209,11 @@ static int cut_compare(const void *left, const void *right)
 
 /* --- the stretches of the next round --- */
 
-/* The parts of a link, cut at `count` points, for one segment. No part leads back in either coordinate: so their boxes are
- * smaller than the link's, even of a link that is only a few doubles long. A point left out is seen to in the next round. */
-static bool add_parts(splitter *s, const mw_stretch *link, const cut *cuts, size_t count, uint32_t segment,
-                      mw_stretches *parts)
+/* The parts of a link, cut at `count` points, for one segment. No part leads back in either
+ * coordinate: so their boxes are smaller than the link's, even of a link that is only a few doubles
+ * long. A point left out is seen to in the next round. */
+static bool add_parts(splitter *s, const mw_segment_part *link, const cut *cuts, size_t count, uint32_t segment,
+                      mw_segment_parts *parts)
 {
     uint32_t from = link->from;
     double reached = point_along(s, link, point_at(s, from)).y;
@@ -217,26 +222,26 @@ static bool add_parts(splitter *s, const mw_stretch *link, const cut *cuts, size
         if (i < count && cuts[i].along.y < reached && !cuts[i].exact) continue;
         if (i < count) reached = cuts[i].along.y;
         if (mw__points_equal(point_at(s, from), point_at(s, to))) continue;
-        if (!mw__stretches_add(parts, (mw_stretch){from, to, segment})) return false;
+        if (!mw__segment_parts_add(parts, (mw_segment_part){from, to, segment})) return false;
         from = to;
     }
     return true;
 }
 
-static bool cut_all(splitter *s, const mw_runs *runs, mw_stretches *parts)
+static bool cut_all(splitter *s, const mw_subsegment_owners *owners, mw_segment_parts *parts)
 {
     const mw_cdt *m = s->m;
     const cut *cuts = s->cut;
     size_t left = s->cut_count, count;
-    for (size_t link = 0; link < m->pieces.count + m->crossing.count; link++, cuts += count, left -= count) {
+    for (size_t link = 0; link < m->subsegments.count + m->crossing.count; link++, cuts += count, left -= count) {
         for (count = 0; count < left && cuts[count].link == link;) count++;
-        const mw_stretch *l = link_at(m, link);
-        if (link >= m->pieces.count) {
+        const mw_segment_part *l = link_at(m, link);
+        if (link >= m->subsegments.count) {
             if (!add_parts(s, l, cuts, count, l->segment, parts)) return false;
             continue;
         }
-        for (size_t i = runs->first[link]; i < runs->first[link + 1]; i++)
-            if (!add_parts(s, l, cuts, count, runs->segment[i], parts)) return false;
+        for (size_t i = owners->first[link]; i < owners->first[link + 1]; i++)
+            if (!add_parts(s, l, cuts, count, owners->segment[i], parts)) return false;
     }
     return true;
 }
@@ -254,7 +259,8 @@ static bool splitter_take_points(splitter *s)
     return true;
 }
 
-/* None in the first round, when links are still the segments as given; then it doubles every few rounds. */
+/* None in the first round, when links are still the segments as given; then it doubles every few
+ * rounds. */
 static double tolerance_in(int round)
 {
     enum { DOUBLING_ROUNDS = 8, MOST_DOUBLINGS = 6 };
@@ -265,22 +271,22 @@ static double tolerance_in(int round)
 mw_status mw__cdt_split_crossings(mw_cdt *m, int round, mw_error *error)
 {
     splitter s = {.m = m, .tolerance = tolerance_in(round)};
-    mw_runs runs = {0};
-    mw_stretches parts = {0};
-    bool done = find_cuts(&s) && mw__runs_create(&runs, m);
+    mw_subsegment_owners owners = {0};
+    mw_segment_parts parts = {0};
+    bool done = find_cuts(&s) && mw__subsegment_owners_create(&owners, m);
     if (done) {
         qsort(s.cut, s.cut_count, sizeof *s.cut, cut_compare);
-        done = cut_all(&s, &runs, &parts) && splitter_take_points(&s);
+        done = cut_all(&s, &owners, &parts) && splitter_take_points(&s);
     }
     if (done) {
-        free(m->stretches.item);
-        m->stretches = parts;
+        free(m->parts.item);
+        m->parts = parts;
     } else {
         free(parts.item);
     }
     free(s.cut);
     free(s.made);
-    mw__runs_release(&runs);
+    mw__subsegment_owners_release(&owners);
     if (s.too_many) return mw__fail(error, MW_ERROR_LIMIT, "too many points where segments cross");
     return done ? MW_OK : mw__fail_memory(error);
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 /* Room for one more record: the list, perhaps elsewhere now, or NULL when out of memory. */
-static void *grow(void *list, size_t count, size_t *capacity, size_t size)
+static void *list_with_room(void *list, size_t count, size_t *capacity, size_t size)
 {
     if (count < *capacity) return list;
     size_t more = 2 * *capacity + 64;
@@ -13,42 +13,42 @@ static void *grow(void *list, size_t count, size_t *capacity, size_t size)
     return grown;
 }
 
-bool mw__stretches_add(mw_stretches *list, mw_stretch stretch)
+bool mw__segment_parts_add(mw_segment_parts *list, mw_segment_part part)
 {
-    mw_stretch *item = grow(list->item, list->count, &list->capacity, sizeof *item);
+    mw_segment_part *item = list_with_room(list->item, list->count, &list->capacity, sizeof *item);
     if (!item) return false;
     list->item = item;
-    item[list->count++] = stretch;
+    item[list->count++] = part;
     return true;
 }
 
-bool mw__run_add(mw_cdt *m, mw_run run)
+bool mw__subsegment_owner_add(mw_cdt *m, mw_subsegment_owner owner)
 {
-    mw_run *list = grow(m->run, m->run_count, &m->run_capacity, sizeof *list);
+    mw_subsegment_owner *list = list_with_room(m->owner, m->owner_count, &m->owner_capacity, sizeof *list);
     if (!list) return false;
-    m->run = list;
-    list[m->run_count++] = run;
+    m->owner = list;
+    list[m->owner_count++] = owner;
     return true;
 }
 
-bool mw__runs_create(mw_runs *runs, const mw_cdt *m)
+bool mw__subsegment_owners_create(mw_subsegment_owners *owners, const mw_cdt *m)
 {
-    size_t *first = mw__calloc(m->pieces.count + 1, sizeof *first);
-    uint32_t *segment = mw__alloc(m->run_count, sizeof *segment);
-    *runs = (mw_runs){first, segment};
+    size_t *first = mw__calloc(m->subsegments.count + 1, sizeof *first);
+    uint32_t *segment = mw__alloc(m->owner_count, sizeof *segment);
+    *owners = (mw_subsegment_owners){first, segment};
     if (!first || !segment) return false;
-    for (size_t i = 0; i < m->run_count; i++) first[m->run[i].piece]++;
+    for (size_t i = 0; i < m->owner_count; i++) first[m->owner[i].subsegment]++;
     size_t sum = 0;
-    for (size_t p = 0; p <= m->pieces.count; p++) {
+    for (size_t p = 0; p <= m->subsegments.count; p++) {
         sum += first[p];
         first[p] = sum;
     }
-    for (size_t i = m->run_count; i-- > 0;) segment[--first[m->run[i].piece]] = m->run[i].segment;
+    for (size_t i = m->owner_count; i-- > 0;) segment[--first[m->owner[i].subsegment]] = m->owner[i].segment;
     return true;
 }
 
-void mw__runs_release(mw_runs *runs)
+void mw__subsegment_owners_release(mw_subsegment_owners *owners)
 {
-    free(runs->first);
-    free(runs->segment);
+    free(owners->first);
+    free(owners->segment);
 }

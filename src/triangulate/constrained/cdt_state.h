@@ -1,63 +1,67 @@
 /* cdt_state.h - a constrained Delaunay triangulation in the making. Private.
  *
- * A segment is forced in as one stretch or, once it has been split, as several. A stretch is an edge of the
- * triangulation, a piece, or a chain of pieces; a piece may be a part of many stretches. */
-#ifndef MW_SRC_CONSTRAINED_MAKING_H
-#define MW_SRC_CONSTRAINED_MAKING_H
+ * A segment is inserted whole or, once it has been split where it crosses others, in several parts.
+ * An inserted part is a chain of one or more subsegments [Shewchuk]: edges of the triangulation.
+ * Segments may overlap, so a subsegment may have several owners. */
+#ifndef MW_SRC_CDT_STATE_H
+#define MW_SRC_CDT_STATE_H
 
 #include "triangulate/constrained/segment_insertion.h"
 
 #include <meshwalk/triangulate.h>
 
-/* Part of a segment, between two points; as a piece, of the lowest segment that runs along it. */
-typedef struct mw_stretch {
+/* Part of a segment, between two points. Of a subsegment: `segment` is the lowest one that owns
+ * it. */
+typedef struct mw_segment_part {
     uint32_t from, to, segment;
-} mw_stretch;
+} mw_segment_part;
 
-typedef struct mw_stretches {
-    mw_stretch *item;
+typedef struct mw_segment_parts {
+    mw_segment_part *item;
     size_t count, capacity;
-} mw_stretches;
+} mw_segment_parts;
 
-/* A segment runs along a piece. */
-typedef struct mw_run {
-    uint32_t piece, segment;
-} mw_run;
+/* A segment that runs along a subsegment owns it. */
+typedef struct mw_subsegment_owner {
+    uint32_t subsegment, segment;
+} mw_subsegment_owner;
 
 typedef struct mw_cdt {
     const mw_constraints *given;
     uint32_t threads; /* of the Delaunay triangulation of the points */
     mw_point *point;  /* the caller's, then those made where segments cross */
     size_t point_count;
-    uint32_t *twin;   /* per point: the lowest-numbered one at its place, MW_NONE if it is that itself */
-    mw_triangle *tri; /* of the points, with the stretches */
+    uint32_t *twin;   /* per point: the lowest-numbered one with its coordinates, MW_NONE if it is that itself */
+    mw_triangle *tri; /* of the points, with the parts inserted */
     uint32_t tri_count;
     mw_segment_insertion net;
-    mw_stretches stretches; /* to be forced in                                               */
-    mw_stretches pieces;    /* by number                                                     */
-    mw_stretches crossing;  /* what could not be forced in of some of them: it crosses pieces */
-    mw_run *run;
-    size_t run_count, run_capacity;
-    uint64_t crossed; /* triangles: by the stretches of all rounds, those that crossed others too */
+    mw_segment_parts parts;       /* to be inserted                                                */
+    mw_segment_parts subsegments; /* inserted, by number                                           */
+    mw_segment_parts crossing;    /* what could not be inserted of some parts: it crosses subsegments */
+    mw_subsegment_owner *owner;
+    size_t owner_count, owner_capacity;
+    uint64_t crossed; /* triangles: by the parts of all rounds, those that crossed others too */
     uint8_t *kept;    /* per triangle */
 } mw_cdt;
 
 /* Append; false when out of memory. */
-bool mw__stretches_add(mw_stretches *list, mw_stretch stretch);
+bool mw__segment_parts_add(mw_segment_parts *list, mw_segment_part part);
 
-/* Point p, or the lowest-numbered one at its place. */
+/* The vertex of point p: the lowest-numbered point with its coordinates. */
 static MW_INLINE uint32_t mw__vertex_of(const mw_cdt *m, uint32_t p)
 {
     return m->twin[p] == MW_NONE ? p : m->twin[p];
 }
 
-/* The runs along each piece: those of piece p have the segments segment[first[p]] .. segment[first[p + 1] - 1]. */
-typedef struct mw_runs {
+/* The owners of each subsegment: those of subsegment s are segment[first[s]] .. segment[first[s +
+ * 1] - 1]. */
+typedef struct mw_subsegment_owners {
     size_t *first;
     uint32_t *segment;
-} mw_runs;
-bool mw__run_add(mw_cdt *m, mw_run run);              /* false when out of memory */
-bool mw__runs_create(mw_runs *runs, const mw_cdt *m); /* false when out of memory; release anyway */
-void mw__runs_release(mw_runs *runs);
+} mw_subsegment_owners;
+bool mw__subsegment_owner_add(mw_cdt *m, mw_subsegment_owner owner); /* false when out of memory */
+bool mw__subsegment_owners_create(mw_subsegment_owners *owners,
+                                  const mw_cdt *m); /* false when out of memory; release anyway */
+void mw__subsegment_owners_release(mw_subsegment_owners *owners);
 
 #endif

@@ -6,17 +6,19 @@
  *         \ | /  /     ends at the first vertex w on the segment.
  *           p---'      The right boundary runs a, p, ..., w, the left boundary w, s, q, ..., a: the channel lies to their left.
  *
- * Why one may cut off an ear p, q, r wherever the boundary turns left: every vertex of the boundary sees a point of the
- * segment across the channel, and these points follow each other as the vertices do. The lines of sight from p and r,
- * the boundary between them and the segment bound a polygon with no other vertex of the boundary in it; q is a convex corner of
- * it, and its other two corners lie on the line a->b, which the triangle p, q, r does not reach (but in a or w). So the
- * ear is empty, and cutting it off keeps the lines of sight. A boundary that nowhere turns left is the segment itself.
- * Boundaries may run to a vertex and back along one edge; the turn there is 0.
+ * Why one may cut off an ear p, q, r wherever the boundary turns left: every vertex of the boundary
+ * sees a point of the segment across the channel, and these points follow each other as the
+ * vertices do. The lines of sight from p and r, the boundary between them and the segment bound a
+ * polygon with no other vertex of the boundary in it; q is a convex corner of it, and its other two
+ * corners lie on the line a->b, which the triangle p, q, r does not reach (but in a or w). So the
+ * ear is empty, and cutting it off keeps the lines of sight. A boundary that nowhere turns left is
+ * the segment itself. Boundaries may run to a vertex and back along one edge; the turn there is 0.
  *
- * Which ear is cut first decides how many flips follow. Taken by the lengths of their bases, up to a factor, they left
- * less than two flips for each triangle of the channel in all meshes tried, and mostly less than one, while a scan that
- * cuts each ear as it finds it left flips as the square of their number on some. That remains the worst case. Flips
- * never cross the boundary: its edges were Delaunay before, and now see no more vertices than then. */
+ * Which ear is cut first decides how many flips follow. Taken by the lengths of their bases, up to
+ * a factor, they left less than two flips for each triangle of the channel in all meshes tried, and
+ * mostly less than one, while a scan that cuts each ear as it finds it left flips as the square of
+ * their number on some. That remains the worst case. Flips never cross the boundary: its edges were
+ * Delaunay before, and now see no more vertices than then. */
 #include "triangulate/constrained/segment_insertion.h"
 
 #include <stdlib.h>
@@ -36,8 +38,9 @@ struct mw_channel_step {
     uint32_t ahead, behind;  /* its neighbours in that line, or MW_NONE                                   */
 };
 
-/* Ears wait in line with others whose bases are of about the same length, and those in the line of the shortest bases
- * are cut first. A line is named by the exponent and the first bit of the fraction of the square of the length. */
+/* Ears wait in line with others whose bases are of about the same length, and those in the line of
+ * the shortest bases are cut first. A line is named by the exponent and the first bit of the
+ * fraction of the square of the length. */
 enum { LINES = 64 * 64, LINE_SHIFT = 51 };
 
 struct mw_ears {
@@ -92,14 +95,15 @@ static uint32_t *link_field(const mw_segment_insertion *c, uint32_t half)
     return &c->tri[mw__link_triangle(half)].link[mw__link_edge(half)];
 }
 
-static double segment_side(const mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t p)
+static double segment_vertex_side(const mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t p)
 {
     return mw__orient2d(c->point[a], c->point[b], c->point[p]);
 }
 
 /* --- where a segment leaves a vertex --- */
 
-/* Turns round a vertex: counter-clockwise to the hull or once round, then clockwise from the beginning. */
+/* Turns round a vertex: counter-clockwise to the hull or once round, then clockwise from the
+ * beginning. */
 typedef struct vertex_rotor {
     uint32_t half, first; /* half-edges that leave the vertex; the triangle of `half` is looked at     */
     bool clockwise;
@@ -107,10 +111,11 @@ typedef struct vertex_rotor {
                                         first one */
 } vertex_rotor;
 
-/* On which side of v->p the target lies. Where p is the target no test is made: it would be decided exactly, slowly. */
+/* On which side of v->p the target lies. Where p is the target no test is made: it would be decided
+ * exactly, slowly. */
 static double target_side(const mw_segment_insertion *c, uint32_t v, uint32_t p, uint32_t target)
 {
-    return p == target ? 0 : segment_side(c, v, p, target);
+    return p == target ? 0 : segment_vertex_side(c, v, p, target);
 }
 
 static vertex_rotor segment_rotor(const mw_segment_insertion *c, uint32_t vertex, uint32_t target)
@@ -142,8 +147,9 @@ static void segment_rotor_turn(const mw_segment_insertion *c, vertex_rotor *r, u
     r->right = target_side(c, vertex, mw__half_end(c->tri, r->half), target);
 }
 
-/* Does the segment to the target leave through the triangle of the rotor? Then *half is the edge that it runs along, as
- * it leaves the vertex (or as it comes back: the last edge at the hull), or the one across that it crosses. */
+/* Does the segment to the target leave through the triangle of the rotor? Then *half is the edge
+ * that it runs along, as it leaves the vertex (or as it comes back: the last edge at the hull), or
+ * the one across that it crosses. */
 static bool leaves_here(const vertex_rotor *r, uint32_t *half, bool *along)
 {
     *along = r->right == 0 || r->left == 0;
@@ -170,11 +176,12 @@ static bool channel_reserve(mw_segment_insertion *c, size_t count)
     return true;
 }
 
-/* The right boundary in order from a to w; the left boundary in the opposite order, from a to w, too. */
-typedef struct channel {
+/* The right boundary in order from a to w; the left boundary in the opposite order, from a to w,
+ * too. */
+typedef struct segment_channel {
     uint32_t a, w;
     size_t right_count, left_count, triangle_count;
-} channel;
+} segment_channel;
 
 static void add_boundary(const mw_segment_insertion *c, mw_channel_step *boundary, size_t *count, uint32_t half)
 {
@@ -187,10 +194,10 @@ static void add_boundary(const mw_segment_insertion *c, mw_channel_step *boundar
 }
 
 /* Follow the segment from a through edge `half` to the first vertex on it. Changes no triangle. */
-static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, channel *ch,
-                                         uint32_t *crossed)
+static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half,
+                                         segment_channel *ch, uint32_t *crossed)
 {
-    *ch = (channel){.a = a};
+    *ch = (segment_channel){.a = a};
     if (!channel_reserve(c, 2)) return MW_SUBSEGMENT_MEMORY;
     add_boundary(c, c->right, &ch->right_count, mw__half_prev(half));
     add_boundary(c, c->left, &ch->left_count, mw__half_next(half));
@@ -203,7 +210,7 @@ static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, ui
         half = *link_field(c, half); /* its end is on the right now, its start on the left */
         c->channel[ch->triangle_count++] = mw__link_triangle(half);
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
-        double s = w == b ? 0 : segment_side(c, a, b, w);
+        double s = w == b ? 0 : segment_vertex_side(c, a, b, w);
         if (s <= 0) add_boundary(c, c->right, &ch->right_count, mw__half_next(half));
         if (s >= 0) add_boundary(c, c->left, &ch->left_count, mw__half_prev(half));
         if (s == 0) {
@@ -214,8 +221,9 @@ static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, ui
     }
 }
 
-/* Steps of the boundary whose outer half-edge lies in the channel too: find it. Overwrites the vertices of the triangles. */
-static void channel_find_mates(mw_segment_insertion *c, const channel *ch)
+/* Steps of the boundary whose outer half-edge lies in the channel too: find it. Overwrites the
+ * vertices of the triangles. */
+static void channel_find_mates(mw_segment_insertion *c, const segment_channel *ch)
 {
     mw_channel_step *boundaries[2] = {c->right, c->left};
     size_t counts[2] = {ch->right_count, ch->left_count};
@@ -249,7 +257,8 @@ static void step_join(mw_segment_insertion *c, uint32_t half, const mw_channel_s
     if (outer != MW_NONE) *link_field(c, outer) = half;
 }
 
-/* Make triangle t the ear of steps s0 and s1 of the boundary; its base becomes a step instead of them. */
+/* Make triangle t the ear of steps s0 and s1 of the boundary; its base becomes a step instead of
+ * them. */
 static mw_channel_step cut_ear(mw_segment_insertion *c, uint32_t t, const mw_channel_step *s0,
                                const mw_channel_step *s1)
 {
@@ -318,14 +327,15 @@ static uint32_t first_ear(const mw_segment_insertion *c)
     return e->line[64 * word + (unsigned)__builtin_ctzll(e->waiting[word])].first;
 }
 
-/* Take note of whether the boundary turns left behind step i: then that step and the one after it make an ear. */
+/* Take note of whether the boundary turns left behind step i: then that step and the one after it
+ * make an ear. */
 static void note_ear(mw_segment_insertion *c, uint32_t i)
 {
     mw_channel_step *step = &c->ring[i];
     drop_ear(c, i);
     if (step->after == MW_NONE) return;
     uint32_t to = c->ring[step->after].to;
-    if (segment_side(c, step->from, step->to, to) <= 0) return;
+    if (segment_vertex_side(c, step->from, step->to, to) <= 0) return;
     double dx = c->point[to].x - c->point[step->from].x, dy = c->point[to].y - c->point[step->from].y;
     add_ear(c, i, dx * dx + dy * dy);
 }
@@ -344,13 +354,14 @@ static void ring_lay_out(mw_segment_insertion *c, mw_channel_step *boundary, uin
     for (uint32_t i = 0; i < n; i++) note_ear(c, i);
 }
 
-/* Fill the side of the channel along a boundary; the ears are listed from c->channel[*next] on. Returns the half-edge along
- * the segment.
+/* Fill the side of the channel along a boundary; the ears are listed from c->channel[*next] on.
+ * Returns the half-edge along the segment.
  *
- * An ear takes the number of the triangle that its first step was an edge of, so what is near in the plane stays near
- * in memory. That number is then free, and none is taken twice: only the triangles at either end of the channel were at
- * two steps, and the last step's number is never taken; that is the triangle at w on the right boundary, the one at a on the
- * left boundary, which runs the other way. */
+ * An ear takes the number of the triangle that its first step was an edge of, so what is near in
+ * the plane stays near in memory. That number is then free, and none is taken twice: only the
+ * triangles at either end of the channel were at two steps, and the last step's number is never
+ * taken; that is the triangle at w on the right boundary, the one at a on the left boundary, which
+ * runs the other way. */
 static uint32_t side_fill(mw_segment_insertion *c, mw_channel_step *boundary, size_t n, bool backwards, size_t *next)
 {
     ring_lay_out(c, boundary, (uint32_t)n, backwards);
@@ -432,8 +443,8 @@ static void channel_flip(mw_segment_insertion *c, uint32_t half)
     *subsegment_of(c, mw__link(t, 1)) = *subsegment_of(c, mw__link(n, 2)) = MW_NONE;
 }
 
-/* Put the ear t, whose base is its edge 2, back on what lies beyond the base: flip the edges that face its tip, until
- * all are legal. Ends: each flip adds an edge at the tip. */
+/* Put the ear t, whose base is its edge 2, back on what lies beyond the base: flip the edges that
+ * face its tip, until all are legal. Ends: each flip adds an edge at the tip. */
 static bool put_back(mw_segment_insertion *c, uint32_t t)
 {
     size_t count = 0;
@@ -449,7 +460,8 @@ static bool put_back(mw_segment_insertion *c, uint32_t t)
     return true;
 }
 
-/* Make the filled channel Delaunay: put the ears back one by one, the last that was cut off first. */
+/* Make the filled channel Delaunay: put the ears back one by one, the last that was cut off
+ * first. */
 static bool channel_legalize(mw_segment_insertion *c, size_t triangle_count)
 {
     for (size_t i = 0; i < triangle_count; i++) c->tri[c->channel[i]].user = AWAY;
@@ -471,14 +483,14 @@ static void half_mark(mw_segment_insertion *c, uint32_t half, uint32_t *number)
     *number = *subsegment_of(c, half);
 }
 
-/* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two triangles were Delaunay,
- * and now see fewer vertices. Returns whether it is so. */
+/* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two
+ * triangles were Delaunay, and now see fewer vertices. Returns whether it is so. */
 static bool cut_through_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
                             uint32_t *number)
 {
     if (*subsegment_of(c, half) != MW_NONE) return false;
     *w = mw__half_start(c->tri, mw__half_prev(*link_field(c, half)));
-    if (*w != b && segment_side(c, a, b, *w) != 0) return false;
+    if (*w != b && segment_vertex_side(c, a, b, *w) != 0) return false;
     channel_flip(c, half);
     half_mark(c, mw__link(mw__link_triangle(half), 1), number);
     c->crossed += 2;
@@ -490,7 +502,7 @@ static mw_subsegment_result cut_through(mw_segment_insertion *c, uint32_t a, uin
                                         uint32_t *number)
 {
     if (cut_through_one(c, a, b, half, w, number)) return MW_SUBSEGMENT_DONE;
-    channel ch;
+    segment_channel ch;
     mw_subsegment_result result = open_channel(c, a, b, half, &ch, number);
     if (result != MW_SUBSEGMENT_DONE) {
         c->wasted += ch.triangle_count;
@@ -511,7 +523,8 @@ static mw_subsegment_result cut_through(mw_segment_insertion *c, uint32_t a, uin
 mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *from, uint32_t *to,
                                            mw_subsegment *subsegment)
 {
-    /* Turn round both ends at once: at a vertex of high degree this takes as long as its segments' other ends allow. */
+    /* Turn round both ends at once: at a vertex of high degree this takes as long as its segments'
+     * other ends allow. */
     vertex_rotor rotors[2] = {segment_rotor(c, *from, *to), segment_rotor(c, *to, *from)};
     uint32_t *ends[2] = {from, to}, half;
     unsigned i = 0;
@@ -535,7 +548,8 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
     return result;
 }
 
-/* From `from`, through edge `half`, to the first vertex on the segment; MW_NONE if `meet` will not go on. */
+/* From `from`, through edge `half`, to the first vertex on the segment; MW_NONE if `meet` will not
+ * go on. */
 static uint32_t follow_through(const mw_segment_insertion *c, uint32_t from, uint32_t to, uint32_t half,
                                mw_segment_visitor *meet, void *context)
 {
@@ -544,7 +558,7 @@ static uint32_t follow_through(const mw_segment_insertion *c, uint32_t from, uin
         if (subsegment != MW_NONE && !meet(context, subsegment, MW_NONE)) return MW_NONE;
         half = *link_field(c, half);
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
-        double s = w == to ? 0 : segment_side(c, from, to, w);
+        double s = w == to ? 0 : segment_vertex_side(c, from, to, w);
         if (s == 0) return w;
         half = s > 0 ? mw__half_next(half) : mw__half_prev(half);
     }

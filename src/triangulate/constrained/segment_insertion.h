@@ -1,18 +1,19 @@
 /* segment_insertion.h - segments forced into a triangulation. Private.
  *
- * The triangulation fills the convex hull of its points; its triangles are counter-clockwise and linked. A segment
- * between two of its vertices is forced in subsegment by subsegment; subsegments end at the vertices that lie on the segment, so a
- * subsegment has none inside, and two segments on one line share subsegments. Where the triangulation was constrained Delaunay
- * before a subsegment it is so after it: no vertex visible from a triangle lies in its circle. Two segments that cross
+ * The triangulation fills the convex hull of its points; its triangles are counter-clockwise and
+ * linked. A segment between two of its vertices is forced in subsegment by subsegment; subsegments
+ * end at the vertices that lie on the segment, so a subsegment has none inside, and two segments on
+ * one line share subsegments. Where the triangulation was constrained Delaunay before a subsegment
+ * it is so after it: no vertex visible from a triangle lies in its circle. Two segments that cross
  * are reported, the later one is left out from the crossing on. */
-#ifndef MW_SRC_CONSTRAIN_H
-#define MW_SRC_CONSTRAIN_H
+#ifndef MW_SRC_SEGMENT_INSERTION_H
+#define MW_SRC_SEGMENT_INSERTION_H
 
 #include "mesh/mesh.h"
 
 /* A step of the border of the channel that a subsegment opens, see segment_insertion.c. */
 typedef struct mw_channel_step mw_channel_step;
-/* Those of its places where a triangle may be cut off. */
+/* Its corners where a triangle may be cut off. */
 typedef struct mw_ears mw_ears;
 
 typedef struct mw_segment_insertion {
@@ -33,8 +34,8 @@ typedef struct mw_segment_insertion {
     uint64_t crossed; /* triangles that the subsegments made so far crossed */
 } mw_segment_insertion;
 
-/* Prepare; `point` and `tri` stay the caller's and must outlive *c. Returns false when out of memory. Release *c in
- * either case. */
+/* Prepare; `point` and `tri` stay the caller's and must outlive *c. Returns false when out of
+ * memory. Release *c in either case. */
 bool mw__segment_insertion_create(mw_segment_insertion *c, const mw_point *point, uint32_t point_count,
                                   mw_triangle *tri, uint32_t tri_count);
 void mw__segment_insertion_release(mw_segment_insertion *c);
@@ -50,20 +51,21 @@ typedef struct mw_subsegment {
     uint32_t from, to, number; /* from -> to points as the segment does */
 } mw_subsegment;
 
-/* Force in one subsegment at either end of the segment, and shorten the segment by it: the segment is in when *from and *to
- * have become equal. Time: about the lower degree of the two ends, plus O(m) for the m edges that the subsegment
- * crosses, plus the flips that restore the Delaunay property, in practice about m. A segment may cross as many edges as
- * there are; but segments that do not cross each other, forced in in random rounds, are expected to cross
- * O(n log n + b log^2 b) edges in all, for n vertices and b segments [Agarwal, Arge, Yi 2005; Shewchuk, Brown 2015]. */
+/* Force in one subsegment at either end of the segment, and shorten the segment by it: the segment
+ * is in when *from and *to have become equal. Time: about the lower degree of the two ends, plus
+ * O(m) for the m edges that the subsegment crosses, plus the flips that restore the Delaunay
+ * property, in practice about m. A segment may cross as many edges as there are; but segments that
+ * do not cross each other, forced in in random rounds, are expected to cross O(n log n + b log^2 b)
+ * edges in all, for n vertices and b segments [Agarwal, Arge, Yi 2005; Shewchuk, Brown 2015]. */
 mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *from, uint32_t *to,
                                            mw_subsegment *subsegment);
 
-/* Met by a segment: a subsegment that it crosses, or, subsegment being MW_NONE, a vertex that lies on it. Returns whether to go
- * on. */
+/* Met by a segment: a subsegment that it crosses, or, subsegment being MW_NONE, a vertex that lies
+ * on it. Returns whether to go on. */
 typedef bool mw_segment_visitor(void *context, uint32_t subsegment, uint32_t vertex);
 
-/* Tell all that a segment meets between its ends, in order; the triangulation stays as it is. Returns false if `meet`
- * did. */
+/* Tell all that a segment meets between its ends, in order; the triangulation stays as it is.
+ * Returns false if `meet` did. */
 bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, uint32_t to, mw_segment_visitor *meet,
                                  void *context);
 

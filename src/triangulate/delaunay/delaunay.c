@@ -1,7 +1,8 @@
-/* delaunay.c - from points to a Delaunay triangulation: order them, let it grow, hand out what has grown.
+/* delaunay.c - from points to a Delaunay triangulation: sort the points, grow it patch by patch,
+ * collect its triangles.
  *
- * All work is done on a copy of the points along a Hilbert curve ("places": place i holds point order[i]), so that what
- * lies close in the plane lies close in memory; numbers are translated at the end. */
+ * All work is done on a copy of the points along a Hilbert curve (slot i holds point order[i]), so
+ * that what lies close in the plane lies close in memory; numbers are translated at the end. */
 #include "triangulate/delaunay/delaunay.h"
 
 #include "base/threads.h"
@@ -21,16 +22,16 @@ typedef struct delaunay {
     const mw_point *given;
     mw_delaunay_setup setup;
     mw_extent extent;
-    mw_patch_arrays ground;
+    mw_patch_arrays arrays;
     mw_patches patches;
 } delaunay;
 
 static void delaunay_release(delaunay *d)
 {
-    free(d->ground.order);
-    free(d->ground.sequence);
-    free(d->ground.point);
-    free(d->ground.facet);
+    free(d->arrays.order);
+    free(d->arrays.sequence);
+    free(d->arrays.point);
+    free(d->arrays.facet);
     free(d->patches.patch);
 }
 
@@ -44,7 +45,8 @@ static void extent_extend(mw_extent *e, const mw_extent *by)
     }
 }
 
-/* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is none. */
+/* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is
+ * none. */
 static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw_extent *extent)
 {
     mw_extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
@@ -62,8 +64,8 @@ static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw
 
 enum { NO_LATTICE = INT_MIN, LATTICE_BITS = 40 };
 
-/* The exponent of the last bit of a finite number that is 1. INT_MAX for 0; NO_LATTICE for a number of more bits than the
- * coordinates of a lattice have in practice. */
+/* The exponent of the last bit of a finite number that is 1. INT_MAX for 0; NO_LATTICE for a number
+ * of more bits than the coordinates of a lattice have in practice. */
 static int last_bit(double x)
 {
     uint64_t bits;
@@ -77,8 +79,8 @@ static int last_bit(double x)
     return (exponent > 0 ? exponent : 1) + DBL_MIN_EXP - 1 - DBL_MANT_DIG + zeros;
 }
 
-/* The exponent of the largest power of two that the coordinates of points from..to - 1 are multiples of. For most that are
- * none the first tells. */
+/* The exponent of the largest power of two that the coordinates of points from..to - 1 are
+ * multiples of. For most that are none the first tells. */
 static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
 {
     int lattice = INT_MAX;
@@ -93,7 +95,7 @@ static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
 /* What there is to know of the points before they are sorted: extent and lattice. */
 static mw_status delaunay_measure(delaunay *d, mw_error *error)
 {
-    uint32_t n = d->ground.n, bad = n;
+    uint32_t n = d->arrays.n, bad = n;
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
     int team = mw__team(d->setup.threads, chunks);
     (void)team; /* unused without OpenMP */
@@ -117,17 +119,17 @@ static mw_status delaunay_measure(delaunay *d, mw_error *error)
         }
     }
     if (bad < n) return mw__fail_at(error, -1, bad, "point %u is not finite", bad);
-    d->ground.width = d->extent.high[0] - d->extent.low[0];
-    d->ground.height = d->extent.high[1] - d->extent.low[1];
-    d->ground.unit = lattice == NO_LATTICE || lattice == INT_MAX ? 0 : ldexp(1, lattice);
+    d->arrays.width = d->extent.high[0] - d->extent.low[0];
+    d->arrays.height = d->extent.high[1] - d->extent.low[1];
+    d->arrays.unit = lattice == NO_LATTICE || lattice == INT_MAX ? 0 : ldexp(1, lattice);
     return MW_OK;
 }
 
 /* Nothing has grown: no three of the points are the corners of a triangle. */
 static mw_status fail_flat(const delaunay *d, mw_error *error)
 {
-    const mw_point *p = d->ground.point;
-    uint32_t n = d->ground.n, second = 1, third;
+    const mw_point *p = d->arrays.point;
+    uint32_t n = d->arrays.n, second = 1, third;
     while (second < n && mw__points_equal(p[0], p[second])) second++;
     if (second == n) return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: all %u are equal", n);
     for (third = second + 1; third < n; third++)
@@ -138,11 +140,12 @@ static mw_status fail_flat(const delaunay *d, mw_error *error)
 
 /* --- growth --- */
 
-/* Points in the order of their places. Where each lies is hard to foresee, but its number is known. */
+/* Copy the points to their slots. Where each lies in memory is hard for the processor to foresee,
+ * but its number is known ahead. */
 static void delaunay_copy_points(delaunay *d, const mw_key *keys)
 {
     enum { AHEAD = 16 };
-    uint32_t n = d->ground.n;
+    uint32_t n = d->arrays.n;
     int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
     int team = mw__team(d->setup.threads, chunks);
     (void)team; /* unused without OpenMP */
@@ -153,8 +156,8 @@ static void delaunay_copy_points(delaunay *d, const mw_key *keys)
         uint32_t from = (uint32_t)(c * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
         for (uint32_t i = from; i < to; i++) {
             if (i + AHEAD < n) __builtin_prefetch(&d->given[keys[i + AHEAD].item]);
-            d->ground.order[i] = keys[i].item;
-            d->ground.point[i] = d->given[keys[i].item];
+            d->arrays.order[i] = keys[i].item;
+            d->arrays.point[i] = d->given[keys[i].item];
         }
     }
 }
@@ -162,17 +165,17 @@ static void delaunay_copy_points(delaunay *d, const mw_key *keys)
 /* The keys lie where the facets will grow. */
 static bool delaunay_order_points(delaunay *d)
 {
-    mw_patch_arrays *g = &d->ground;
+    mw_patch_arrays *g = &d->arrays;
     _Static_assert(sizeof(mw_key) <= sizeof(mw_facet), "the facets have room for the keys");
     mw_key *keys = (mw_key *)g->facet, *scratch = keys + g->n;
     if (!mw__points_sort(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
     delaunay_copy_points(d, keys);
-    return mw__cut(&d->patches, d->given, keys, g->n, d->setup.patch);
+    return mw__patches_cut(&d->patches, d->given, keys, g->n, d->setup.patch);
 }
 
 static mw_status delaunay_prepare(delaunay *d, mw_error *error)
 {
-    mw_patch_arrays *g = &d->ground;
+    mw_patch_arrays *g = &d->arrays;
     if (g->n < 3) return mw__fail(error, MW_ERROR_INPUT, "fewer than three points: %u", g->n);
     if (g->n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
     mw_status status = delaunay_measure(d, error);
@@ -187,18 +190,18 @@ static mw_status delaunay_prepare(delaunay *d, mw_error *error)
 
 static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
 {
-    const mw_patch_arrays *g = &d->ground;
+    const mw_patch_arrays *g = &d->arrays;
     for (uint32_t i = 0, twin; i < g->n; i++)
         duplicate_of[g->order[i]] = mw__get_twin(g->point[i], &twin) ? g->order[twin] : MW_NONE;
 }
 
-/* The points are not needed any more: their room serves the harvest. */
+/* The points are not needed any more: their memory serves the collection. */
 static bool delaunay_collect(delaunay *d, mw_triangle **tri, uint32_t *tri_count)
 {
-    free(d->ground.sequence);
-    d->ground.sequence = NULL;
-    uint32_t *scratch = (uint32_t *)d->ground.point;
-    return mw__delaunay_collect(&d->patches, &d->ground, d->setup.order != NULL, d->setup.threads, scratch, tri,
+    free(d->arrays.sequence);
+    d->arrays.sequence = NULL;
+    uint32_t *scratch = (uint32_t *)d->arrays.point;
+    return mw__delaunay_collect(&d->patches, &d->arrays, d->setup.order != NULL, d->setup.threads, scratch, tri,
                                 tri_count);
 }
 
@@ -206,13 +209,13 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
                               uint32_t *duplicate_of, mw_delaunay_report *report, mw_triangle **tri,
                               uint32_t *tri_count, mw_error *error)
 {
-    delaunay d = {.given = points, .setup = *setup, .ground = {.n = n}};
+    delaunay d = {.given = points, .setup = *setup, .arrays = {.n = n}};
     if (!d.setup.patch) d.setup.patch = PATCH;
     *tri = NULL;
     *tri_count = 0;
     mw_status status = delaunay_prepare(&d, error);
     if (status == MW_OK) {
-        mw__grow_patches(&d.patches, &d.ground, d.setup.threads);
+        mw__patches_grow(&d.patches, &d.arrays, d.setup.threads);
         if (d.patches.patch[0].ghost == MW_NONE) status = fail_flat(&d, error);
     }
     if (status == MW_OK) {
@@ -222,8 +225,8 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
         if (!delaunay_collect(&d, tri, tri_count)) status = mw__fail_memory(error);
     }
     if (d.setup.order) {
-        *d.setup.order = status == MW_OK ? d.ground.order : NULL;
-        if (status == MW_OK) d.ground.order = NULL;
+        *d.setup.order = status == MW_OK ? d.arrays.order : NULL;
+        if (status == MW_OK) d.arrays.order = NULL;
     }
     delaunay_release(&d);
     return status;
@@ -238,7 +241,8 @@ mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *d
 
 /* --- a mesh --- */
 
-/* The points as the library has them; the caller's own array if that is what it holds. *copy is to be released. */
+/* The points as the library has them; the caller's own array if that is what it holds. *copy is to
+ * be released. */
 static const mw_point *delaunay_read_points(const double *from, size_t stride, uint32_t n, uint32_t threads,
                                             mw_point **copy)
 {

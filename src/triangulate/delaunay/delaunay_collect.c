@@ -1,33 +1,34 @@
-/* delaunay_collect.c - triangles are numbered by their lowest place: along the curve.
+/* delaunay_collect.c - triangles are numbered by their lowest slot: along the curve.
  *
- * It is a counting sort. Each part counts and numbers the facets in its own slice whose lowest place is its own; the
- * others lie along seams, are few, and are done one after the other: they come last at their place. Numbers do not depend
- * on the threads. */
+ * It is a counting sort. Each patch counts and numbers the facets in its own slice whose lowest
+ * slot is its own; the others lie along seams, are few, and are done one after the other: they come
+ * last at their slot. Numbers do not depend on the threads. */
 #include "triangulate/delaunay/delaunay_collect.h"
 
 #include "base/threads.h"
 
 #include <stdlib.h>
 
-/* Of a facet whose lowest place is another part's: FOREIGN + the number of the next such facet in its part. */
+/* Of a facet whose lowest slot is another patch's: FOREIGN + the number of the next such facet in
+ * its patch. */
 #define FOREIGN UINT32_C(0x80000000)
 #define NO_MORE (MW_NONE - 1)
 
-/* A part without halves. */
+/* A patch without halves. */
 typedef struct slice {
-    uint32_t from, to; /* places                                            */
+    uint32_t from, to; /* slots                                            */
     uint32_t foreign;  /* as the number of a foreign facet: the first, last */
-    uint32_t count;    /* triangles whose lowest place it has               */
+    uint32_t count;    /* triangles whose lowest slot it has               */
 } slice;
 
 typedef struct collector {
-    const mw_patch_arrays *ground;
+    const mw_patch_arrays *arrays;
     uint32_t *number; /* of each facet: MW_NONE: it is no triangle                                   */
-    uint32_t *next;   /* of each place: triangles whose lowest it is, then the number of the next one */
+    uint32_t *next;   /* of each slot: triangles whose lowest it is, then the number of the next one */
     slice *slices;
     int64_t slice_count;
     mw_triangle *tri;
-    const uint32_t *vertex; /* of each place: its vertex; NULL: they are the same */
+    const uint32_t *vertex; /* of each slot: its vertex; NULL: they are the same */
 } collector;
 
 static MW_INLINE uint32_t facet_lowest(const mw_facet *f)
@@ -38,7 +39,7 @@ static MW_INLINE uint32_t facet_lowest(const mw_facet *f)
 
 static MW_INLINE bool is_ghost(const collector *h, const mw_facet *f)
 {
-    return f->v[0] == h->ground->n || f->v[1] == h->ground->n || f->v[2] == h->ground->n;
+    return f->v[0] == h->arrays->n || f->v[1] == h->arrays->n || f->v[2] == h->arrays->n;
 }
 
 static void slice_count(collector *h, slice *s)
@@ -46,7 +47,7 @@ static void slice_count(collector *h, slice *s)
     s->foreign = NO_MORE;
     for (uint32_t i = s->from; i < s->to; i++) h->next[i] = 0;
     for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
-        const mw_facet *facet = &h->ground->facet[f];
+        const mw_facet *facet = &h->arrays->facet[f];
         uint32_t low = facet_lowest(facet);
         if (is_ghost(h, facet)) {
             h->number[f] = MW_NONE;
@@ -63,7 +64,7 @@ static void slice_count(collector *h, slice *s)
 static void count_foreign(collector *h, slice *s)
 {
     for (uint32_t f = s->foreign; f != NO_MORE; f = h->number[f - FOREIGN])
-        h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
+        h->next[facet_lowest(&h->arrays->facet[f - FOREIGN])]++;
 }
 
 static void sum_up(collector *h, slice *s)
@@ -89,7 +90,7 @@ static void number_foreign(collector *h, slice *s)
 {
     for (uint32_t f = s->foreign, after; f != NO_MORE; f = after) {
         after = h->number[f - FOREIGN];
-        h->number[f - FOREIGN] = h->next[facet_lowest(&h->ground->facet[f - FOREIGN])]++;
+        h->number[f - FOREIGN] = h->next[facet_lowest(&h->arrays->facet[f - FOREIGN])]++;
     }
 }
 
@@ -97,7 +98,7 @@ static void slice_copy(collector *h, slice *s)
 {
     for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
         if (h->number[f] == MW_NONE) continue;
-        const mw_facet *from = &h->ground->facet[f];
+        const mw_facet *from = &h->arrays->facet[f];
         mw_triangle *t = &h->tri[h->number[f]];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t other = h->number[mw__link_triangle(from->link[k])];
@@ -128,8 +129,8 @@ static bool list_slices(collector *h, const mw_patches *patches)
     return true;
 }
 
-/* The slices lie in any order: that of parts. Numbers go along the places. */
-static int by_place(const void *left, const void *right)
+/* The slices lie in any order: that of the patches. Numbers go along the slots. */
+static int by_slot(const void *left, const void *right)
 {
     uint32_t i = ((const slice *)left)->from, j = ((const slice *)right)->from;
     return (i > j) - (i < j);
@@ -138,7 +139,7 @@ static int by_place(const void *left, const void *right)
 static uint32_t number_all(collector *h, int team)
 {
     uint32_t sum = 0;
-    qsort(h->slices, (size_t)h->slice_count, sizeof *h->slices, by_place);
+    qsort(h->slices, (size_t)h->slice_count, sizeof *h->slices, by_slot);
     for_each_slice(h, slice_count, team);
     for_each_slice(h, count_foreign, 1);
     for_each_slice(h, sum_up, team);
@@ -152,11 +153,11 @@ static uint32_t number_all(collector *h, int team)
     return sum;
 }
 
-bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *ground, bool places, uint32_t threads,
+bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots, uint32_t threads,
                           uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count)
 {
-    collector h = {.ground = ground, .number = scratch, .next = scratch + 2 * (size_t)ground->n};
-    if (!places) h.vertex = ground->order;
+    collector h = {.arrays = arrays, .number = scratch, .next = scratch + 2 * (size_t)arrays->n};
+    if (!slots) h.vertex = arrays->order;
     if (!list_slices(&h, patches)) return false;
     int team = mw__team(threads, h.slice_count);
     *tri_count = number_all(&h, team);

@@ -1,13 +1,14 @@
 /* delaunay_collect.h - from the facets that have grown to triangles. Private. */
-#ifndef MW_SRC_DELAUNAY_HARVEST_H
-#define MW_SRC_DELAUNAY_HARVEST_H
+#ifndef MW_SRC_DELAUNAY_COLLECT_H
+#define MW_SRC_DELAUNAY_COLLECT_H
 
 #include "mesh/mesh.h"
 #include "triangulate/delaunay/delaunay_patches.h"
 
-/* Hand out all facets that are no ghosts: *tri is set to *tri_count records as of mw__delaunay_triangles, on so many
- * threads; with `places` vertices are named by those. `scratch` has room for 12 n + 4 bytes. Returns false when out of memory, with *tri NULL. */
-bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *ground, bool places, uint32_t threads,
+/* Make triangles of all facets that are no ghosts: *tri is set to *tri_count records as of
+ * mw__delaunay_triangles, on so many threads. With `slots` they name vertices by slot. `scratch`
+ * has room for 12 n + 4 bytes. Returns false when out of memory, with *tri NULL. */
+bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots, uint32_t threads,
                           uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count);
 
 #endif

@@ -2,7 +2,7 @@
  *
  *            c              The facet that holds q is split in three, all with q as vertex 2. Then the edges across
  *           /|\  n          from q are looked at, once round: where the next facet n has q in its circle, the edge ab
- *          / | \            becomes the edge qd, and the two edges behind it are looked at in its place. What remains is
+ *          / | \            becomes the edge qd, and the two edges behind it are looked at instead. What remains is
  *         /  q  \  d        the Delaunay triangulation: only facets with q in their circle have gone.
  *        /.-' '-.\
  *       a---------b         A ghost is a facet with the vertex at infinity: its circle is the open half plane beyond its
@@ -10,17 +10,19 @@
  *                           special case: splitting gives flat facets, and their edges are flipped at once, as the
  *                           inside of a chord lies inside the circle.
  *
- * The walk is the remembering walk [thesis, App. A, sec. 2], which ends on every Delaunay triangulation; it begins at
- * the point inserted before. Points on one circle: a point on the circle is not in it, so any order of insertion gives a
- * Delaunay triangulation, not always the same. */
+ * The walk is the remembering walk [thesis, App. A, sec. 2], which ends on every Delaunay
+ * triangulation; it begins at the point inserted before. Points on one circle: a point on the
+ * circle is not in it, so any order of insertion gives a Delaunay triangulation, not always the
+ * same. */
 #include "triangulate/delaunay/delaunay_grow.h"
 
 #include "mesh/mesh.h"
 
 /* A vertex as seen from q: its position relative to q, and the square of its distance.
  *
- * The vertex at infinity is the row 0, 0, far: with it the circle test of three vertices is far times the orientation
- * test of the other two, so the filter below serves ghosts as well. `far` is no less than any lift. */
+ * The vertex at infinity is the row 0, 0, far: with it the circle test of three vertices is far
+ * times the orientation test of the other two, so the filter below serves ghosts as well. `far` is
+ * no less than any lift. */
 typedef struct lifted {
     double x, y, lift;
     uint32_t vertex;
@@ -55,16 +57,18 @@ static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g,
     return side > 0 || (side == 0 && inside_edge(p[from], p[to], q));
 }
 
-/* Is q inside the circle of the counter-clockwise facet a, b, c?
- * The filter is that of mw__incircle with a bound that is cheaper: a permanent |bx cy| + |by cx| is at most the product
- * of the two lengths, so at most the mean of the two lifts, and the sum of lift times permanent at most ab + bc + ca of
- * the lifts. These are off by less than 8u, u = 2^-53; 11u instead of 10u covers that and the rounding of the bound. */
+/* Is q inside the circle of the counter-clockwise facet a, b, c? The filter is that of mw__incircle
+ * with a bound that is cheaper: a permanent |bx cy| + |by cx| is at most the product of the two
+ * lengths, so at most the mean of the two lifts, and the sum of lift times permanent at most ab +
+ * bc + ca of the lifts. These are off by less than 8u, u = 2^-53; 11u instead of 10u covers that
+ * and the rounding of the bound. */
 #define CIRCLE_ERROR (11.0 * 0x1p-53)
 
-/* On a lattice, such as that of integers, many points lie on one circle, and no bound decides. But where all coordinates
- * are multiples of u and the lifts add up to S < 2^26 u^2, a product of lift and minor is a multiple of u^4, and all of
- * them together are at most ab + bc + ca <= S^2 / 3 < 2^52 u^4 for lifts a, b, c: nothing is rounded. The same goes for
- * the two products of the orientation test. The powers of u must not under- or overflow. */
+/* On a lattice, such as that of integers, many points lie on one circle, and no bound decides. But
+ * where all coordinates are multiples of u and the lifts add up to S < 2^26 u^2, a product of lift
+ * and minor is a multiple of u^4, and all of them together are at most ab + bc + ca <= S^2 / 3 <
+ * 2^52 u^4 for lifts a, b, c: nothing is rounded. The same goes for the two products of the
+ * orientation test. The powers of u must not under- or overflow. */
 #define LATTICE_LIFTS 0x1p26
 #define LATTICE_LEAST 0x1p-250
 #define LATTICE_MOST 0x1p230
@@ -85,7 +89,8 @@ static MW_INLINE bool lies_beyond(const mw_growth *g, const lifted *a, const lif
     return mw__orient2d_exact(g->point[a->vertex], g->point[b->vertex], q) < 0;
 }
 
-/* Where a walk has come to: the facet and the edge it was entered by, and its vertices, v[0] and v[1] those of the edge. */
+/* Where a walk has come to: the facet and the edge it was entered by, and its vertices, v[0] and
+ * v[1] those of the edge. */
 typedef struct found {
     uint32_t link;
     lifted v[3];
@@ -100,7 +105,8 @@ static MW_INLINE uint32_t growth_start(const mw_growth *g)
     return g->last;
 }
 
-/* The walk from the last facet to one whose circle holds q: that contains q, or a ghost with q beyond its edge. */
+/* The walk from the last facet to one whose circle holds q: that contains q, or a ghost with q
+ * beyond its edge. */
 static MW_INLINE found growth_walk(mw_growth *g, mw_point q)
 {
     uint32_t link = mw__link(growth_start(g), 0);
@@ -137,7 +143,8 @@ static MW_INLINE void set_link(mw_growth *g, uint32_t from, uint32_t to)
     g->facet[mw__link_triangle(from)].link[mw__link_edge(from)] = to;
 }
 
-/* Facet t becomes a, b, q with the facet `outer` beyond ab, `next` beyond bq and `prev` beyond qa. */
+/* Facet t becomes a, b, q with the facet `outer` beyond ab, `next` beyond bq and `prev` beyond
+ * qa. */
 static MW_INLINE void set_facet(mw_growth *g, uint32_t t, const uint32_t v[3], uint32_t outer, uint32_t next,
                                 uint32_t prev)
 {
@@ -145,7 +152,7 @@ static MW_INLINE void set_facet(mw_growth *g, uint32_t t, const uint32_t v[3], u
     set_link(g, outer, mw__link(t, 0));
 }
 
-/* Split the facet of a place into three round q. The first keeps the number of the facet. */
+/* Split the facet that holds q into three round q. The first keeps the number of the facet. */
 static MW_INLINE void facet_split(mw_growth *g, const found *at, uint32_t q)
 {
     uint32_t e = mw__link_edge(at->link), a = at->v[0].vertex, b = at->v[1].vertex, c = at->v[2].vertex;
@@ -156,7 +163,8 @@ static MW_INLINE void facet_split(mw_growth *g, const found *at, uint32_t q)
     set_facet(g, third, (uint32_t[]){c, a, q}, old.link[mw__prev(e)], first, second);
 }
 
-/* Restore the Delaunay property round q: facet t is a, b, q, the next one counter-clockwise lies beyond bq. */
+/* Restore the Delaunay property round q: facet t is a, b, q, the next one counter-clockwise lies
+ * beyond bq. */
 static MW_INLINE void flip_round(mw_growth *g, uint32_t first, lifted a, lifted b, mw_point q)
 {
     uint32_t t = first;
@@ -189,7 +197,8 @@ void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double h
     g->infinity = point_count;
     g->lattice = unit >= LATTICE_LEAST && unit <= LATTICE_MOST ? LATTICE_LIFTS * unit * unit : 0;
     g->far = fmax(2 * (width * width + height * height), g->lattice); /* so no ghost passes for a part of the lattice */
-    /* 12 * 2^-1075 times the sum of the lifts (see mw__incircle), which is below 3 far, or times 1 */
+    /* 12 * 2^-1075 times the sum of the lifts (see mw__incircle), which is below 3 far, or times
+     * 1 */
     g->underflow = 0x1p-1069 * fmax(g->far, 1);
 }
 

@@ -1,4 +1,5 @@
-/* delaunay_merge.c - the merge step of divide and conquer [Guibas, Stolfi 1985], on facets with ghosts.
+/* delaunay_merge.c - the merge step of divide and conquer [Guibas, Stolfi 1985], on facets with
+ * ghosts.
  *
  *         l'.       .r'         Left and right lie on either side of a line. From the lower common tangent lr on, the
  *          | \     / |          seam is closed upwards: an empty circle through l and r rises until it meets the first
@@ -8,14 +9,15 @@
  *                               ll' has its third vertex in the circle of l, r, l', the edge ll' goes: it is flipped
  *                               between ghost and facet, which makes two ghosts that show the two edges behind it.
  *
- * So facets are neither freed nor made, but for two ghosts: one below the lower tangent, one above the upper. Vertices on
- * one circle: one that is on the circle is not met. All tests are exact. */
+ * So facets are neither freed nor made, but for two ghosts: one below the lower tangent, one above
+ * the upper. Vertices on one circle: one that is on the circle is not met. All tests are exact. */
 #include "triangulate/delaunay/delaunay_merge.h"
 
 #include "mesh/mesh.h"
 
-/* Where the vertex at infinity is in a ghost. The hull edge is the edge after it, from the vertex before it to the one
- * after it in counter-clockwise order of the hull: edge k leads on to the next ghost, the edge before it back. */
+/* Where the vertex at infinity is in a ghost. The hull edge is the edge after it, from the vertex
+ * before it to the one after it in counter-clockwise order of the hull: edge k leads on to the next
+ * ghost, the edge before it back. */
 static MW_INLINE uint32_t ghost_corner(const mw_growth *g, uint32_t ghost)
 {
     const uint32_t *v = g->facet[ghost].v;
@@ -50,7 +52,8 @@ static MW_INLINE void ghosts_join(mw_growth *g, uint32_t a, uint32_t b)
 
 /* --- which side is left --- */
 
-/* Of a triangulation: ghosts whose hull edges begin at vertices with the least and the greatest x and y. */
+/* Of a triangulation: ghosts whose hull edges begin at vertices with the least and the greatest x
+ * and y. */
 typedef struct hull_ends {
     uint32_t low[2], high[2];
 } hull_ends;
@@ -75,7 +78,8 @@ static hull_ends find_ends(const mw_growth *g, uint32_t ghost)
 
 /* --- the seam --- */
 
-/* Between a vertex on the left and one on the right; both parts are seen with the line between them upright. */
+/* Between a vertex on the left and one on the right; both parts are seen with the line between them
+ * upright. */
 typedef struct seam {
     uint32_t l, r;
     uint32_t left;  /* the ghost whose hull edge begins at l, going up */
@@ -83,8 +87,8 @@ typedef struct seam {
     uint32_t below; /* link to the edge rl of the facet below           */
 } seam;
 
-/* Begin with l the rightmost vertex and r the leftmost: turn to the lower common tangent. Of vertices on the tangent l is
- * the last and r the first, so there is none between them. */
+/* Begin with l the rightmost vertex and r the leftmost: turn to the lower common tangent. Of
+ * vertices on the tangent l is the last and r the first, so there is none between them. */
 static void go_to_tangent(const mw_growth *g, seam *s)
 {
     const mw_point *p = g->point;
@@ -122,7 +126,8 @@ static void close_above(mw_growth *g, const seam *s, uint32_t ghost)
     ghosts_join(g, mw__link(ghost, 2), mw__link(s->left, mw__prev(ghost_corner(g, s->left))));
 }
 
-/* Is the vertex behind the hull edge of a ghost in the circle of l, r and c? Sets *link to the edge behind. */
+/* Is the vertex behind the hull edge of a ghost in the circle of l, r and c? Sets *link to the edge
+ * behind. */
 static MW_INLINE bool is_met_before(const mw_growth *g, const seam *s, uint32_t ghost, uint32_t c, uint32_t *link)
 {
     const mw_point *p = g->point;
@@ -131,8 +136,8 @@ static MW_INLINE bool is_met_before(const mw_growth *g, const seam *s, uint32_t 
     return behind != g->infinity && mw__incircle(p[s->l], p[s->r], p[c], p[behind]) > 0;
 }
 
-/* Flip edges ll' that the circle passes. The ghost keeps its edge from l to infinity, whose neighbour is below the seam
- * by now and must not be touched. */
+/* Flip edges ll' that the circle passes. The ghost keeps its edge from l to infinity, whose
+ * neighbour is below the seam by now and must not be touched. */
 static uint32_t clear_left(mw_growth *g, const seam *s)
 {
     uint32_t up = hull_to(g, s->left), link;
@@ -221,7 +226,8 @@ uint32_t mw__merge(mw_growth *g, uint32_t a, uint32_t b, uint32_t spare)
                    ? 0
                    : 1;
     bool a_first = ghost_coordinate(g, ea.high[axis], axis) < ghost_coordinate(g, eb.low[axis], axis);
-    /* A horizontal line is turned upright by a quarter turn clockwise: what lies below it comes to lie on the left. */
+    /* A horizontal line is turned upright by a quarter turn clockwise: what lies below it comes to
+     * lie on the left. */
     uint32_t left = a_first ? ea.high[axis] : eb.high[axis], right = a_first ? eb.low[axis] : ea.low[axis];
     seam s = {.l = hull_from(g, left), .r = hull_from(g, right), .left = left, .right = hull_back(g, right)};
     close_seam(g, &s, spare);

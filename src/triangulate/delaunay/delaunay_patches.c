@@ -1,9 +1,10 @@
-/* delaunay_parts.c - divide, grow, merge.
+/* delaunay_patches.c - divide, grow, merge.
  *
- * The cells of a Hilbert curve are stretches of it, and halves and quarters of cells too: where the keys of two stretches
- * differ in a bit first, a line parallel to an axis parts the stretches. So the sorted points need not be touched to cut
- * them. Each part grows in a stretch of the facets of its own; so all can grow at the same time, and one alone stays in the
- * cache. A merge takes time in proportion to its seam and the two hulls.
+ * A cell of a Hilbert curve is an interval of the curve, and so are its halves and quarters. Two
+ * neighbouring intervals are separated by a line parallel to an axis, which the first bit tells in
+ * which their keys differ. So the sorted points can be cut into patches without moving them. Each
+ * patch grows in a range of facets of its own: all can grow at the same time, and one alone stays
+ * in the cache. A merge takes time in proportion to its seam and the two hulls.
  *
  * What is cut where depends on the points alone, and so does the result. */
 #include "triangulate/delaunay/delaunay_patches.h"
@@ -31,7 +32,8 @@ static bool add_halves(mw_patches *patches, uint32_t whole, uint32_t middle)
     return true;
 }
 
-/* All keys of the part are equal: let them be those of a curve through its own extent, along which it is sorted. */
+/* All keys of the patch are equal: let them be those of a curve through its own extent, along which
+ * it is sorted. */
 static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *keys)
 {
     uint32_t n = patch->to - patch->from;
@@ -40,7 +42,7 @@ static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *
     return keys[patch->from].key != keys[patch->to - 1].key;
 }
 
-/* The first of the part's places whose key has the highest bit in which its keys differ. */
+/* The first of the patch's slots whose key has the highest bit in which its keys differ. */
 static uint32_t find_middle(const mw_patch *patch, const mw_key *keys)
 {
     uint32_t first = keys[patch->from].key, last = keys[patch->to - 1].key;
@@ -55,7 +57,7 @@ static uint32_t find_middle(const mw_patch *patch, const mw_key *keys)
     return high;
 }
 
-bool mw__cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n, uint32_t most)
+bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n, uint32_t most)
 {
     *patches = (mw_patches){.patch = mw__alloc(1, sizeof *patches->patch), .count = 1, .room = 1};
     if (!patches->patch) return false;
@@ -77,7 +79,7 @@ bool mw__cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t
 
 /* --- grow --- */
 
-/* Bring three places that do not lie on one line to the front of the sequence. */
+/* Bring three slots that do not lie on one line to the front of the sequence. */
 static bool choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
 {
     uint32_t second = 1;
@@ -91,33 +93,35 @@ static bool choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
     return true;
 }
 
-/* A place merged with another is no vertex any more. Its coordinates make room for the place of its twin. */
+/* A point equal to another is no vertex. In its slot the coordinates give way to the slot of its
+ * twin. */
 static void set_twin(mw_point *point, uint32_t twin)
 {
     *point = (mw_point){NAN, twin};
 }
 
-static uint32_t patch_insert(const mw_patch_arrays *ground, mw_growth *g, const uint32_t *sequence, uint32_t n)
+static uint32_t patch_insert(const mw_patch_arrays *arrays, mw_growth *g, const uint32_t *sequence, uint32_t n)
 {
     uint32_t duplicates = 0;
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t place = sequence[i], vertex = mw__grow(g, place);
-        if (MW_LIKELY(vertex == place)) continue;
-        if (ground->order[place] < ground->order[vertex]) mw__swap(&ground->order[place], &ground->order[vertex]);
-        set_twin(&ground->point[place], vertex);
+        uint32_t slot = sequence[i], vertex = mw__grow(g, slot);
+        if (MW_LIKELY(vertex == slot)) continue;
+        if (arrays->order[slot] < arrays->order[vertex]) mw__swap(&arrays->order[slot], &arrays->order[vertex]);
+        set_twin(&arrays->point[slot], vertex);
         duplicates++;
     }
     return duplicates;
 }
 
-static mw_growth growth_of(const mw_patch_arrays *ground, uint32_t last, uint32_t facets)
+static mw_growth growth_of(const mw_patch_arrays *arrays, uint32_t last, uint32_t facets)
 {
-    mw_growth g = {.point = ground->point, .facet = ground->facet, .facet_count = facets, .last = last};
-    mw__grow_prepare(&g, ground->n, ground->width, ground->height, ground->unit);
+    mw_growth g = {.point = arrays->point, .facet = arrays->facet, .facet_count = facets, .last = last};
+    mw__grow_prepare(&g, arrays->n, arrays->width, arrays->height, arrays->unit);
     return g;
 }
 
-/* Make ghosts of nothing but infinity of the facets from the last that is used to those of place `to`. */
+/* Make ghosts of nothing but infinity of the facets from the last that is used to those of slot
+ * `to`. */
 static void clear_unused(const mw_growth *g, uint32_t to)
 {
     uint32_t i = g->infinity;
@@ -131,14 +135,14 @@ static uint32_t find_ghost(const mw_growth *g, uint32_t from)
     return f;
 }
 
-static void patch_grow(const mw_patch_arrays *ground, mw_patch *patch)
+static void patch_grow(const mw_patch_arrays *arrays, mw_patch *patch)
 {
-    uint32_t n = patch->to - patch->from, *sequence = ground->sequence + patch->from;
+    uint32_t n = patch->to - patch->from, *sequence = arrays->sequence + patch->from;
     mw__insertion_sequence(patch->from, n, sequence);
-    mw_growth g = growth_of(ground, 0, 2 * patch->from);
+    mw_growth g = growth_of(arrays, 0, 2 * patch->from);
     if (choose_first_three(g.point, sequence, n)) {
         mw__grow_begin(&g, sequence);
-        patch->duplicates = patch_insert(ground, &g, sequence + 3, n - 3);
+        patch->duplicates = patch_insert(arrays, &g, sequence + 3, n - 3);
         patch->ghost = find_ghost(&g, patch->from);
         patch->visited = g.visited;
         patch->spare = 2 * patch->to - 2;
@@ -148,29 +152,29 @@ static void patch_grow(const mw_patch_arrays *ground, mw_patch *patch)
 
 /* --- merge --- */
 
-/* Of two halves one has grown, the places of the other lie on a line: insert them. */
-static void take_in(const mw_patch_arrays *ground, mw_patch *patch, const mw_patch *grown, const mw_patch *flat)
+/* Of two halves one has grown, the slots of the other lie on a line: insert them. */
+static void take_in(const mw_patch_arrays *arrays, mw_patch *patch, const mw_patch *grown, const mw_patch *flat)
 {
-    uint32_t n = flat->to - flat->from, *sequence = ground->sequence + flat->from;
+    uint32_t n = flat->to - flat->from, *sequence = arrays->sequence + flat->from;
     mw__insertion_sequence(flat->from, n, sequence);
-    mw_growth g = growth_of(ground, grown->ghost, 2 * flat->from);
-    patch->duplicates = grown->duplicates + patch_insert(ground, &g, sequence, n);
+    mw_growth g = growth_of(arrays, grown->ghost, 2 * flat->from);
+    patch->duplicates = grown->duplicates + patch_insert(arrays, &g, sequence, n);
     clear_unused(&g, flat->to);
     patch->ghost = find_ghost(&g, patch->from);
     patch->visited = grown->visited + g.visited;
     patch->spare = grown->spare;
 }
 
-static void patch_merge(const mw_patch_arrays *ground, mw_patch *patch, const mw_patch *half)
+static void patch_merge(const mw_patch_arrays *arrays, mw_patch *patch, const mw_patch *half)
 {
     if (half[0].ghost == MW_NONE && half[1].ghost == MW_NONE) {
-        patch_grow(ground, patch);
+        patch_grow(arrays, patch);
     } else if (half[0].ghost == MW_NONE) {
-        take_in(ground, patch, &half[1], &half[0]);
+        take_in(arrays, patch, &half[1], &half[0]);
     } else if (half[1].ghost == MW_NONE) {
-        take_in(ground, patch, &half[0], &half[1]);
+        take_in(arrays, patch, &half[0], &half[1]);
     } else {
-        mw_growth g = growth_of(ground, 0, 0);
+        mw_growth g = growth_of(arrays, 0, 0);
         patch->ghost = mw__merge(&g, half[0].ghost, half[1].ghost, half[0].spare);
         patch->spare = half[1].spare;
         patch->visited = half[0].visited + half[1].visited;
@@ -178,8 +182,8 @@ static void patch_merge(const mw_patch_arrays *ground, mw_patch *patch, const mw
     }
 }
 
-/* Parts of one rank do not depend on each other. */
-static void grow_rank(mw_patches *patches, const mw_patch_arrays *ground, uint32_t rank, uint32_t threads)
+/* Patches of one rank do not depend on each other. */
+static void grow_rank(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t rank, uint32_t threads)
 {
     int64_t count = 0;
     for (uint32_t i = 0; i < patches->count; i++) count += patches->patch[i].rank == rank;
@@ -192,13 +196,13 @@ static void grow_rank(mw_patches *patches, const mw_patch_arrays *ground, uint32
         mw_patch *patch = &patches->patch[i];
         if (patch->rank != rank) continue;
         if (patch->half == MW_NONE)
-            patch_grow(ground, patch);
+            patch_grow(arrays, patch);
         else
-            patch_merge(ground, patch, &patches->patch[patch->half]);
+            patch_merge(arrays, patch, &patches->patch[patch->half]);
     }
 }
 
-void mw__grow_patches(mw_patches *patches, const mw_patch_arrays *ground, uint32_t threads)
+void mw__patches_grow(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t threads)
 {
-    for (uint32_t rank = 0; rank <= patches->patch[0].rank; rank++) grow_rank(patches, ground, rank, threads);
+    for (uint32_t rank = 0; rank <= patches->patch[0].rank; rank++) grow_rank(patches, arrays, rank, threads);
 }

@@ -1,12 +1,13 @@
 /* insertion_order.c - when each point is inserted.
  *
- * Points are numbered along a Hilbert curve (mesh/point_order.h), so that what lies close in the plane lies close in memory. They are
- * inserted in that order too, but in rounds ("biased randomized insertion order" [Amenta, Choi, Rote 2003]): each point
- * belongs to the last round with probability 7/8, to the one before with 7/64, and so on. Inserted along the curve
- * alone, n points on a parabola can destroy of the order of n^2 triangles; in random rounds the expected number is at
- * most of the order of n log n wherever the points lie, and walks still go from a point to a near one. The factor 8 was
- * the fastest for uniform points: 4.2 triangles destroyed for each, against 5.8 along the curve alone, and shorter
- * walks. */
+ * Points are numbered along a Hilbert curve (mesh/point_order.h), so that what lies close in the
+ * plane lies close in memory. They are inserted in that order too, but in rounds ("biased
+ * randomized insertion order" [Amenta, Choi, Rote 2003]): each point belongs to the last round with
+ * probability 7/8, to the one before with 7/64, and so on. Inserted along the curve alone, n points
+ * on a parabola can destroy of the order of n^2 triangles; in random rounds the expected number is
+ * at most of the order of n log n wherever the points lie, and walks still go from a point to a
+ * near one. The factor 8 was the fastest for uniform points: 4.2 triangles destroyed for each,
+ * against 5.8 along the curve alone, and shorter walks. */
 #include "triangulate/delaunay/insertion_order.h"
 
 #include "base/random.h"

@@ -1,5 +1,5 @@
-/* edge_insertion.c - one edge inserted for a smaller largest angle [Edelsbrunner, Tan, Waupotitsch 1992; Bern,
- * Edelsbrunner, Eppstein, Mitchell, Tan 1993].
+/* edge_insertion.c - one edge inserted for a smaller largest angle [Edelsbrunner, Tan, Waupotitsch
+ * 1992; Bern, Edelsbrunner, Eppstein, Mitchell, Tan 1993].
  *
  *         s          Let pqr be a triangle with the largest angle, at q. A triangulation T without an angle as large
  *        /|\         has an edge at q that parts this one; it crosses pr, pqr being empty. So each vertex s that q sees
@@ -8,20 +8,23 @@
  *       \ | /        angles. If T has the edge qs, there is such an ear, other than at q and s, as long as a polygon is left,
  *         q          whichever were cut before [1993, "cake cutting"]. So if ears run out, T does not have it.
  *
- * Ears at chain vertices do not depend on s, but for the last of them. So chains grow while the search moves away
- * from q, triangle by triangle and nearest first, as stacks: an ear is cut as soon as it shows, and what is below the top
- * of a stack has been tried. Branches of the search share the lower parts of their stacks, which are never
- * changed. Where a chain turns into its polygon, the ear is empty: each of its vertices sees a point of qs (segment_insertion.c
- * has the argument).
+ * Ears at chain vertices do not depend on s, but for the last of them. So chains grow while the
+ * search moves away from q, triangle by triangle and nearest first, as stacks: an ear is cut as
+ * soon as it shows, and what is below the top of a stack has been tried. Branches of the search
+ * share the lower parts of their stacks, which are never changed. Where a chain turns into its
+ * polygon, the ear is empty: each of its vertices sees a point of qs (segment_insertion.c has the
+ * argument).
  *
- * How far the search goes. Say y is a vertex of a chain, and the angle qys is not smaller than the one at q. Then T
- * does not have qs: of the chain's vertices in the triangle qys let z be the one nearest to qs; the angle qzs is not
- * smaller either, so T has an edge that parts it, and this would leave the triangle qzs, which is empty, through qs.
- * Thus y takes from all that lies behind it what lies beyond a ray from y; once the rays from both sides have met,
- * nothing is left. The larger the angle, the farther one has to look; a large one is rare.
+ * How far the search goes. Say y is a vertex of a chain, and the angle qys is not smaller than the
+ * one at q. Then T does not have qs: of the chain's vertices in the triangle qys let z be the one
+ * nearest to qs; the angle qzs is not smaller either, so T has an edge that parts it, and this
+ * would leave the triangle qzs, which is empty, through qs. Thus y takes from all that lies behind
+ * it what lies beyond a ray from y; once the rays from both sides have met, nothing is left. The
+ * larger the angle, the farther one has to look; a large one is rare.
  *
- * A triangle is seen again in each gap between the vertices before it that q sees: the visible triangles may be as many as the
- * square of the triangles. The caller bounds their number and the work; what is beyond is not decided. */
+ * A triangle is seen again in each gap between the vertices before it that q sees: the visible
+ * triangles may be as many as the square of the triangles. The caller bounds their number and the
+ * work; what is beyond is not decided. */
 #include "triangulate/kinds/edge_insertion.h"
 
 #include <stdlib.h>
@@ -33,7 +36,8 @@ struct mw_chain {
     uint32_t vertex, below;
 };
 
-/* A triangle that q sees through the edge of half-edge `half`, whose ends u and v are on the left and on the right. */
+/* A triangle that q sees through the edge of half-edge `half`, whose ends u and v are on the left
+ * and on the right. */
 struct mw_visible_triangle {
     uint32_t half, parent;
     uint32_t left, right;             /* the tops of the chains                                     */
@@ -61,7 +65,7 @@ void mw__insertion_release(mw_insertion *in)
     *in = (mw_insertion){0};
 }
 
-/* An array with room for n records: the old one, or a larger one in its place, or NULL. */
+/* An array with room for n records: the old one, or a larger one that replaces it, or NULL. */
 static void *with_room(void *array, size_t *room, size_t n, size_t size)
 {
     if (n <= *room) return array;
@@ -81,9 +85,9 @@ static mw_point vector_minus(mw_point a, mw_point b)
     return (mw_point){a.x - b.x, a.y - b.y};
 }
 
-/* Work is counted in tests of an ear in doubles, about 40 nanoseconds. An exact comparison of angles takes some
- * microseconds; three points on a line, which mostly need the exact test, a tenth of that; a triangle looked at
- * or written as much as a few ears. */
+/* Work is counted in tests of an ear in doubles, about 40 nanoseconds. An exact comparison of
+ * angles takes some microseconds; three points on a line, which mostly need the exact test, a tenth
+ * of that; a triangle looked at or written as much as a few ears. */
 #define EXACT_WORK 128
 #define LINE_WORK 16
 #define TRIANGLE_WORK 4
@@ -121,7 +125,8 @@ static uint32_t cut_one(const insertion_search *s, hand side, uint32_t top, uint
     return below != NOWHERE && is_good_ear(s, side, chain[below].vertex, chain[top].vertex, v) ? below : top;
 }
 
-/* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. Less where the work is spent. */
+/* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. Less where the work
+ * is spent. */
 static uint32_t search_cut(const insertion_search *s, hand side, uint32_t top, uint32_t v)
 {
     for (uint32_t old = NOWHERE; old != top && !is_spent(s->in);) {
@@ -146,8 +151,8 @@ static bool chain_push(mw_insertion *in, uint32_t vertex, uint32_t below, uint32
 #define RAY_ERROR 0x1p-40
 #define RAY_SHORTEST 0x1p-900
 
-/* Of the rest of pi beside the worst angle. Where the products are too small or too large for that, 0: such rays leave
- * everything. */
+/* Of the rest of pi beside the worst angle. Where the products are too small or too large for that,
+ * 0: such rays leave everything. */
 static void set_turn(insertion_search *s)
 {
     double length = hypot(s->worst.dot, s->worst.cross);
@@ -156,14 +161,14 @@ static void set_turn(insertion_search *s)
     s->sine = usable ? s->worst.cross / length : 0;
 }
 
-/* What y leaves of what is behind it: the places z with vector_cross(direction, z - y) < 0 (left chain) or > 0 (right chain).
- * Rounded: it only saves work. */
+/* What y leaves of what is behind it: the points z with vector_cross(direction, z - y) < 0 (left
+ * chain) or > 0 (right chain). Rounded: it only saves work. */
 typedef struct ray {
     mw_point y, direction;
 } ray;
 
-/* The angle qys is that at q where s is on the ray: y - q turned by the rest of pi, to the right from a vertex of the
- * left chain. */
+/* The angle qys is that at q where s is on the ray: y - q turned by the rest of pi, to the right
+ * from a vertex of the left chain. */
 static ray ray_from(const insertion_search *s, hand side, uint32_t vertex)
 {
     mw_point y = s->in->point[vertex], d = vector_minus(y, s->in->point[s->q]);
@@ -173,8 +178,9 @@ static ray ray_from(const insertion_search *s, hand side, uint32_t vertex)
     return r;
 }
 
-/* How far z lies on the side that the ray leaves, or more: an error of RAY_ERROR times the lengths is far more than what
- * a dozen operations can bring about, and MW_UNDERFLOW_ERROR more than what underflows. */
+/* How far z lies on the side that the ray leaves, or more: an error of RAY_ERROR times the lengths
+ * is far more than what a dozen operations can bring about, and MW_UNDERFLOW_ERROR more than what
+ * underflows. */
 static double left_over(const ray *r, hand side, mw_point z)
 {
     mw_point d = vector_minus(z, r->y);
@@ -230,7 +236,8 @@ static mw_insertion_result insertion_look(mw_insertion *in, mw_visible_triangle 
     return MW_INSERTION_NONE;
 }
 
-/* Pass w, the apex beyond half-edge `half` of sight i: leave it on the given side, whose chain it joins. */
+/* Pass w, the apex beyond half-edge `half` of sight i: leave it on the given side, whose chain it
+ * joins. */
 static mw_insertion_result search_pass(insertion_search *s, uint32_t i, uint32_t w, hand side)
 {
     mw_insertion *in = s->in;
@@ -254,8 +261,8 @@ static mw_insertion_result search_pass(insertion_search *s, uint32_t i, uint32_t
     return insertion_look(in, next);
 }
 
-/* Are both polygons cut up to the edge to w? Ears are cut on both sides in turn, so that where one side fails soon it
- * does not matter how many there are on the other. */
+/* Are both polygons cut up to the edge to w? Ears are cut on both sides in turn, so that where one
+ * side fails soon it does not matter how many there are on the other. */
 static bool is_better(const insertion_search *s, const mw_visible_triangle *from, uint32_t w)
 {
     const mw_chain *chain = s->in->chain;
@@ -287,8 +294,8 @@ static mw_insertion_result search_begin(insertion_search *s, uint32_t half)
     return is_open(s, &first, s->r, s->p) ? insertion_look(in, first) : MW_INSERTION_NONE;
 }
 
-/* The sight beyond which lies an s that makes things better. Chains are cut in full as long as the work is not spent,
- * and none is used after. */
+/* The sight beyond which lies an s that makes things better. Chains are cut in full as long as the
+ * work is not spent, and none is used after. */
 static mw_insertion_result search_find(insertion_search *s, uint32_t half, uint32_t *found)
 {
     mw_insertion *in = s->in;
@@ -314,13 +321,13 @@ static mw_insertion_result search_find(insertion_search *s, uint32_t half, uint3
 
 /* --- the exchange --- */
 
-enum { PLACE = 3 }; /* while triangles are exchanged, `user` of those removed is their place on the path + PLACE */
+enum { ON_PATH = 3 }; /* while triangles are exchanged, `user` of those removed is their index on the path + ON_PATH */
 
 /* A vertex of a chain, and the edge that leads to it from the one below. */
 struct mw_chain_edge {
     uint32_t vertex;
-    uint32_t beyond; /* the half-edge on the edge's other side, MW_NONE on the hull           */
-    uint32_t place;  /* of the triangle removed on this side; NOWHERE for the base of an ear  */
+    uint32_t beyond;     /* the half-edge on the edge's other side, MW_NONE on the hull           */
+    uint32_t path_index; /* of the triangle removed on this side; NOWHERE for the base of an ear  */
 };
 
 static bool path_room(mw_insertion *in, uint32_t n)
@@ -344,25 +351,26 @@ static bool list_path(mw_insertion *in, uint32_t t, uint32_t found)
     for (uint32_t i = found; i != NOWHERE; i = in->seen[i].parent) in->made[--n] = mw__link_triangle(in->seen[i].half);
     in->made[0] = t;
     for (uint32_t i = 0; i < in->made_count; i++) {
-        in->tri[in->made[i]].user = PLACE + i;
+        in->tri[in->made[i]].user = ON_PATH + i;
         in->placed[i] = MW_NONE;
     }
     return true;
 }
 
-/* The step over edge e of the triangle at a place of the path, to the given vertex. */
-static mw_chain_edge step_over(const mw_insertion *in, uint32_t place, uint32_t e, uint32_t vertex)
+/* The step over edge e of the triangle at an index of the path, to the given vertex. */
+static mw_chain_edge step_over(const mw_insertion *in, uint32_t path_index, uint32_t e, uint32_t vertex)
 {
-    return (mw_chain_edge){vertex, in->tri[in->made[place]].link[e], place};
+    return (mw_chain_edge){vertex, in->tri[in->made[path_index]].link[e], path_index};
 }
 
-static bool leads_to(const mw_insertion *in, uint32_t place, uint32_t e, uint32_t other)
+static bool leads_to(const mw_insertion *in, uint32_t path_index, uint32_t e, uint32_t other)
 {
-    uint32_t half = in->tri[in->made[place]].link[e];
+    uint32_t half = in->tri[in->made[path_index]].link[e];
     return half != MW_NONE && mw__link_triangle(half) == in->made[other];
 }
 
-/* Write both chains, from q to w, uncut. Each triangle between the first and the last has one edge on them. */
+/* Write both chains, from q to w, uncut. Each triangle between the first and the last has one edge
+ * on them. */
 static void list_chains(const insertion_search *s, uint32_t k, mw_chain_edge *chain[2], uint32_t count[2])
 {
     mw_insertion *in = s->in;
@@ -382,14 +390,14 @@ static void list_chains(const insertion_search *s, uint32_t k, mw_chain_edge *ch
     count[RIGHT] = right;
 }
 
-/* Edge `half` of a new triangle lies where the step was. Where chains run along both sides of an edge, what lies beyond
- * a step is the triangle that has come in the place of the other one. */
+/* Edge `half` of a new triangle lies where the step was. Where chains run along both sides of an
+ * edge, what lies beyond a step is the triangle that has replaced the other one. */
 static void insertion_place(mw_insertion *in, uint32_t half, const mw_chain_edge *step)
 {
     uint32_t beyond = step->beyond;
-    if (step->place != NOWHERE && beyond != MW_NONE && in->tri[mw__link_triangle(beyond)].user >= PLACE) {
-        in->placed[step->place] = half;
-        beyond = in->placed[in->tri[mw__link_triangle(beyond)].user - PLACE];
+    if (step->path_index != NOWHERE && beyond != MW_NONE && in->tri[mw__link_triangle(beyond)].user >= ON_PATH) {
+        in->placed[step->path_index] = half;
+        beyond = in->placed[in->tri[mw__link_triangle(beyond)].user - ON_PATH];
     }
     in->tri[mw__link_triangle(half)].link[mw__link_edge(half)] = beyond;
     if (beyond != MW_NONE) in->tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = half;
@@ -406,7 +414,7 @@ static void write_ear(mw_insertion *in, hand side, uint32_t t, const mw_chain_ed
     insertion_place(in, mw__link(t, side == LEFT ? 0 : 2), b);
     insertion_place(in, mw__link(t, side == LEFT ? 2 : 0), c);
     c->beyond = mw__link(t, 1);
-    c->place = NOWHERE;
+    c->path_index = NOWHERE;
 }
 
 /* Cut a chain as the search has done, into triangles made[*next], ...: what lies beside qs. */

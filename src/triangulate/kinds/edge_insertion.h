@@ -1,4 +1,5 @@
-/* edge_insertion.h - a triangle with a bad angle is replaced, together with triangles beyond it, by better ones. Private. */
+/* edge_insertion.h - a triangle with a bad angle is replaced, together with triangles beyond it, by
+ * better ones. Private. */
 #ifndef MW_SRC_EDGE_INSERTION_H
 #define MW_SRC_EDGE_INSERTION_H
 
@@ -38,9 +39,10 @@ typedef enum mw_insertion_result {
 /* Visible triangles and what is on the chains have numbers of 32 bits. */
 #define MW_INSERTION_MOST_SEEN (UINT32_MAX - 4)
 
-/* Try to replace triangle t, whose largest angle is at its vertex k, and free triangles beyond its opposite edge, by
- * triangles with smaller angles only. With no limit of reach the answer "none" is final: no triangulation of what the
- * free triangles cover has only angles smaller than that one, if it is the largest among them. */
+/* Try to replace triangle t, whose largest angle is at its vertex k, and free triangles beyond its
+ * opposite edge, by triangles with smaller angles only. With no limit of reach the answer "none" is
+ * final: no triangulation of what the free triangles cover has only angles smaller than that one,
+ * if it is the largest among them. */
 mw_insertion_result mw__insert_edge(mw_insertion *in, uint32_t t, uint32_t k);
 
 void mw__insertion_release(mw_insertion *in);

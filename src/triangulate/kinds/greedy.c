@@ -1,4 +1,5 @@
-/* greedy.c - the greedy triangulation: edges by increasing length, each taken unless it crosses one taken before.
+/* greedy.c - the greedy triangulation: edges by increasing length, each taken unless it crosses one
+ * taken before.
  *
  *            z            It grows in a constrained Delaunay triangulation of the edges taken so far. (The Delaunay
  *         . : : ` .       triangulation leads to it in linear time [Levcopoulos, Krznaric 1999], less simply.) Say an edge
@@ -7,17 +8,18 @@
  *          q1 q2          off a corner z between two taken edges za and zb that follow each other round z, with an angle of
  *                         90 degrees or more.
  *
- * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an edge of each
- * constrained Delaunay triangulation. Otherwise let z be such a vertex. A rubber band from a to b round the obstacles
- * on that side of ab, pulled over to z, lies in the triangle abz. It is a chain of edges, and bounds with ab a polygon
- * without taken edges in it. Any two vertices of this polygon but a and b are less than |ab| apart, as the circle holds
- * them; so each edge between two that see each other is taken, or it would come first. There is none in the polygon, so
- * it has no diagonals, and is a triangle: za and zb are taken and nothing is between. (The edges that ab crosses then
- * are a fan at z.)
+ * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an
+ * edge of each constrained Delaunay triangulation. Otherwise let z be such a vertex. A rubber band
+ * from a to b round the obstacles on that side of ab, pulled over to z, lies in the triangle abz.
+ * It is a chain of edges, and bounds with ab a polygon without taken edges in it. Any two vertices
+ * of this polygon but a and b are less than |ab| apart, as the circle holds them; so each edge
+ * between two that see each other is taken, or it would come first. There is none in the polygon,
+ * so it has no diagonals, and is a triangle: za and zb are taken and nothing is between. (The edges
+ * that ab crosses then are a fan at z.)
  *
- * So the heap holds the open edges of the triangulation and what cuts off corners, and what has been either: taking an
- * edge makes four corners at most and changes the triangles that it crosses. What comes out of the heap is taken if it
- * is open. If it is not, it never will be again. */
+ * So the heap holds the open edges of the triangulation and what cuts off corners, and what has
+ * been either: taking an edge makes four corners at most and changes the triangles that it crosses.
+ * What comes out of the heap is taken if it is open. If it is not, it never will be again. */
 #include "triangulate/constrained/segment_insertion.h"
 #include "triangulate/kinds/greedy_heap.h"
 #include "triangulate/kinds/kind_maker.h"
@@ -26,7 +28,7 @@
 #include <string.h>
 
 typedef struct greedy {
-    mw_segment_insertion net; /* the taken edges are its pieces */
+    mw_segment_insertion net; /* the taken edges are its subsegments */
     mw_greedy_heap heap;
     uint32_t (*seen)[3]; /* per triangle: its vertices, when its edges were put into the heap */
     uint32_t *changed;   /* scratch: triangles that are others now */
@@ -53,7 +55,8 @@ static greedy_fan greedy_rotor(const greedy *g, uint32_t vertex)
     return (greedy_fan){mw__link(t, k), mw__link(t, k), false};
 }
 
-/* Returns a half-edge between the vertex and `other`, or goes on to the next triangle and returns MW_NONE. */
+/* Returns a half-edge between the vertex and `other`, or goes on to the next triangle and returns
+ * MW_NONE. */
 static uint32_t greedy_rotor_turn(const greedy *g, greedy_fan *r, uint32_t other)
 {
     uint32_t back = mw__half_prev(r->half);
@@ -69,7 +72,8 @@ static uint32_t greedy_rotor_turn(const greedy *g, greedy_fan *r, uint32_t other
     return MW_NONE;
 }
 
-/* A half-edge of the edge between a and b. Turns round both at once, for one of them may have a high degree. */
+/* A half-edge of the edge between a and b. Turns round both at once, for one of them may have a
+ * high degree. */
 static uint32_t half_between(const greedy *g, uint32_t a, uint32_t b)
 {
     greedy_fan at_a = greedy_rotor(g, a), at_b = greedy_rotor(g, b);
@@ -82,7 +86,8 @@ static uint32_t half_between(const greedy *g, uint32_t a, uint32_t b)
 
 /* --- what waits --- */
 
-/* Edges a, z and z, b are taken and follow each other round z, the corner on the left of a, z, b. */
+/* Edges a, z and z, b are taken and follow each other round z, the corner on the left of a, z,
+ * b. */
 static bool add_corner(greedy *g, uint32_t a, uint32_t z, uint32_t b)
 {
     const mw_point *p = g->net.point;
@@ -116,8 +121,8 @@ static bool add_edges(greedy *g, uint32_t t)
     return true;
 }
 
-/* Begin with an empty heap: all open edges, all corners. Done anew when half as many others as there are triangles may
- * have gathered in it, so memory and time stay in proportion. */
+/* Begin with an empty heap: all open edges, all corners. Done anew when half as many others as
+ * there are triangles may have gathered in it, so memory and time stay in proportion. */
 static bool greedy_gather(greedy *g)
 {
     g->heap.count = 0;
@@ -143,8 +148,8 @@ static void greedy_visit(greedy *g, uint32_t half, uint32_t *count)
     g->changed[(*count)++] = t;
 }
 
-/* An edge was forced in: add the edges of the triangles that this has changed. They hang together, along the edge and
- * on either side of it, and each has other vertices than the one it replaces. */
+/* An edge was forced in: add the edges of the triangles that this has changed. They hang together,
+ * along the edge and on either side of it, and each has other vertices than the one it replaces. */
 static bool add_changes(greedy *g, uint32_t half)
 {
     uint32_t count = 0;
@@ -156,15 +161,16 @@ static bool add_changes(greedy *g, uint32_t half)
     return true;
 }
 
-/* Take an edge if it is open. One with a vertex inside is not: what is forced in first of it, up to a vertex, is
- * shorter and therefore taken already, or crosses a taken edge. Returns false when out of memory. */
+/* Take an edge if it is open. One with a vertex inside is not: what is forced in first of it, up to
+ * a vertex, is shorter and therefore taken already, or crosses a taken edge. Returns false when out
+ * of memory. */
 static bool greedy_take(greedy *g, mw_greedy_edge edge)
 {
     uint32_t from = edge.low, to = edge.high, taken = g->net.subsegment_count;
-    mw_subsegment piece;
-    if (mw__insert_subsegment(&g->net, &from, &to, &piece) == MW_SUBSEGMENT_MEMORY) return false;
+    mw_subsegment subsegment;
+    if (mw__insert_subsegment(&g->net, &from, &to, &subsegment) == MW_SUBSEGMENT_MEMORY) return false;
     if (g->net.subsegment_count == taken) return true;
-    uint32_t half = half_between(g, piece.from, piece.to), twin = mw__half_link(g->net.tri, half);
+    uint32_t half = half_between(g, subsegment.from, subsegment.to), twin = mw__half_link(g->net.tri, half);
     return add_corners(g, half) && (twin == MW_NONE || add_corners(g, twin)) && add_changes(g, half);
 }
 

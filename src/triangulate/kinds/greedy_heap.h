@@ -19,8 +19,8 @@ typedef struct mw_greedy_heap {
 /* Add the edge between two vertices; false when out of memory. */
 bool mw__greedy_push(mw_greedy_heap *heap, uint32_t a, uint32_t b);
 
-/* Take out the shortest edge, compared exactly; of equal ones that with the lowest numbers, the lower one of its ends
- * first. The heap is not empty. */
+/* Take out the shortest edge, compared exactly; of equal ones that with the lowest numbers, the
+ * lower one of its ends first. The heap is not empty. */
 mw_greedy_edge mw__greedy_pop(mw_greedy_heap *heap);
 
 #endif

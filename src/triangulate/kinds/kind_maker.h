@@ -1,10 +1,10 @@
-/* kind_maker.h - what the kinds of triangulation work on: records of a Delaunay triangulation that they turn into their own.
- * Private.
+/* kind_maker.h - what the kinds of triangulation work on: records of a Delaunay triangulation that
+ * they turn into their own. Private.
  *
- * All triangulations of a set of points have the same number of triangles. So each kind works in place, by exchanging
- * diagonals or by writing all records anew. */
-#ifndef MW_SRC_KIND_H
-#define MW_SRC_KIND_H
+ * All triangulations of a set of points have the same number of triangles. So each kind works in
+ * place, by exchanging diagonals or by writing all records anew. */
+#ifndef MW_SRC_KIND_MAKER_H
+#define MW_SRC_KIND_MAKER_H
 
 #include "mesh/mesh.h"
 
@@ -17,8 +17,9 @@ typedef struct mw_triangulation {
     uint32_t tri_count;
 } mw_triangulation;
 
-/* Turn a Delaunay triangulation into one of the kind; order and `user` of the records are free. Fills what concerns the
- * kind in the report: `optimal` (1 at first) and the faces. MW_ERROR_MEMORY. */
+/* Turn a Delaunay triangulation into one of the kind; order and `user` of the records are free.
+ * Fills what concerns the kind in the report: `optimal` (1 at first) and the faces.
+ * MW_ERROR_MEMORY. */
 typedef mw_status mw_make_kind(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
                                mw_error *error);
 

@@ -1,11 +1,13 @@
-/* lmt.h - the parts of a triangulation of least weight: candidate edges, the LMT skeleton, its faces. Private. */
+/* lmt.h - the parts of a triangulation of least weight: candidate edges, the LMT skeleton, its
+ * faces. Private. */
 #ifndef MW_SRC_LMT_H
 #define MW_SRC_LMT_H
 
 #include "mesh/mesh.h"
 
-/* Points with coordinates multiplied by a power of two, the largest near 2^500: squares neither overflow nor, unless
- * they are that of next to nothing, underflow. For lengths and angles only; sides are decided on the given points. */
+/* Points with coordinates multiplied by a power of two, the largest near 2^500: squares neither
+ * overflow nor, unless they are that of next to nothing, underflow. For lengths and angles only;
+ * sides are decided on the given points. */
 typedef struct mw_scaled {
     const mw_point *point, *scaled;
     uint32_t count;
@@ -17,9 +19,9 @@ static MW_INLINE double mw__square(const mw_scaled *s, uint32_t a, uint32_t b)
     return dx * dx + dy * dy;
 }
 
-/* Is the square a of a length larger than b, whatever rounding did? A square of mw__square is off by the factor
- * (1 + u)^4 with u = 2^-53, so two of them by less than 1 + 9u; coordinates and products that underflow add less
- * than 2^-1000. */
+/* Is the square a of a length larger than b, whatever rounding did? A square of mw__square is off
+ * by the factor (1 + u)^4 with u = 2^-53, so two of them by less than 1 + 9u; coordinates and
+ * products that underflow add less than 2^-1000. */
 static MW_INLINE bool mw__surely_longer(double a, double b)
 {
     return a > b * (1 + 0x1p-48) + 0x1p-1000;
@@ -57,8 +59,8 @@ bool mw__edge_push(mw_edge_list *list, uint64_t key);
 
 typedef enum mw_lmt_result { MW_LMT_DONE, MW_LMT_SPENT, MW_LMT_MEMORY } mw_lmt_result;
 
-/* Append, from each of the vertices, the edges to others that may have the diamond property: an edge that has it is
- * appended twice, once from each end. */
+/* Append, from each of the vertices, the edges to others that may have the diamond property: an
+ * edge that has it is appended twice, once from each end. */
 mw_lmt_result mw__diamond(const mw_scaled *s, const uint32_t *vertex, uint32_t vertex_count, mw_effort *effort,
                           mw_edge_list *list);
 
@@ -68,28 +70,30 @@ mw_lmt_result mw__diamond(const mw_scaled *s, const uint32_t *vertex, uint32_t v
 typedef struct mw_lmt {
     const mw_scaled *points;
     uint32_t edge_count;
-    uint32_t *from;  /* per half: the vertex that it leaves                                               */
-    uint32_t *first; /* per vertex: where its halves begin in `ring`; one more for the end                */
-    uint32_t *ring;  /* halves, counter-clockwise round each vertex                                       */
-    uint32_t *place; /* per half: where in `ring` it is                                                   */
-    uint8_t *state;  /* per edge, see below                                                               */
-    uint32_t *queue; /* of edges, a ring buffer                                                           */
+    uint32_t *from;       /* per half: the vertex that it leaves                                               */
+    uint32_t *first;      /* per vertex: where its halves begin in `ring`; one more for the end                */
+    uint32_t *ring;       /* halves, counter-clockwise round each vertex                                       */
+    uint32_t *ring_index; /* per half: where in `ring` it is                                                   */
+    uint8_t *state;       /* per edge, see below                                                               */
+    uint32_t *queue;      /* of edges, a ring buffer                                                           */
 } mw_lmt;
 
 enum { MW_LMT_ALIVE = 1, MW_LMT_KNOWN = 2, MW_LMT_QUEUED = 4 };
 
-/* The edges of the list, none of which may hold a point between its ends. MW_LMT_SPENT: there are 2^31 of them or more.
- * Release in any case. */
+/* The edges of the list, none of which may hold a point between its ends. MW_LMT_SPENT: there are
+ * 2^31 of them or more. Release in any case. */
 mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *list);
 void mw__lmt_release(mw_lmt *lmt);
 
-/* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal, until there are none
- * or the effort is spent. What remains holds every triangulation of least weight that the list held. */
+/* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal,
+ * until there are none or the effort is spent. What remains holds every triangulation of least
+ * weight that the list held. */
 void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort);
 
 /* --- faces --- */
 
-/* A polygon, perhaps with vertices and edges that its border meets twice, and chords from corner to corner inside. */
+/* A polygon, perhaps with vertices and edges that its border meets twice, and chords from corner to
+ * corner inside. */
 typedef struct mw_chord {
     uint32_t low, high; /* corners, low + 1 < high */
     double length;
@@ -104,9 +108,9 @@ typedef struct mw_polygon {
 /* About how many steps mw__polygon_fill takes. False when out of memory. */
 bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps);
 
-/* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek 1980]. The chords must
- * hold a triangulation. Writes three corners, counter-clockwise, for each of corner_count - 2 triangles. False when out
- * of memory. */
+/* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek
+ * 1980]. The chords must hold a triangulation. Writes three corners, counter-clockwise, for each of
+ * corner_count - 2 triangles. False when out of memory. */
 bool mw__polygon_fill(const mw_polygon *polygon, uint32_t *corners);
 
 #endif

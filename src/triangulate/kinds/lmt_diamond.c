@@ -9,11 +9,12 @@
  *            apex            of directions dead on one side; what lies in a direction that is dead on both sides, far
  *                            enough away, is no candidate [Beirouti, Snoeyink 1998; Haas 2018].
  *
- * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that lie in dead directions
- * are left out whole. What is found so is tested once more against the triangles themselves and the nearest points.
- * Most vertices are closed by a few neighbours: no longer edge is left in any direction. The others, as on the hull or
- * the border of a cluster, come last, and pass by what is closed and too far away. All in rounded numbers, with
- * margins: an edge is left out only if points lie surely in both triangles. */
+ * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that
+ * lie in dead directions are left out whole. What is found so is tested once more against the
+ * triangles themselves and the nearest points. Most vertices are closed by a few neighbours: no
+ * longer edge is left in any direction. The others, as on the hull or the border of a cluster, come
+ * last, and pass by what is closed and too far away. All in rounded numbers, with margins: an edge
+ * is left out only if points lie surely in both triangles. */
 #include "triangulate/kinds/lmt.h"
 
 #include <math.h>
@@ -26,47 +27,48 @@
 #define ANGLE_MARGIN 0x1p-40
 #define LENGTH_MARGIN 0x1p-40
 
-/* Scaling rounds coordinates below 2^-1022 and squares and products below it, by at most 2^-1074. A difference of
- * SHARP, and a square or product of TINY, are far enough above that to be as right as others. */
+/* Scaling rounds coordinates below 2^-1022 and squares and products below it, by at most 2^-1074. A
+ * difference of SHARP, and a square or product of TINY, are far enough above that to be as right as
+ * others. */
 #define SHARP 0x1p-900
 #define TINY 0x1p-1000
 
 enum { LEAF = 8, NEAREST = 24, ARCS = 24, FEW = 256, STEPS_PER_VISIT = 8 };
 
-typedef struct box {
+typedef struct seek_box {
     double low[2], high[2];
     uint32_t begin, end; /* of the vertices in `order`                                      */
     double reach;        /* most of what `reach` has for its vertices                      */
-} box;
+} seek_box;
 
-typedef struct item {
-    double square; /* of the distance: of a box, to its nearest place */
+typedef struct seek_item {
+    double square; /* of the distance: of a box, to its nearest point */
     uint32_t number;
     bool is_box;
-} item;
+} seek_item;
 
-typedef struct arcs {
+typedef struct dead_arcs {
     struct {
         double from, to;
     } arc[ARCS];
     uint32_t count;
-} arcs;
+} dead_arcs;
 
-typedef struct seen {
+typedef struct seen_point {
     double square, angle;
-} seen;
+} seen_point;
 
 typedef struct seeker {
     const mw_scaled *points;
     double *reach; /* per point: the square of the length of the edges that may leave it, at most */
     uint32_t *order;
-    box *node;
+    seek_box *node;
     uint32_t node_count, first_leaf;
-    item *heap;
+    seek_item *heap;
     uint32_t heap_count;
-    seen *seen; /* points visited, not before `active` of them have made their directions dead */
+    seen_point *seen; /* points visited, not before `active` of them have made their directions dead */
     uint32_t seen_count, active;
-    arcs left, right;
+    dead_arcs left, right;
     mw_point nearest[NEAREST]; /* as seen from the vertex */
     uint32_t nearest_number[NEAREST];
     uint32_t nearest_count;
@@ -94,7 +96,8 @@ static double seeker_coordinate(const seeker *s, uint32_t i, int axis)
     return axis == 0 ? p.x : p.y;
 }
 
-/* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare 1961]. */
+/* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare
+ * 1961]. */
 static void select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_t middle, int axis)
 {
     int64_t low = begin, high = (int64_t)end - 1;
@@ -115,7 +118,7 @@ static void select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_
     }
 }
 
-static void box_bound(seeker *s, box *b)
+static void box_bound(seeker *s, seek_box *b)
 {
     for (int axis = 0; axis < 2; axis++) {
         b->low[axis] = INFINITY;
@@ -133,7 +136,7 @@ static void seeker_build(seeker *s, uint32_t vertex_count)
     s->node[0].begin = 0;
     s->node[0].end = vertex_count;
     for (uint32_t i = 0; i < s->node_count; i++) {
-        box *b = &s->node[i];
+        seek_box *b = &s->node[i];
         box_bound(s, b);
         if (i >= s->first_leaf) continue;
         uint32_t middle = b->begin + (b->end - b->begin) / 2;
@@ -170,16 +173,16 @@ static bool seeker_prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_co
 
 /* --- a heap, the nearest first --- */
 
-static void seeker_push(seeker *s, item it)
+static void seeker_push(seeker *s, seek_item it)
 {
     uint32_t i = s->heap_count++;
     for (; i > 0 && s->heap[(i - 1) / 2].square > it.square; i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
     s->heap[i] = it;
 }
 
-static item seeker_pop(seeker *s)
+static seek_item seeker_pop(seeker *s)
 {
-    item top = s->heap[0], last = s->heap[--s->heap_count];
+    seek_item top = s->heap[0], last = s->heap[--s->heap_count];
     uint32_t i = 0;
     for (uint32_t child = 1; child < s->heap_count; child = 2 * i + 1) {
         if (child + 1 < s->heap_count && s->heap[child + 1].square < s->heap[child].square) child++;
@@ -193,7 +196,7 @@ static item seeker_pop(seeker *s)
 
 /* --- dead directions: arcs within -pi..pi; one that goes beyond is cut there; 4 and -4 stand for no end --- */
 
-static void add_arc(arcs *a, double from, double to)
+static void add_arc(dead_arcs *a, double from, double to)
 {
     for (uint32_t i = 0; i < a->count;)
         if (a->arc[i].from < to && from < a->arc[i].to) {
@@ -208,7 +211,7 @@ static void add_arc(arcs *a, double from, double to)
     a->arc[a->count++].to = to;
 }
 
-static void make_dead(arcs *a, double from, double to)
+static void make_dead(dead_arcs *a, double from, double to)
 {
     from += ANGLE_MARGIN;
     to -= ANGLE_MARGIN;
@@ -223,7 +226,7 @@ static void make_dead(arcs *a, double from, double to)
     }
 }
 
-static bool arcs_cover(const arcs *a, double from, double to)
+static bool arcs_cover(const dead_arcs *a, double from, double to)
 {
     for (uint32_t i = 0; i < a->count; i++)
         if (a->arc[i].from < from && to < a->arc[i].to) return true;
@@ -237,7 +240,8 @@ static bool all_dead(const seeker *s, double from, double to)
     return all_dead(s, from, PI) && all_dead(s, -PI, to);
 }
 
-/* The points at less than the square of a distance, divided by 2 cos a, make their directions dead from there on. */
+/* The points at less than the square of a distance, divided by 2 cos a, make their directions dead
+ * from there on. */
 static void seeker_activate(seeker *s, double square)
 {
     for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch + TINY < square; s->active++) {
@@ -247,8 +251,9 @@ static void seeker_activate(seeker *s, double square)
     }
 }
 
-/* Do all directions from p to the box lie between dead ones? Its outermost corners, seen from p, tell. */
-static bool is_hidden(const seeker *s, mw_point p, const box *b)
+/* Do all directions from p to the box lie between dead ones? Its outermost corners, seen from p,
+ * tell. */
+static bool is_hidden(const seeker *s, mw_point p, const seek_box *b)
 {
     double x0 = b->low[0] - p.x, x1 = b->high[0] - p.x, y0 = b->low[1] - p.y, y1 = b->high[1] - p.y;
     mw_point right, left;
@@ -272,7 +277,7 @@ static bool is_hidden(const seeker *s, mw_point p, const box *b)
 
 /* --- from one vertex --- */
 
-static double box_square(const box *b, mw_point p)
+static double box_square(const seek_box *b, mw_point p)
 {
     double dx = fmax(0, fmax(b->low[0] - p.x, p.x - b->high[0]));
     double dy = fmax(0, fmax(b->low[1] - p.y, p.y - b->high[1]));
@@ -282,26 +287,28 @@ static double box_square(const box *b, mw_point p)
 static void open_box(seeker *s, uint32_t p, uint32_t number)
 {
     mw_point at = s->points->scaled[p];
-    const box *b = &s->node[number];
+    const seek_box *b = &s->node[number];
     if (is_hidden(s, at, b)) return;
     for (uint32_t child = 2 * number + 1; number < s->first_leaf && child <= 2 * number + 2; child++) {
         double square = box_square(&s->node[child], at);
-        if (square <= s->node[child].reach) seeker_push(s, (item){square, child, true});
+        if (square <= s->node[child].reach) seeker_push(s, (seek_item){square, child, true});
     }
     for (uint32_t i = b->begin; number >= s->first_leaf && i < b->end; i++) {
         double square = mw__square(s->points, p, s->order[i]);
-        if (s->order[i] != p && square <= s->reach[s->order[i]]) seeker_push(s, (item){square, s->order[i], false});
+        if (s->order[i] != p && square <= s->reach[s->order[i]])
+            seeker_push(s, (seek_item){square, s->order[i], false});
     }
 }
 
 /* Is b, another point than a and c, on the way from a to c? Exact. */
-static bool vertex_is_between(mw_point a, mw_point b, mw_point c)
+static bool diamond_point_is_between(mw_point a, mw_point b, mw_point c)
 {
     return fmin(a.x, c.x) <= b.x && b.x <= fmax(a.x, c.x) && fmin(a.y, c.y) <= b.y && b.y <= fmax(a.y, c.y) &&
            mw__orient2d(a, b, c) == 0;
 }
 
-/* Is a point near by on the way from p to q, or do such points lie surely in both triangles of that edge? */
+/* Is a point near by on the way from p to q, or do such points lie surely in both triangles of that
+ * edge? */
 static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, double square)
 {
     const mw_point *point = s->points->point;
@@ -310,7 +317,7 @@ static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, d
         mw_point w = s->nearest[i];
         double a = u.x * w.y, b = u.y * w.x, height = fabs(a - b), along = u.x * w.x + u.y * w.y;
         if (height <= LENGTH_MARGIN * (fabs(a) + fabs(b)) + TINY) {
-            if (along > 0 && vertex_is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
+            if (along > 0 && diamond_point_is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
             continue;
         }
         bool inside = height < s->tangent * along && height < s->tangent * (square - along - LENGTH_MARGIN * square);
@@ -320,23 +327,25 @@ static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, d
     return left && right;
 }
 
-/* Is u the way from p to q, but for what rounding did to its last bits? Where the coordinates of all points span more
- * than doubles can once they are scaled, it need not be: points that differ may even come to the same place. */
+/* Is u the way from p to q, but for what rounding did to its last bits? Where the coordinates of
+ * all points span more than doubles can once they are scaled, it need not be: points that differ
+ * may even become equal. */
 static bool is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u)
 {
     mw_point from = s->points->point[p], to = s->points->point[q];
     return (fabs(u.x) >= SHARP || from.x == to.x) && (fabs(u.y) >= SHARP || from.y == to.y);
 }
 
-/* Visit a point; is the edge to it a candidate? One that is not sharp may be, and rules out nothing. */
-static bool seeker_visit(seeker *s, uint32_t p, item it)
+/* Visit a point; is the edge to it a candidate? One that is not sharp may be, and rules out
+ * nothing. */
+static bool seeker_visit(seeker *s, uint32_t p, seek_item it)
 {
     mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};
     double angle = atan2(u.y, u.x);
     bool sharp = is_sharp(s, p, it.number, u);
     bool candidate = !all_dead(s, angle, angle) && !(sharp && diamond_fails(s, p, it.number, u, it.square));
     if (!sharp) return candidate;
-    s->seen[s->seen_count++] = (seen){it.square, angle};
+    s->seen[s->seen_count++] = (seen_point){it.square, angle};
     if (s->nearest_count < NEAREST) {
         s->nearest_number[s->nearest_count] = it.number;
         s->nearest[s->nearest_count++] = u;
@@ -350,11 +359,11 @@ static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort
     size_t before = list->count;
     s->heap_count = s->seen_count = s->active = s->nearest_count = 0;
     s->left.count = s->right.count = 0;
-    seeker_push(s, (item){0, 0, true});
+    seeker_push(s, (seek_item){0, 0, true});
     while (s->heap_count > 0) {
         if (effort->steps < STEPS_PER_VISIT) return MW_LMT_SPENT;
         effort->steps -= STEPS_PER_VISIT;
-        item it = seeker_pop(s);
+        seek_item it = seeker_pop(s);
         seeker_activate(s, it.square);
         if (all_dead(s, -PI, PI)) {
             s->reach[p] = it.square;
@@ -377,7 +386,7 @@ static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort
 static void spread_reach(seeker *s)
 {
     for (uint32_t i = s->node_count; i-- > 0;) {
-        box *b = &s->node[i];
+        seek_box *b = &s->node[i];
         b->reach = 0;
         if (i < s->first_leaf)
             b->reach = fmax(s->node[2 * i + 1].reach, s->node[2 * i + 2].reach);

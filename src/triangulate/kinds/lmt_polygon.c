@@ -1,12 +1,15 @@
-/* lmt_polygon.c - triangulation of a polygon with chords of least total length [Gilbert 1979; Klincsek 1980].
+/* lmt_polygon.c - triangulation of a polygon with chords of least total length [Gilbert 1979;
+ * Klincsek 1980].
  *
- * Corners are numbered along the border, which may touch itself: then one vertex is several corners, and a chord is
- * told by its corners. The inside of the polygon is a disc all the same, and three chords, or pieces of the border,
- * between three corners are the sides of a triangle in it. The least weight beyond a chord ij is found from those
- * beyond im and mj, least over m. Only given chords count; with all that a polygon can have, the time is cubic.
+ * Corners are numbered along the border, which may touch itself: then one vertex is several
+ * corners, and a chord is told by its corners. The inside of the polygon is a disc all the same,
+ * and three chords, or pieces of the border, between three corners are the sides of a triangle in
+ * it. The least weight beyond a chord ij is found from those beyond im and mj, least over m. Only
+ * given chords count; with all that a polygon can have, the time is cubic.
  *
- * Chords are taken by falling i, then rising j: so im, and mj, come before ij. What is known of the chords from i
- * stands in a row by m; that of the chords to j in a list that grows with falling m. */
+ * Chords are taken by falling i, then rising j: so im, and mj, come before ij. What is known of the
+ * chords from i stands in a row by m; that of the chords to j in a list that grows with falling
+ * m. */
 #include "triangulate/kinds/lmt.h"
 
 #include <math.h>
@@ -127,7 +130,8 @@ static uint32_t chord_apex(const chord_table *t, uint32_t i, uint32_t j)
     return list[below].apex;
 }
 
-/* Chords still to be opened are kept in the room of the corners not yet written: there are never more of them. */
+/* Chords still to be opened are kept in the room of the corners not yet written: there are never
+ * more of them. */
 static void table_collect(const chord_table *t, uint32_t *corners)
 {
     size_t written = 0, open = 3 * ((size_t)t->corner_count - 2);

@@ -1,4 +1,5 @@
-/* lmt_skeleton.c - the LMT skeleton: candidate edges that cannot be locally minimal are removed, until none is left.
+/* lmt_skeleton.c - the LMT skeleton: candidate edges that cannot be locally minimal are removed,
+ * until none is left.
  *
  *          l               In a triangulation of least weight each inner edge ab is the diagonal of two empty triangles abl
  *        / | \             and bar, and where these make a strictly convex quadrilateral it is no longer than the other
@@ -6,8 +7,9 @@
  *        \ | /             triangulation of least weight, and is removed; which may leave others without triangles. An
  *          r               edge that no remaining one crosses is in all of them [Dickerson, Keil, Montague 1997].
  *
- * A triangle is taken for empty if none of the candidate edges from one of its corners ends in it; that one inside may
- * be overlooked keeps edges, and removes none. So does every other limit here. */
+ * A triangle is taken for empty if none of the candidate edges from one of its corners ends in it;
+ * that one inside may be overlooked keeps edges, and removes none. So does every other limit
+ * here. */
 #include "triangulate/kinds/lmt.h"
 
 #include <math.h>
@@ -59,7 +61,8 @@ static int by_angle(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Is direction vp before direction vq, counter-clockwise from the direction to the left on? Exact. */
+/* Is direction vp before direction vq, counter-clockwise from the direction to the left on?
+ * Exact. */
 static bool neighbour_is_before(const mw_lmt *lmt, uint32_t v, uint32_t p, uint32_t q)
 {
     const mw_point *point = lmt->points->point;
@@ -86,7 +89,7 @@ static void sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
             lmt->ring[begin + j] = lmt->ring[begin + j - 1];
         lmt->ring[begin + j] = half;
     }
-    for (uint32_t i = begin; i < begin + n; i++) lmt->place[lmt->ring[i]] = i;
+    for (uint32_t i = begin; i < begin + n; i++) lmt->ring_index[lmt->ring[i]] = i;
 }
 
 static bool sort_rings(mw_lmt *lmt)
@@ -109,11 +112,11 @@ mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge
     uint32_t n = points->count;
     lmt->from = mw__alloc(list->count, 2 * sizeof *lmt->from);
     lmt->ring = mw__alloc(list->count, 2 * sizeof *lmt->ring);
-    lmt->place = mw__alloc(list->count, 2 * sizeof *lmt->place);
+    lmt->ring_index = mw__alloc(list->count, 2 * sizeof *lmt->ring_index);
     lmt->first = mw__calloc((size_t)n + 1, sizeof *lmt->first);
     lmt->state = mw__calloc(list->count, sizeof *lmt->state);
     lmt->queue = mw__alloc(list->count, sizeof *lmt->queue);
-    if (!lmt->from || !lmt->ring || !lmt->place || !lmt->first || !lmt->state || !lmt->queue) return MW_LMT_MEMORY;
+    if (!lmt->from || !lmt->ring || !lmt->ring_index || !lmt->first || !lmt->state || !lmt->queue) return MW_LMT_MEMORY;
     for (uint32_t e = 0; e < lmt->edge_count; e++) {
         lmt->from[2 * e] = mw__edge_low(list->key[e]);
         lmt->from[2 * e + 1] = mw__edge_high(list->key[e]);
@@ -130,7 +133,7 @@ void mw__lmt_release(mw_lmt *lmt)
     free(lmt->from);
     free(lmt->first);
     free(lmt->ring);
-    free(lmt->place);
+    free(lmt->ring_index);
     free(lmt->state);
     free(lmt->queue);
     *lmt = (mw_lmt){0};
@@ -153,8 +156,9 @@ static uint32_t edge_find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *s
     return MW_NONE;
 }
 
-/* The triangles on the left of a half-edge a->b: turn round a, away from b. Of the ends of edges met so, one lies in
- * the triangle abl just if, seen from b, it is nearer to a than l is. So l is the nearest to a of all before it. */
+/* The triangles on the left of a half-edge a->b: turn round a, away from b. Of the ends of edges
+ * met so, one lies in the triangle abl just if, seen from b, it is nearer to a than l is. So l is
+ * the nearest to a of all before it. */
 static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_t *steps)
 {
     bool left = true;
@@ -163,7 +167,7 @@ static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_
         left = false;
     }
     uint32_t a = lmt->from[half], b = half_target(lmt, half), nearest = MW_NONE;
-    uint32_t begin = lmt->first[a], end = lmt->first[a + 1], i = lmt->place[half];
+    uint32_t begin = lmt->first[a], end = lmt->first[a + 1], i = lmt->ring_index[half];
     found->count = 0;
     found->overflow = false;
     for (uint32_t turns = 1; turns < end - begin; turns++) {

@@ -1,13 +1,16 @@
-/* min_max_angle.c - the triangulation with the smallest largest angle [Edelsbrunner, Tan, Waupotitsch 1992].
+/* min_max_angle.c - the triangulation with the smallest largest angle [Edelsbrunner, Tan,
+ * Waupotitsch 1992].
  *
- * The triangle with the largest angle is replaced by edge insertion (edge_insertion.c) until that fails: then no
- * triangulation has a smaller largest angle. The triangle is now fixed, and the same is done with the others, by falling
- * angles. Each success takes an angle from the list of the triangles' largest angles and adds only smaller ones, so this
- * ends. Whatever triangulation has the fixed angles and then smaller ones has the fixed triangles, if no two angles
- * between points are equal: then the sorted list that results is the least of all, compared as words are.
+ * The triangle with the largest angle is replaced by edge insertion (edge_insertion.c) until that
+ * fails: then no triangulation has a smaller largest angle. The triangle is now fixed, and the same
+ * is done with the others, by falling angles. Each success takes an angle from the list of the
+ * triangles' largest angles and adds only smaller ones, so this ends. Whatever triangulation has
+ * the fixed angles and then smaller ones has the fixed triangles, if no two angles between points
+ * are equal: then the sorted list that results is the least of all, compared as words are.
  *
- * At the end no triangle is fixed any more, and single edges are exchanged until that makes no largest angle of two
- * triangles smaller: where angles are equal, or the work was limited, that may be a little left to do. */
+ * At the end no triangle is fixed any more, and single edges are exchanged until that makes no
+ * largest angle of two triangles smaller: where angles are equal, or the work was limited, that may
+ * be a little left to do. */
 #include "triangulate/kinds/min_max_angle.h"
 
 #include "triangulate/kinds/edge_insertion.h"
@@ -17,16 +20,17 @@
 /* Work of all insertions, unless a limit is set: about half a minute. */
 #define MOST_WORK UINT64_C(500000000)
 
-/* Sights of one insertion, unless a limit is set: as many for each triangle, and so many more that 700 points never
- * reach it: each triangle is seen at most once in each of the gaps that n vertices leave, which makes 2 n (n + 1). */
+/* Sights of one insertion, unless a limit is set: as many for each triangle, and so many more that
+ * 700 points never reach it: each triangle is seen at most once in each of the gaps that n vertices
+ * leave, which makes 2 n (n + 1). */
 #define SIGHTS_PER_TRIANGLE 4
 #define MORE_SIGHTS ((size_t)1 << 20)
 
 /* The heap is made anew when this many of its entries for each triangle may be out of date. */
 #define ENTRIES_PER_TRIANGLE 3
 
-/* A triangle as it was when it was put on the heap, by its corners p, q, r with the largest angle at q: it may have been
- * replaced since. */
+/* A triangle as it was when it was put on the heap, by its corners p, q, r with the largest angle
+ * at q: it may have been replaced since. */
 typedef struct entry {
     uint32_t p, q, r, triangle;
 } entry;
@@ -112,7 +116,8 @@ typedef struct improvement {
     heap heap;
 } improvement;
 
-/* Triangles whose neighbour has changed may be worth another try: where only one edge is exchanged. */
+/* Triangles whose neighbour has changed may be worth another try: where only one edge is
+ * exchanged. */
 static bool push_again(improvement *m, uint32_t t)
 {
     mw_triangle *tri = m->t->tri;
@@ -135,7 +140,8 @@ static bool push_made(improvement *m)
     return true;
 }
 
-/* Put all free triangles on the heap, and nothing else: those that are on it already, less what is out of date. */
+/* Put all free triangles on the heap, and nothing else: those that are on it already, less what is
+ * out of date. */
 static bool improvement_fill(improvement *m)
 {
     m->heap.count = 0;
@@ -150,8 +156,8 @@ static bool add_made(improvement *m)
     return m->heap.count / (ENTRIES_PER_TRIANGLE + 1) < m->t->tri_count || improvement_fill(m);
 }
 
-/* Improve by edges that cross at most `reach` others, until nothing is left to try or a limit is reached. *proved: an
- * attempt has failed. */
+/* Improve by edges that cross at most `reach` others, until nothing is left to try or a limit is
+ * reached. *proved: an attempt has failed. */
 static mw_status improvement_run(improvement *m, uint32_t reach, mw_angle_limits limits, bool *proved)
 {
     mw_triangle *tri = m->t->tri;

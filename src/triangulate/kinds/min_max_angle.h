@@ -10,8 +10,8 @@ typedef struct mw_angle_limits {
     size_t most_seen;
 } mw_angle_limits;
 
-/* Seek the smallest largest angle until a limit is reached; then, or after that, the local optimum. No work: that only.
- * *proved: the largest angle is the smallest that there is. MW_ERROR_MEMORY. */
+/* Seek the smallest largest angle until a limit is reached; then, or after that, the local optimum.
+ * No work: that only. *proved: the largest angle is the smallest that there is. MW_ERROR_MEMORY. */
 mw_status mw__min_max_angle_within(mw_triangulation *t, mw_angle_limits limits, bool *proved);
 
 #endif

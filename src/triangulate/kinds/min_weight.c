@@ -1,17 +1,20 @@
-/* min_weight.c - triangulation of least weight: the LMT skeleton [Dickerson, Keil, Montague 1997], then the faces it
- * leaves.
+/* min_weight.c - triangulation of least weight: the LMT skeleton [Dickerson, Keil, Montague 1997],
+ * then the faces it leaves.
  *
- * Everything hangs on one triangulation T. It is the greedy triangulation, made locally minimal: each edge that is the
- * longer diagonal of a strictly convex quadrilateral is exchanged for the other. The candidates are the edges with the
- * diamond property and those of T. An edge of T is never removed from them: its two triangles in T keep it, and their
- * sides keep each other. So a candidate that no other one crosses is in T, and the skeleton is what is left of T when
- * each candidate that is not in it has walked through T from one end to the other and marked the edges that it crosses.
+ * Everything hangs on one triangulation T. It is the greedy triangulation, made locally minimal:
+ * each edge that is the longer diagonal of a strictly convex quadrilateral is exchanged for the
+ * other. The candidates are the edges with the diamond property and those of T. An edge of T is
+ * never removed from them: its two triangles in T keep it, and their sides keep each other. So a
+ * candidate that no other one crosses is in T, and the skeleton is what is left of T when each
+ * candidate that is not in it has walked through T from one end to the other and marked the edges
+ * that it crosses.
  *
- * A face is then a set of triangles of T, joined across marked edges. Where these edges join them to a tree, the face
- * is a polygon (its border may touch itself, as where an edge of the skeleton ends inside), all candidates that cross
- * it are known, with the corners where they begin and end, and dynamic programming finds its least weight. Where they
- * make rings, the face holds vertices or parts of the skeleton. It is cut open along as many edges of T as there are
- * rings: the same gives the least weight with these edges, which is a local optimum. Faces that are too large stay as
+ * A face is then a set of triangles of T, joined across marked edges. Where these edges join them
+ * to a tree, the face is a polygon (its border may touch itself, as where an edge of the skeleton
+ * ends inside), all candidates that cross it are known, with the corners where they begin and end,
+ * and dynamic programming finds its least weight. Where they make rings, the face holds vertices or
+ * parts of the skeleton. It is cut open along as many edges of T as there are rings: the same gives
+ * the least weight with these edges, which is a local optimum. Faces that are too large stay as
  * they are in T. */
 #include "mesh/connect.h"
 #include "triangulate/kinds/kind_maker.h"
@@ -20,7 +23,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What may be spent, for some seconds each: on finding candidates, on reducing them and on their walks; on faces. */
+/* What may be spent, for some seconds each: on finding candidates, on reducing them and on their
+ * walks; on faces. */
 #define STEPS_AT_LEAST (UINT64_C(1) << 29)
 #define STEPS_PER_POINT 5000
 #define CANDIDATES_AT_LEAST (UINT64_C(1) << 21)
@@ -28,11 +32,12 @@
 #define FACE_STEPS (UINT64_C(1) << 32)
 #define LIMIT_THAT_COUNTS (UINT32_C(1) << 20) /* the cube of more would not be a number of steps */
 
-/* A candidate that is not in T: where it leaves the first triangle and comes to the last, as triangle and corner. */
-typedef struct crossing {
+/* A candidate that is not in T: where it leaves the first triangle and comes to the last, as
+ * triangle and corner. */
+typedef struct weigher_crossing {
     uint32_t from, to;
     uint32_t next; /* of those with the same first triangle, or MW_NONE */
-} crossing;
+} weigher_crossing;
 
 typedef struct weigher {
     mw_triangulation *t;
@@ -43,7 +48,7 @@ typedef struct weigher {
     uint32_t *list; /* triangles: a stack, later those of a face                           */
     mw_edge_list edges;
     mw_lmt lmt;
-    crossing *crossing;
+    weigher_crossing *crossing;
     uint32_t *chain;  /* per triangle: the first of the crossings that leave it            */
     bool *seen;       /* per triangle: its face has been found                             */
     uint32_t *corner; /* at 3 * triangle + vertex: the number of the corner in its face    */
@@ -57,7 +62,7 @@ static mw_triangle *triangle_of(const weigher *w, uint32_t link)
     return &w->t->tri[mw__link_triangle(link)];
 }
 
-static double weigher_side(const weigher *w, uint32_t a, uint32_t b, uint32_t c)
+static double weigher_vertex_side(const weigher *w, uint32_t a, uint32_t b, uint32_t c)
 {
     return mw__orient2d(w->t->point[a], w->t->point[b], w->t->point[c]);
 }
@@ -79,8 +84,8 @@ static void set_mark(const weigher *w, uint32_t half)
 
 /* --- locally minimal --- */
 
-/* Exchange the edge `half` for the other diagonal. The new triangles have their edges where they were, so that the four
- * around are edges 1 and 2 of one and of the other. */
+/* Exchange the edge `half` for the other diagonal. The new triangles have their edges where they
+ * were, so that the four around are edges 1 and 2 of one and of the other. */
 static void half_exchange(const weigher *w, uint32_t half)
 {
     uint32_t twin = mw__half_link(w->t->tri, half), a = mw__half_start(w->t->tri, half),
@@ -104,7 +109,7 @@ static bool is_too_long(const weigher *w, uint32_t half)
     uint32_t a = mw__half_start(w->t->tri, half), b = mw__half_start(w->t->tri, twin);
     uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)), q = mw__half_start(w->t->tri, mw__half_prev(twin));
     return mw__surely_longer(mw__square(&w->points, a, b), mw__square(&w->points, p, q)) &&
-           weigher_side(w, p, a, q) > 0 && weigher_side(w, q, b, p) > 0;
+           weigher_vertex_side(w, p, a, q) > 0 && weigher_vertex_side(w, q, b, p) > 0;
 }
 
 enum { ALL_EDGES = 7, OUTER_EDGES = 6, ON_STACK = 8 };
@@ -144,7 +149,8 @@ static void index_vertices(weigher *w)
 
 /* --- candidates and their walks --- */
 
-/* The half-edge from u in the triangle that the way to v leaves through; MW_NONE if it leaves along an edge. */
+/* The half-edge from u in the triangle that the way to v leaves through; MW_NONE if it leaves along
+ * an edge. */
 static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *steps)
 {
     uint32_t t = w->at[u], k = 0;
@@ -153,8 +159,8 @@ static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *step
     bool clockwise = false;
     do {
         ++*steps;
-        if (weigher_side(w, u, mw__half_start(w->t->tri, mw__half_next(half)), v) > 0 &&
-            weigher_side(w, u, mw__half_start(w->t->tri, mw__half_prev(half)), v) < 0)
+        if (weigher_vertex_side(w, u, mw__half_start(w->t->tri, mw__half_next(half)), v) > 0 &&
+            weigher_vertex_side(w, u, mw__half_start(w->t->tri, mw__half_prev(half)), v) < 0)
             return half;
         uint32_t beyond = clockwise ? mw__half_link(w->t->tri, half) : mw__half_link(w->t->tri, mw__half_prev(half));
         if (beyond == MW_NONE && !clockwise) { /* the hull: turn the other way from the beginning */
@@ -169,7 +175,7 @@ static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *step
 }
 
 /* Walk through T from u to v, no neighbour of it; false if there is a point on the way. */
-static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking, crossing *way, uint64_t *steps)
+static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking, weigher_crossing *way, uint64_t *steps)
 {
     uint32_t half = way_out(w, u, v, steps);
     if (half == MW_NONE) return false;
@@ -184,7 +190,7 @@ static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking,
             way->to = mw__half_prev(twin);
             return true;
         }
-        double turn = weigher_side(w, u, v, apex);
+        double turn = weigher_vertex_side(w, u, v, apex);
         if (turn == 0) return false;
         half = turn > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
@@ -217,7 +223,7 @@ static bool weigher_sift(weigher *w, mw_effort *effort)
         uint64_t last = list->key[i], edge = last | MW_EDGE_KNOWN, steps = 0;
         for (next = i + 1; next < list->count && (list->key[next] | MW_EDGE_KNOWN) == edge; next++)
             last = list->key[next];
-        crossing way;
+        weigher_crossing way;
         if (last == edge ||
             (next - i == 2 && weigher_walk(w, mw__edge_low(edge), mw__edge_high(edge), false, &way, &steps)))
             list->key[kept++] = last;
@@ -253,7 +259,7 @@ static mw_lmt_result mark_crossed(weigher *w, mw_effort effort)
     count = 0;
     for (uint32_t e = 0; e < w->lmt.edge_count; e++) {
         if (w->lmt.state[e] != MW_LMT_ALIVE) continue;
-        crossing *way = &w->crossing[count];
+        weigher_crossing *way = &w->crossing[count];
         uint64_t steps = 0;
         weigher_walk(w, w->lmt.from[2 * e], w->lmt.from[2 * e + 1], true, way, &steps);
         way->next = w->chain[mw__link_triangle(way->from)];
@@ -328,18 +334,19 @@ static void cut_open(const weigher *w, skeleton_face *f)
 }
 
 /* Does a candidate cross none of the edges along which its face was cut? */
-static bool stays_inside(const weigher *w, const crossing *way)
+static bool stays_inside(const weigher *w, const weigher_crossing *way)
 {
     uint32_t u = mw__half_start(w->t->tri, way->from), v = mw__half_start(w->t->tri, way->to);
     for (uint32_t half = mw__half_next(way->from); has_mark(w, half);) {
         uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (apex == v) return true;
-        half = weigher_side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
+        half = weigher_vertex_side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
     return false;
 }
 
-/* Number the corners along the border: at each vertex, turn through the face from edge to edge of the border. */
+/* Number the corners along the border: at each vertex, turn through the face from edge to edge of
+ * the border. */
 static void number_corners(weigher *w, const skeleton_face *f)
 {
     uint32_t half = MW_NONE, number = 0;
@@ -385,7 +392,7 @@ static size_t gather_chords(const weigher *w, const skeleton_face *f, mw_chord *
                 chord[count++] = make_chord(w, corner_at(w, half), corner_at(w, mw__half_next(half)));
         }
         for (uint32_t c = w->chain[t]; c != MW_NONE; c = w->crossing[c].next) {
-            const crossing *way = &w->crossing[c];
+            const weigher_crossing *way = &w->crossing[c];
             if (!f->is_cut || stays_inside(w, way))
                 chord[count++] = make_chord(w, corner_at(w, way->from), corner_at(w, way->to));
         }

@@ -41,7 +41,8 @@ mw_status mw__make_delaunay(mw_triangulation *t, const mw_kind_options *options,
     return MW_OK;
 }
 
-/* The direction from p to another point, scaled by a power of two so that products stay among the doubles. */
+/* The direction from p to another point, scaled by a power of two so that products stay among the
+ * doubles. */
 static mw_point unit_direction(mw_point p, mw_point to)
 {
     double x = to.x - p.x, y = to.y - p.y;

@@ -1,4 +1,4 @@
-/* names.c - the table of starts. */
+/* start_names.c - the table of starts. */
 #include "start/start.h"
 
 #include <meshwalk/locate.h>

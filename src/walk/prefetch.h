@@ -1,26 +1,27 @@
-/* fetch.h - asking memory for what will be met, before it is. Private. */
-#ifndef MW_SRC_FETCH_H
-#define MW_SRC_FETCH_H
+/* prefetch.h - asking memory for what will be met, before it is. Private. */
+#ifndef MW_SRC_PREFETCH_H
+#define MW_SRC_PREFETCH_H
 
 #include "tiling/tiling.h"
 
 /* The tile beyond an edge, if there is one. */
-static MW_INLINE void mw__fetch_tile(const mw_tiling *tiling, uint32_t link)
+static MW_INLINE void mw__prefetch_tile(const mw_tiling *tiling, uint32_t link)
 {
     if (MW_LIKELY(link != MW_NONE)) __builtin_prefetch(&tiling->tri[mw__link_triangle(link)]);
 }
 
 /* The tiles across all edges: a walk enters one of them next, and while it waits for the corners of
  * this one they all come. */
-static MW_INLINE void mw__fetch_across(const mw_triangle *tri, const mw_triangle *tile)
+static MW_INLINE void mw__prefetch_across(const mw_triangle *tri, const mw_triangle *tile)
 {
     for (uint32_t k = 0; k < 3; k++) __builtin_prefetch(&tri[mw__link_triangle(tile->link[k])]);
 }
 
-/* Tiles lie along a curve as a rule, numbered by their lowest vertices, so that most of what lies round about a tile, or comes next along the curve, lies
- * near it in memory, rather behind it than before. To ask for all of that at once beats waiting for one after the other, in a mesh that caches do not
- * hold. */
-static MW_INLINE void mw__fetch_tiles_round(const mw_tiling *tiling, uint32_t t)
+/* Tiles lie along a curve as a rule, numbered by their lowest vertices, so that most of what lies
+ * round about a tile, or comes next along the curve, lies near it in memory, rather behind it than
+ * before. To ask for all of that at once beats waiting for one after the other, in a mesh that
+ * caches do not hold. */
+static MW_INLINE void mw__prefetch_tiles_round(const mw_tiling *tiling, uint32_t t)
 {
     enum { LINE = 64, BEFORE = 16, AFTER = 64 };
     uint32_t from = t < BEFORE ? 0 : t - BEFORE, end = t + AFTER;
@@ -28,7 +29,7 @@ static MW_INLINE void mw__fetch_tiles_round(const mw_tiling *tiling, uint32_t t)
     for (; from < end; from += LINE / sizeof *tiling->tri) __builtin_prefetch(&tiling->tri[from]);
 }
 
-static MW_INLINE void mw__fetch_points_round(const mw_tiling *tiling, uint32_t v)
+static MW_INLINE void mw__prefetch_points_round(const mw_tiling *tiling, uint32_t v)
 {
     enum { LINE = 64, BEFORE = 12, AFTER = 48 };
     uint32_t from = v < BEFORE ? 0 : v - BEFORE, end = v + AFTER;

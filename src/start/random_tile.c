@@ -1,4 +1,4 @@
-/* random.c - a random first tile [thesis App. E, sec. 4.1]. */
+/* random_tile.c - a random first tile [thesis App. E, sec. 4.1]. */
 #include "base/random.h"
 #include "start/start.h"
 

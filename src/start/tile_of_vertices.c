@@ -1,4 +1,4 @@
-/* vertices.c - from the vertices to the tiles: what grids and layers are made of. */
+/* tile_of_vertices.c - from the vertices to the tiles: what grids and layers are made of. */
 #include "start/start.h"
 
 uint32_t *mw__tile_of_vertices(const mw_tiling *tiling)
