@@ -1,4 +1,5 @@
-/* star_locate.c - one query: first facet, walk, exact conclusion. */
+/* star_locate.c - one query: first facet, walk, exact conclusion. This file decides ties: the
+ * lowest-numbered of the facets that the ray meets is the answer (lowest_facet). */
 #include "star/star_locate.h"
 
 #include "base/random.h"
