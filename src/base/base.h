@@ -1,6 +1,6 @@
 /* base.h - what every room uses: errors, memory, small helpers. Private. */
-#ifndef MW_SRC_BASE_H
-#define MW_SRC_BASE_H
+#ifndef MW_SRC_BASE_BASE_H
+#define MW_SRC_BASE_BASE_H
 
 #include <meshwalk/base.h>
 #include <stdbool.h>

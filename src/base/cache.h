@@ -1,6 +1,6 @@
 /* cache.h - how large the caches of the processor are. Private. */
-#ifndef MW_SRC_CACHE_H
-#define MW_SRC_CACHE_H
+#ifndef MW_SRC_BASE_CACHE_H
+#define MW_SRC_BASE_CACHE_H
 
 #include "base/base.h"
 

@@ -1,6 +1,6 @@
 /* clock.h - the time that something takes. Private. */
-#ifndef MW_SRC_CLOCK_H
-#define MW_SRC_CLOCK_H
+#ifndef MW_SRC_BASE_CLOCK_H
+#define MW_SRC_BASE_CLOCK_H
 
 #include <time.h>
 

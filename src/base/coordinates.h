@@ -1,6 +1,6 @@
 /* coordinates.h - equal coordinates of points in space, for tables of them. Private. */
-#ifndef MW_SRC_COORDINATES_H
-#define MW_SRC_COORDINATES_H
+#ifndef MW_SRC_BASE_COORDINATES_H
+#define MW_SRC_BASE_COORDINATES_H
 
 #include "base/random.h"
 

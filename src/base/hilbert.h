@@ -1,6 +1,6 @@
 /* hilbert.h - order along a Hilbert curve: keys, and a radix sort of them. Private. */
-#ifndef MW_SRC_HILBERT_H
-#define MW_SRC_HILBERT_H
+#ifndef MW_SRC_BASE_HILBERT_H
+#define MW_SRC_BASE_HILBERT_H
 
 #include "base/base.h"
 

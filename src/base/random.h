@@ -1,7 +1,7 @@
 /* random.h - small random numbers: splitmix64 [Steele, Lea, Flood 2014]; a coin for walks.
  * Private. */
-#ifndef MW_SRC_RANDOM_H
-#define MW_SRC_RANDOM_H
+#ifndef MW_SRC_BASE_RANDOM_H
+#define MW_SRC_BASE_RANDOM_H
 
 #include "base/base.h"
 

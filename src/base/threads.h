@@ -1,6 +1,6 @@
 /* threads.h - how many threads share some work. Private. */
-#ifndef MW_SRC_THREADS_H
-#define MW_SRC_THREADS_H
+#ifndef MW_SRC_BASE_THREADS_H
+#define MW_SRC_BASE_THREADS_H
 
 #include "base/base.h"
 

@@ -1,7 +1,7 @@
 /* batch.h - what batches of queries have in common: blocks, each sorted along a curve or not, and
  * chunks of a block for the threads. Private. */
-#ifndef MW_SRC_BATCH_H
-#define MW_SRC_BATCH_H
+#ifndef MW_SRC_BATCH_BATCH_H
+#define MW_SRC_BATCH_BATCH_H
 
 #include "base/hilbert.h"
 

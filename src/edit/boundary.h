@@ -4,8 +4,8 @@
  * counter-clockwise: the polygon lies to their left. The new tiles reuse the slots and numbers of
  * the old ones (the pool), lowest numbers first. The slots left over are dropped at the end of the
  * edit. */
-#ifndef MW_SRC_BOUNDARY_H
-#define MW_SRC_BOUNDARY_H
+#ifndef MW_SRC_EDIT_BOUNDARY_H
+#define MW_SRC_EDIT_BOUNDARY_H
 
 #include "edit/dynamic_tiling.h"
 

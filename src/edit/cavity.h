@@ -4,8 +4,8 @@
  * vertex sees the whole cavity [Bowyer 1981; Watson 1981]. Fixed edges bound a cavity. In a mesh
  * that is not kept Delaunay all edges do. Digging a cavity changes no tile. It records only tiles
  * on the hull that stay and get a neighbour. */
-#ifndef MW_SRC_CAVITY_H
-#define MW_SRC_CAVITY_H
+#ifndef MW_SRC_EDIT_CAVITY_H
+#define MW_SRC_EDIT_CAVITY_H
 
 #include "edit/dynamic_tiling.h"
 

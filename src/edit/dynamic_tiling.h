@@ -10,8 +10,8 @@
  *
  * Changes. operations.h lists what an edit can do. Each edit is recorded in a journal, which can
  * undo it; journal.h explains how. */
-#ifndef MW_SRC_DYNAMIC_TILING_H
-#define MW_SRC_DYNAMIC_TILING_H
+#ifndef MW_SRC_EDIT_DYNAMIC_TILING_H
+#define MW_SRC_EDIT_DYNAMIC_TILING_H
 
 #include "tiling/tiling.h"
 #include "walk/lifted.h"

@@ -2,8 +2,8 @@
  *
  * Arrays grow to twice their size, so n additions copy O(n) in all. Functions that ask for room
  * return false when there is none, and then nothing has changed. */
-#ifndef MW_SRC_DYNAMIC_TILING_MEMORY_H
-#define MW_SRC_DYNAMIC_TILING_MEMORY_H
+#ifndef MW_SRC_EDIT_DYNAMIC_TILING_MEMORY_H
+#define MW_SRC_EDIT_DYNAMIC_TILING_MEMORY_H
 
 #include "edit/dynamic_tiling.h"
 

@@ -1,6 +1,6 @@
 /* editor.h - what an editor holds. Private. */
-#ifndef MW_SRC_EDITOR_H
-#define MW_SRC_EDITOR_H
+#ifndef MW_SRC_EDIT_EDITOR_H
+#define MW_SRC_EDIT_EDITOR_H
 
 #include "edit/dynamic_tiling.h"
 #include "edit/upkeep.h"

@@ -26,8 +26,8 @@
  *
  * The journal can be skipped when it has no reader: no undo, no report and no index needs it, and
  * the edit cannot fail after it has begun to change tiles (insert.c, insert_points.c). */
-#ifndef MW_SRC_JOURNAL_H
-#define MW_SRC_JOURNAL_H
+#ifndef MW_SRC_EDIT_JOURNAL_H
+#define MW_SRC_EDIT_JOURNAL_H
 
 #include "edit/dynamic_tiling.h"
 

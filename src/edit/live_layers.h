@@ -5,8 +5,8 @@
  * with the same probability, and so on. Removing or moving a vertex removes or moves all its
  * copies. A vertex of a layer knows its slot in the layer below, and in the layer above if it has a
  * copy there. */
-#ifndef MW_SRC_LIVE_LAYERS_H
-#define MW_SRC_LIVE_LAYERS_H
+#ifndef MW_SRC_EDIT_LIVE_LAYERS_H
+#define MW_SRC_EDIT_LIVE_LAYERS_H
 
 #include "edit/dynamic_tiling.h"
 #include "start/layers.h"

@@ -2,8 +2,8 @@
  *
  * They return MW_ERROR_INPUT, MW_ERROR_LIMIT or MW_ERROR_MEMORY; the caller then rolls the edit
  * back. Vertices are slots. */
-#ifndef MW_SRC_OPERATIONS_H
-#define MW_SRC_OPERATIONS_H
+#ifndef MW_SRC_EDIT_OPERATIONS_H
+#define MW_SRC_EDIT_OPERATIONS_H
 
 #include "edit/dynamic_tiling.h"
 

@@ -3,8 +3,8 @@
  *
  * Functions that may need memory return false when there is none. The caller then rolls the edit
  * back, even if a change is half done. */
-#ifndef MW_SRC_TILE_LINKS_H
-#define MW_SRC_TILE_LINKS_H
+#ifndef MW_SRC_EDIT_TILE_LINKS_H
+#define MW_SRC_EDIT_TILE_LINKS_H
 
 #include "edit/dynamic_tiling_memory.h"
 

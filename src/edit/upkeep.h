@@ -21,8 +21,8 @@
  * outside their extent; layers, when one has half or twice its expected number of vertices. That is
  * O(1) for each edit. When memory is short, the old ones stay, and layers that cannot follow are
  * dropped. No answer depends on any of this. */
-#ifndef MW_SRC_UPKEEP_H
-#define MW_SRC_UPKEEP_H
+#ifndef MW_SRC_EDIT_UPKEEP_H
+#define MW_SRC_EDIT_UPKEEP_H
 
 #include "edit/dynamic_tiling.h"
 #include "edit/live_layers.h"

@@ -1,6 +1,6 @@
 /* vertex_star.h - the tiles and edges round a vertex. Private. */
-#ifndef MW_SRC_VERTEX_STAR_H
-#define MW_SRC_VERTEX_STAR_H
+#ifndef MW_SRC_EDIT_VERTEX_STAR_H
+#define MW_SRC_EDIT_VERTEX_STAR_H
 
 #include "edit/dynamic_tiling.h"
 

@@ -1,8 +1,8 @@
 /* batch_profile.h - what the queries of a batch have in common: how much of the mesh they touch,
  * and whether they come in a good order already. For choices on which no answer depends.
  * Private. */
-#ifndef MW_SRC_BATCH_PROFILE_H
-#define MW_SRC_BATCH_PROFILE_H
+#ifndef MW_SRC_LOCATE_BATCH_PROFILE_H
+#define MW_SRC_LOCATE_BATCH_PROFILE_H
 
 #include "base/cache.h"
 #include "locate/locator.h"

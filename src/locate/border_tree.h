@@ -1,7 +1,7 @@
 /* border_tree.h - the nearest border edge: a packed R-tree over the edges that have the mesh on one
  * side only. Private. */
-#ifndef MW_SRC_BORDER_TREE_H
-#define MW_SRC_BORDER_TREE_H
+#ifndef MW_SRC_LOCATE_BORDER_TREE_H
+#define MW_SRC_LOCATE_BORDER_TREE_H
 
 #include "tiling/box_tree.h"
 #include "tiling/tiling.h"

@@ -1,6 +1,6 @@
 /* components.h - walks in tilings without ghosts, of several connected components. Private. */
-#ifndef MW_SRC_COMPONENTS_H
-#define MW_SRC_COMPONENTS_H
+#ifndef MW_SRC_LOCATE_COMPONENTS_H
+#define MW_SRC_LOCATE_COMPONENTS_H
 
 #include "locate/locator.h"
 

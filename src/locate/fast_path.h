@@ -6,8 +6,8 @@
  * (interleaved.c). Their last areas are the weights, so that the answer is written at once. All
  * else - q on an edge or nearly so, thin tiles, ways that are long - goes on by the walk of the
  * cursor, from the tile where it is met, and by the exact conclusion. */
-#ifndef MW_SRC_FAST_PATH_H
-#define MW_SRC_FAST_PATH_H
+#ifndef MW_SRC_LOCATE_FAST_PATH_H
+#define MW_SRC_LOCATE_FAST_PATH_H
 
 #include "locate/location.h"
 #include "walk/remembering_fast.h"

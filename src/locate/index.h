@@ -1,6 +1,6 @@
 /* index.h - what a start has built beside the mesh. Private. */
-#ifndef MW_SRC_INDEX_H
-#define MW_SRC_INDEX_H
+#ifndef MW_SRC_LOCATE_INDEX_H
+#define MW_SRC_LOCATE_INDEX_H
 
 #include "start/curve.h"
 #include "start/grid.h"

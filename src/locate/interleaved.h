@@ -1,6 +1,6 @@
 /* interleaved.h - a batch on the fast path: many walks, four to a vector, in turn. Private. */
-#ifndef MW_SRC_INTERLEAVED_H
-#define MW_SRC_INTERLEAVED_H
+#ifndef MW_SRC_LOCATE_INTERLEAVED_H
+#define MW_SRC_LOCATE_INTERLEAVED_H
 
 #include "batch/batch.h"
 #include "locate/locator.h"

@@ -1,6 +1,6 @@
 /* location.h - what an answer is, and how it is written. Private. */
-#ifndef MW_SRC_LOCATION_H
-#define MW_SRC_LOCATION_H
+#ifndef MW_SRC_LOCATE_LOCATION_H
+#define MW_SRC_LOCATE_LOCATION_H
 
 #include "mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 /* locator.h - what a locator holds, and which of its tiles are near a query. Private. */
-#ifndef MW_SRC_LOCATOR_H
-#define MW_SRC_LOCATOR_H
+#ifndef MW_SRC_LOCATE_LOCATOR_H
+#define MW_SRC_LOCATE_LOCATOR_H
 
 #include "tiling/tiling.h"
 #include "locate/border_tree.h"

@@ -1,6 +1,6 @@
 /* query.h - the steps of a query that the single and the batch query share. Private. */
-#ifndef MW_SRC_QUERY_H
-#define MW_SRC_QUERY_H
+#ifndef MW_SRC_LOCATE_QUERY_H
+#define MW_SRC_LOCATE_QUERY_H
 
 #include "locate/locator.h"
 

@@ -1,7 +1,7 @@
 /* array_defects.h - the defects that make arrays unusable, in the plane or in space: vertex numbers
  * out of range, repeated and non-finite vertices, edges of more than two triangles. Private. */
-#ifndef MW_SRC_ARRAY_DEFECTS_H
-#define MW_SRC_ARRAY_DEFECTS_H
+#ifndef MW_SRC_MESH_ARRAY_DEFECTS_H
+#define MW_SRC_MESH_ARRAY_DEFECTS_H
 
 #include "mesh/defect.h"
 #include "mesh/mesh.h"

@@ -1,6 +1,6 @@
 /* arrays.h - the caller's arrays: whether they can be used, and their triangles. Private. */
-#ifndef MW_SRC_ARRAYS_H
-#define MW_SRC_ARRAYS_H
+#ifndef MW_SRC_MESH_ARRAYS_H
+#define MW_SRC_MESH_ARRAYS_H
 
 #include "mesh/mesh.h"
 

@@ -3,8 +3,8 @@
  *
  * The sizes of the buckets are not known beforehand. So a bucket is a list of blocks, taken when
  * they are needed, and the arrays are read only once. */
-#ifndef MW_SRC_BUCKETS_H
-#define MW_SRC_BUCKETS_H
+#ifndef MW_SRC_MESH_BUCKETS_H
+#define MW_SRC_MESH_BUCKETS_H
 
 #include "mesh/mesh.h"
 

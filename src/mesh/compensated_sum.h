@@ -1,6 +1,6 @@
 /* compensated_sum.h - sums of many doubles with little rounding error. Private. */
-#ifndef MW_SRC_COMPENSATED_SUM_H
-#define MW_SRC_COMPENSATED_SUM_H
+#ifndef MW_SRC_MESH_COMPENSATED_SUM_H
+#define MW_SRC_MESH_COMPENSATED_SUM_H
 
 #include "base/base.h"
 

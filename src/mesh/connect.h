@@ -1,6 +1,6 @@
 /* connect.h - triangles become neighbours. Private. */
-#ifndef MW_SRC_CONNECT_H
-#define MW_SRC_CONNECT_H
+#ifndef MW_SRC_MESH_CONNECT_H
+#define MW_SRC_MESH_CONNECT_H
 
 #include "mesh/match.h"
 

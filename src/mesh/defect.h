@@ -1,6 +1,6 @@
 /* defect.h - a growing list of defects. Private. */
-#ifndef MW_SRC_DEFECT_H
-#define MW_SRC_DEFECT_H
+#ifndef MW_SRC_MESH_DEFECT_H
+#define MW_SRC_MESH_DEFECT_H
 
 #include "base/base.h"
 

@@ -4,8 +4,8 @@
  * Walks and connectivity go from a triangle to its neighbours. Each step costs a cache miss where
  * neighbours lie far apart in memory. So vertices get slots along the curve, and triangles get
  * slots by their lowest vertex. Users never see slots: the mesh keeps the user's numbers. */
-#ifndef MW_SRC_LAYOUT_H
-#define MW_SRC_LAYOUT_H
+#ifndef MW_SRC_MESH_LAYOUT_H
+#define MW_SRC_MESH_LAYOUT_H
 
 #include "mesh/match.h"
 

@@ -1,6 +1,6 @@
 /* match.h - joins the half-edges of an edge, at its lower vertex. Private. */
-#ifndef MW_SRC_MATCH_H
-#define MW_SRC_MATCH_H
+#ifndef MW_SRC_MESH_MATCH_H
+#define MW_SRC_MESH_MATCH_H
 
 #include "mesh/mesh.h"
 

@@ -6,8 +6,8 @@
  *           /     \         across an edge and the edge there in one number: 4 * triangle + edge;
  *          0-------1        MW_NONE where there is none. A triangle that the user gave clockwise is
  *             e0            stored with vertices 1 and 2 exchanged and marked MW_REVERSED. */
-#ifndef MW_SRC_MESH_H
-#define MW_SRC_MESH_H
+#ifndef MW_SRC_MESH_MESH_H
+#define MW_SRC_MESH_MESH_H
 
 #include "base/base.h"
 #include "predicates/predicates.h"

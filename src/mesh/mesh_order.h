@@ -1,7 +1,7 @@
 /* mesh_order.h - orders of triangles and vertices along a Hilbert curve. Private. Functions return
  * false when out of memory. */
-#ifndef MW_SRC_MESH_ORDER_H
-#define MW_SRC_MESH_ORDER_H
+#ifndef MW_SRC_MESH_MESH_ORDER_H
+#define MW_SRC_MESH_MESH_ORDER_H
 
 #include "mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 /* partition_links.h - partitions of a mesh, and the links within one. Private. */
-#ifndef MW_SRC_PARTITION_LINKS_H
-#define MW_SRC_PARTITION_LINKS_H
+#ifndef MW_SRC_MESH_PARTITION_LINKS_H
+#define MW_SRC_MESH_PARTITION_LINKS_H
 
 #include "mesh/match.h"
 

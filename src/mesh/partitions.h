@@ -1,6 +1,6 @@
 /* partitions.h - the triangles of a mesh from buckets, in order and linked. Private. */
-#ifndef MW_SRC_PARTITIONS_H
-#define MW_SRC_PARTITIONS_H
+#ifndef MW_SRC_MESH_PARTITIONS_H
+#define MW_SRC_MESH_PARTITIONS_H
 
 #include "mesh/match.h"
 #include "mesh/buckets.h"

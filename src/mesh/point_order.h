@@ -1,6 +1,6 @@
 /* point_order.h - points in order along a Hilbert curve, crowded ones too. Private. */
-#ifndef MW_SRC_POINT_ORDER_H
-#define MW_SRC_POINT_ORDER_H
+#ifndef MW_SRC_MESH_POINT_ORDER_H
+#define MW_SRC_MESH_POINT_ORDER_H
 
 #include "base/hilbert.h"
 #include "predicates/predicates.h"

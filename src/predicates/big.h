@@ -4,8 +4,8 @@
  * A set of doubles is written as integers times one power of two, 2^base, the largest that divides
  * them all. Finite doubles give integers of at most 2098 bits then, and few bits for doubles of
  * similar size. */
-#ifndef MW_SRC_BIG_H
-#define MW_SRC_BIG_H
+#ifndef MW_SRC_PREDICATES_BIG_H
+#define MW_SRC_PREDICATES_BIG_H
 
 #include "base/base.h"
 

@@ -8,8 +8,8 @@
  *
  * Results are put one after the other into an arena, an array of the caller's on the stack; each
  * function says how many doubles it may need there. */
-#ifndef MW_SRC_EXPANSION_H
-#define MW_SRC_EXPANSION_H
+#ifndef MW_SRC_PREDICATES_EXPANSION_H
+#define MW_SRC_PREDICATES_EXPANSION_H
 
 #include "predicates/predicates.h"
 

@@ -3,8 +3,8 @@
  *
  * Seen along m, everything is planar: an edge ab passes the line on one side or on the other, and
  * the line meets a triangle where it passes all its three edges on the same side. */
-#ifndef MW_SRC_LINE_H
-#define MW_SRC_LINE_H
+#ifndef MW_SRC_PREDICATES_LINE_H
+#define MW_SRC_PREDICATES_LINE_H
 
 #include "predicates/predicates.h"
 

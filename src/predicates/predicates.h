@@ -12,8 +12,8 @@
  * underflows. A bound is proportional to a permanent: the determinant with absolute values for all
  * products, computed in the same order. Rounding is monotone, so the permanent is never less than
  * the determinant: one that overflows has an infinite bound and is not trusted. */
-#ifndef MW_SRC_PREDICATES_H
-#define MW_SRC_PREDICATES_H
+#ifndef MW_SRC_PREDICATES_PREDICATES_H
+#define MW_SRC_PREDICATES_PREDICATES_H
 
 #include "base/base.h"
 

@@ -5,8 +5,8 @@
  * a leaf contains all its triangles with finite corners. The frame comes from a sample of the
  * triangles. So neither the unit of length, nor a surface far from the origin, nor a stray vertex
  * costs resolution. */
-#ifndef MW_SRC_BVH_H
-#define MW_SRC_BVH_H
+#ifndef MW_SRC_PROBE_BVH_H
+#define MW_SRC_PROBE_BVH_H
 
 #include "surface/surface.h"
 

@@ -4,8 +4,8 @@
  * plane_walk.c is the walk, probe_first_triangle.c chooses first triangles, probe_race.c repeats
  * walks. A walk is a small state. A step looks at one triangle and ends there, or crosses one of
  * its edges. */
-#ifndef MW_SRC_PLANE_WALK_H
-#define MW_SRC_PLANE_WALK_H
+#ifndef MW_SRC_PROBE_PLANE_WALK_H
+#define MW_SRC_PROBE_PLANE_WALK_H
 
 #include "probe/prober.h"
 

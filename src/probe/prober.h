@@ -2,8 +2,8 @@
  *
  * probe_touch.c decides what a line touches. plane_walk.c and probe_race.c walk over the surface
  * [thesis App. G]. probe_certain.c searches the BVH. probe.c is the query. */
-#ifndef MW_SRC_PROBER_H
-#define MW_SRC_PROBER_H
+#ifndef MW_SRC_PROBE_PROBER_H
+#define MW_SRC_PROBE_PROBER_H
 
 #include "surface/surface.h"
 #include "predicates/line.h"

@@ -8,8 +8,8 @@
  * everywhere. So every ray off the edges meets the same number of facets: one. Facets without area
  * project to nothing. Facets with two coincident corners are not linked and do not count at all.
  * All tests are exact, and take O(n) together. */
-#ifndef MW_SRC_KERNEL_CHECK_H
-#define MW_SRC_KERNEL_CHECK_H
+#ifndef MW_SRC_STAR_KERNEL_CHECK_H
+#define MW_SRC_STAR_KERNEL_CHECK_H
 
 #include "mesh/defect.h"
 #include "star/star.h"

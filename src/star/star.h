@@ -4,8 +4,8 @@
  * ray through q lies in the cone of a facet over the centre c if det(v[k] - c, v[k+1] - c, q - c) >
  * 0 for its three edges. It lies beyond an edge if that determinant is negative. Walks ask the same
  * questions of an edge as planar walks do; the great circle through an edge stands for its line. */
-#ifndef MW_SRC_STAR_H
-#define MW_SRC_STAR_H
+#ifndef MW_SRC_STAR_STAR_H
+#define MW_SRC_STAR_STAR_H
 
 #include "surface/surface.h"
 

@@ -1,6 +1,6 @@
 /* star_index.h - the index of a start: plain numbers of facets, 4 bytes a cell. Private. */
-#ifndef MW_SRC_STAR_INDEX_H
-#define MW_SRC_STAR_INDEX_H
+#ifndef MW_SRC_STAR_STAR_INDEX_H
+#define MW_SRC_STAR_STAR_INDEX_H
 
 #include "star/star.h"
 

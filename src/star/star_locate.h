@@ -1,6 +1,6 @@
 /* star_locate.h - the steps of a query that the single and the batch query share. Private. */
-#ifndef MW_SRC_STAR_LOCATE_H
-#define MW_SRC_STAR_LOCATE_H
+#ifndef MW_SRC_STAR_STAR_LOCATE_H
+#define MW_SRC_STAR_STAR_LOCATE_H
 
 #include "star/star.h"
 

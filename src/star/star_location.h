@@ -1,7 +1,7 @@
 /* star_location.h - the location of a ray in a facet that it meets: inside, edge or vertex, and the
  * weights. Private. */
-#ifndef MW_SRC_STAR_LOCATION_H
-#define MW_SRC_STAR_LOCATION_H
+#ifndef MW_SRC_STAR_STAR_LOCATION_H
+#define MW_SRC_STAR_STAR_LOCATION_H
 
 #include "star/star.h"
 

@@ -1,7 +1,7 @@
 /* star_walk.h - the vocabulary of the walks on star-shaped polyhedra, and the drivers of their
  * steps. Private. */
-#ifndef MW_SRC_STAR_WALK_H
-#define MW_SRC_STAR_WALK_H
+#ifndef MW_SRC_STAR_STAR_WALK_H
+#define MW_SRC_STAR_STAR_WALK_H
 
 #include "star/star.h"
 

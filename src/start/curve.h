@@ -1,6 +1,6 @@
 /* curve.h - first tiles by the order in which the tiles lie in memory. Private. */
-#ifndef MW_SRC_CURVE_H
-#define MW_SRC_CURVE_H
+#ifndef MW_SRC_START_CURVE_H
+#define MW_SRC_START_CURVE_H
 
 #include "base/hilbert.h"
 #include "tiling/tiling.h"

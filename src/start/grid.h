@@ -1,6 +1,6 @@
 /* grid.h - a uniform grid of buckets. Private. */
-#ifndef MW_SRC_GRID_H
-#define MW_SRC_GRID_H
+#ifndef MW_SRC_START_GRID_H
+#define MW_SRC_START_GRID_H
 
 #include "start/lattice.h"
 

@@ -1,7 +1,7 @@
 /* lattice.h - columns and rows of equal cells over an extent: what the grids are made of.
  * Private. */
-#ifndef MW_SRC_LATTICE_H
-#define MW_SRC_LATTICE_H
+#ifndef MW_SRC_START_LATTICE_H
+#define MW_SRC_START_LATTICE_H
 
 #include "tiling/tiling.h"
 

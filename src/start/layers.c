@@ -134,7 +134,7 @@ static uint32_t layers_by_size(uint32_t vertices, double ratio)
     return layers;
 }
 
-static uint32_t vertices_in_use(const uint32_t *at, uint32_t n)
+static uint32_t layer_vertices_in_use(const uint32_t *at, uint32_t n)
 {
     uint32_t used = 0;
     for (uint32_t v = 0; v < n; v++) used += at[v] != MW_NONE;
@@ -158,7 +158,7 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
     mw_status status = layers_check(options, error);
     if (status) return status;
     double ratio = options->ratio > 0 ? options->ratio : MW_LAYER_RATIO;
-    uint32_t *at = mw__tile_of_vertices(tiling), size = at ? vertices_in_use(at, tiling->point_count) : 0;
+    uint32_t *at = mw__tile_of_vertices(tiling), size = at ? layer_vertices_in_use(at, tiling->point_count) : 0;
     uint32_t wanted = options->layers ? options->layers : layers_by_size(size, ratio);
     out->vertices = size;
     mw_error reason;

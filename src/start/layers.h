@@ -1,8 +1,8 @@
 /* layers.h - the layered hierarchy: random vertices of the mesh, triangulated, above it, random
  * ones of these above them, and so on [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy";
  * thesis App. C, sec. 2 and 3]. Private. */
-#ifndef MW_SRC_LAYERS_H
-#define MW_SRC_LAYERS_H
+#ifndef MW_SRC_START_LAYERS_H
+#define MW_SRC_START_LAYERS_H
 
 #include "walk/walk.h"
 

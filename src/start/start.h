@@ -1,7 +1,7 @@
 /* start.h - ways to choose the first tile of a walk: one file each. Private. "Last" needs no file:
  * it is a number in the cursor. */
-#ifndef MW_SRC_START_H
-#define MW_SRC_START_H
+#ifndef MW_SRC_START_START_H
+#define MW_SRC_START_START_H
 
 #include "base/hilbert.h"
 #include "tiling/tiling.h"

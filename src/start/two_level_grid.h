@@ -1,6 +1,6 @@
 /* two_level_grid.h - a grid of buckets whose crowded cells have a grid of their own. Private. */
-#ifndef MW_SRC_TWO_LEVEL_GRID_H
-#define MW_SRC_TWO_LEVEL_GRID_H
+#ifndef MW_SRC_START_TWO_LEVEL_GRID_H
+#define MW_SRC_START_TWO_LEVEL_GRID_H
 
 #include "start/lattice.h"
 

@@ -1,7 +1,7 @@
 /* rwlock.h - a readers-writer lock: many queries or one update. A waiting update goes before later
  * queries. Private. */
-#ifndef MW_SRC_RWLOCK_H
-#define MW_SRC_RWLOCK_H
+#ifndef MW_SRC_SURFACE_RWLOCK_H
+#define MW_SRC_SURFACE_RWLOCK_H
 
 #include "base/base.h"
 

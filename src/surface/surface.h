@@ -1,7 +1,7 @@
 /* surface.h - the records of a surface in space. Private. Triangles, edges and links are as in
  * mesh.h, but triangles are stored as the user gave them, in any orientation. */
-#ifndef MW_SRC_SURFACE_H
-#define MW_SRC_SURFACE_H
+#ifndef MW_SRC_SURFACE_SURFACE_H
+#define MW_SRC_SURFACE_SURFACE_H
 
 #include "surface/rwlock.h"
 #include "mesh/mesh.h"

@@ -5,8 +5,8 @@
  * the outer side. So a loop never leaves the hole or pocket that it runs round. Tiles that share a
  * vertex are connected. A connected component divides the rest of the plane into faces, and one
  * loop bounds each face. */
-#ifndef MW_SRC_BORDER_LOOPS_H
-#define MW_SRC_BORDER_LOOPS_H
+#ifndef MW_SRC_TILING_BORDER_LOOPS_H
+#define MW_SRC_TILING_BORDER_LOOPS_H
 
 #include "tiling/box_tree.h"
 

@@ -1,7 +1,7 @@
 /* box_tree.h - a packed R-tree [Leutenegger, Lopez, Edgington 1997]: a tree of boxes over things
  * that are sorted so that neighbours in the plane follow each other. Private. */
-#ifndef MW_SRC_BOX_TREE_H
-#define MW_SRC_BOX_TREE_H
+#ifndef MW_SRC_TILING_BOX_TREE_H
+#define MW_SRC_TILING_BOX_TREE_H
 
 #include "mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 /* convex.h - does a mesh fill a convex polygon, edge to edge? Private. */
-#ifndef MW_SRC_CONVEX_H
-#define MW_SRC_CONVEX_H
+#ifndef MW_SRC_TILING_CONVEX_H
+#define MW_SRC_TILING_CONVEX_H
 
 #include "mesh/mesh.h"
 

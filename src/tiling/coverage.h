@@ -5,8 +5,8 @@
  * enters one more triangle. So a flood from outside the hull finds the number of triangles over
  * each cell: its degree, a winding number. The mesh is an embedding only if it is 0 or 1
  * everywhere. */
-#ifndef MW_SRC_COVERAGE_H
-#define MW_SRC_COVERAGE_H
+#ifndef MW_SRC_TILING_COVERAGE_H
+#define MW_SRC_TILING_COVERAGE_H
 
 #include "mesh/defect.h"
 #include "tiling/outline.h"

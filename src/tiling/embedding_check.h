@@ -1,6 +1,6 @@
 /* embedding_check.h - decides whether a mesh is an embedding. Private. */
-#ifndef MW_SRC_EMBEDDING_CHECK_H
-#define MW_SRC_EMBEDDING_CHECK_H
+#ifndef MW_SRC_TILING_EMBEDDING_CHECK_H
+#define MW_SRC_TILING_EMBEDDING_CHECK_H
 
 #include "tiling/region.h"
 

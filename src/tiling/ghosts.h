@@ -1,7 +1,7 @@
 /* ghosts.h - the tiles of a mesh that is not its own tiling: ghosts fill its holes and pockets.
  * Private. */
-#ifndef MW_SRC_GHOSTS_H
-#define MW_SRC_GHOSTS_H
+#ifndef MW_SRC_TILING_GHOSTS_H
+#define MW_SRC_TILING_GHOSTS_H
 
 #include "tiling/embedding_check.h"
 #include "tiling/tiling.h"

@@ -1,6 +1,6 @@
 /* local_defects.h - defects of single triangles, edges and vertices. Private. */
-#ifndef MW_SRC_LOCAL_DEFECTS_H
-#define MW_SRC_LOCAL_DEFECTS_H
+#ifndef MW_SRC_TILING_LOCAL_DEFECTS_H
+#define MW_SRC_TILING_LOCAL_DEFECTS_H
 
 #include "mesh/defect.h"
 #include "tiling/outline.h"

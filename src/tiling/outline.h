@@ -5,8 +5,8 @@
  * plane: the neighbour is missing, flat, or folded back. Of a fold only the edge of the lower
  * triangle is listed; it counts double. A node is a point of the outline: coincident vertices are
  * one node. */
-#ifndef MW_SRC_OUTLINE_H
-#define MW_SRC_OUTLINE_H
+#ifndef MW_SRC_TILING_OUTLINE_H
+#define MW_SRC_TILING_OUTLINE_H
 
 #include "mesh/mesh.h"
 

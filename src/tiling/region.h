@@ -1,7 +1,7 @@
 /* region.h - connected regions of the plane that a mesh does not cover exactly once: pockets,
  * holes, overlaps. Private. */
-#ifndef MW_SRC_REGION_H
-#define MW_SRC_REGION_H
+#ifndef MW_SRC_TILING_REGION_H
+#define MW_SRC_TILING_REGION_H
 
 #include "tiling/coverage.h"
 

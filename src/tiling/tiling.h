@@ -11,8 +11,8 @@
  *
  * A tiling may also be without ghosts. Then a link is MW_NONE on any border. In this case a mesh
  * without flat triangles and without coincident vertices is its own tiling, convex or not. */
-#ifndef MW_SRC_TILING_H
-#define MW_SRC_TILING_H
+#ifndef MW_SRC_TILING_TILING_H
+#define MW_SRC_TILING_TILING_H
 
 #include "tiling/border_loops.h"
 #include "mesh/mesh.h"

@@ -1,8 +1,8 @@
 /* coincident.h - coincident vertices: vertices with equal coordinates. Private.
  *
  * The lowest-numbered of some coincident vertices represents them all, as in union-find. */
-#ifndef MW_SRC_COINCIDENT_H
-#define MW_SRC_COINCIDENT_H
+#ifndef MW_SRC_TOPOLOGY_COINCIDENT_H
+#define MW_SRC_TOPOLOGY_COINCIDENT_H
 
 #include "base/base.h"
 

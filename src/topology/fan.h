@@ -1,6 +1,6 @@
 /* fan.h - turning round a vertex through linked triangles of any orientation. Private. */
-#ifndef MW_SRC_FAN_H
-#define MW_SRC_FAN_H
+#ifndef MW_SRC_TOPOLOGY_FAN_H
+#define MW_SRC_TOPOLOGY_FAN_H
 
 #include "mesh/mesh.h"
 #include "topology/coincident.h"

@@ -3,8 +3,8 @@
  *
  * `coincident` as in coincident.h: coincident vertices count as one, and triangles are linked
  * so. */
-#ifndef MW_SRC_TOPOLOGY_COUNTS_H
-#define MW_SRC_TOPOLOGY_COUNTS_H
+#ifndef MW_SRC_TOPOLOGY_TOPOLOGY_COUNTS_H
+#define MW_SRC_TOPOLOGY_TOPOLOGY_COUNTS_H
 
 #include "topology/fan.h"
 

@@ -9,8 +9,8 @@
  * A vertex on the line counts as right of it. So the walk follows a line moved to the left by less
  * than any distance between coordinates: it meets no vertex, leaves each tile that it meets over
  * one edge, and comes on with each. */
-#ifndef MW_SRC_AXIS_H
-#define MW_SRC_AXIS_H
+#ifndef MW_SRC_WALK_AXIS_H
+#define MW_SRC_WALK_AXIS_H
 
 #include "walk/step.h"
 

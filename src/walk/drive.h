@@ -1,6 +1,6 @@
 /* drive.h - drives a step function to its end: alone, or many walks in turn. Private. */
-#ifndef MW_SRC_DRIVE_H
-#define MW_SRC_DRIVE_H
+#ifndef MW_SRC_WALK_DRIVE_H
+#define MW_SRC_WALK_DRIVE_H
 
 #include "walk/step.h"
 

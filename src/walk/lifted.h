@@ -2,8 +2,8 @@
  * with few operations. Private.
  *
  * Both tests are those of the predicates, with bounds that need only the lifts. */
-#ifndef MW_SRC_LIFTED_H
-#define MW_SRC_LIFTED_H
+#ifndef MW_SRC_WALK_LIFTED_H
+#define MW_SRC_WALK_LIFTED_H
 
 #include "tiling/tiling.h"
 #include "predicates/predicates.h"

@@ -1,6 +1,6 @@
 /* prefetch.h - asking memory for what will be met, before it is. Private. */
-#ifndef MW_SRC_PREFETCH_H
-#define MW_SRC_PREFETCH_H
+#ifndef MW_SRC_WALK_PREFETCH_H
+#define MW_SRC_WALK_PREFETCH_H
 
 #include "tiling/tiling.h"
 

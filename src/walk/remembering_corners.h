@@ -15,8 +15,8 @@
  *
  * Why it ends: on a Delaunay mesh as remembering.c does. Elsewhere it may go in cycles: after
  * MW_CORNER_STEPS tiles the celestial walk takes over, which ends on every embedding. */
-#ifndef MW_SRC_REMEMBERING_CORNERS_H
-#define MW_SRC_REMEMBERING_CORNERS_H
+#ifndef MW_SRC_WALK_REMEMBERING_CORNERS_H
+#define MW_SRC_WALK_REMEMBERING_CORNERS_H
 
 #include "walk/prefetch.h"
 #include "walk/lifted.h"

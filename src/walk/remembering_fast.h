@@ -18,8 +18,8 @@
  * tile, as for every way of Lawson's walk (docs/guarantees.md). Elsewhere it may go in cycles:
  * after MW_FAST_STEPS steps it gives up. What it could not decide, or not in so many steps, goes on
  * by a walk of drive.h from the tile where it stands. */
-#ifndef MW_SRC_REMEMBERING_FAST_H
-#define MW_SRC_REMEMBERING_FAST_H
+#ifndef MW_SRC_WALK_REMEMBERING_FAST_H
+#define MW_SRC_WALK_REMEMBERING_FAST_H
 
 #include "walk/prefetch.h"
 #include "walk/walk.h"

@@ -11,8 +11,8 @@
  *
  * Why it takes the same way, and why it ends: as remembering_fast.h, with the same areas, bound and
  * order of edges. It counts no steps: who drives it does (locate/interleaved.c). */
-#ifndef MW_SRC_REMEMBERING_VECTOR_H
-#define MW_SRC_REMEMBERING_VECTOR_H
+#ifndef MW_SRC_WALK_REMEMBERING_VECTOR_H
+#define MW_SRC_WALK_REMEMBERING_VECTOR_H
 
 #include "walk/remembering_fast.h"
 

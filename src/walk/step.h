@@ -1,7 +1,7 @@
 /* step.h - the vocabulary of the planar walks: the only place where policy is looked at.
  * Private. */
-#ifndef MW_SRC_STEP_H
-#define MW_SRC_STEP_H
+#ifndef MW_SRC_WALK_STEP_H
+#define MW_SRC_WALK_STEP_H
 
 #include "walk/walk.h"
 

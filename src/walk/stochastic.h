@@ -1,7 +1,7 @@
 /* stochastic.h - a coin, and the remembering stochastic step: for the walks that toss one.
  * Private. */
-#ifndef MW_SRC_STOCHASTIC_H
-#define MW_SRC_STOCHASTIC_H
+#ifndef MW_SRC_WALK_STOCHASTIC_H
+#define MW_SRC_WALK_STOCHASTIC_H
 
 #include "base/random.h"
 #include "walk/step.h"

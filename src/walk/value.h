@@ -3,8 +3,8 @@
  * The value is rounded. In exact arithmetic it comes with a bound on its error, so that a walk can
  * tell what is sure: one that crosses an edge only where q surely lies beyond it is not misled by
  * rounding. In plain doubles the bounds are 0. */
-#ifndef MW_SRC_VALUE_H
-#define MW_SRC_VALUE_H
+#ifndef MW_SRC_WALK_VALUE_H
+#define MW_SRC_WALK_VALUE_H
 
 #include "walk/step.h"
 

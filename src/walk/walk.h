@@ -4,8 +4,8 @@
  * crosses one of its edges. Each algorithm is written once (one file each); drive.h makes its
  * kernels from it: one walk alone, or many that take turns, exact or in plain doubles, counting or
  * not. */
-#ifndef MW_SRC_WALK_H
-#define MW_SRC_WALK_H
+#ifndef MW_SRC_WALK_WALK_H
+#define MW_SRC_WALK_WALK_H
 
 #include "tiling/tiling.h"
 

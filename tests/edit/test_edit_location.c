@@ -329,7 +329,7 @@ static void test_sessions(void **state)
             location_session s = {.vertices = vertices[i % 4],
                                   .rounds = 12,
                                   .edits = edits[i % 3],
-                                  .options = {.delaunay = i % 3, .undo = i % 2 ? SIZE_MAX : 5},
+                                  .options = {.delaunay = (mw_delaunay_mode)(i % 3), .undo = i % 2 ? SIZE_MAX : 5},
                                   .kept = {.ratio = i % 2 ? 0.4 : 0, .layers = i % 2 ? 4 : 0}};
             printf("%s, session %d\n", mesh_name[kind], i);
             run_session(kind, &s, &random);

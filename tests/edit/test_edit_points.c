@@ -474,9 +474,10 @@ static void test_refused(void **state)
 {
     (void)state;
     for (int hole = 0; hole < 2; hole++) {
-        points_session s = {"refused", hole ? lattice : uniform, hole, false, hole};
+        points_session s = {"refused", hole ? lattice : uniform, hole ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, false,
+                            hole};
         uint64_t random = mw__random_seed(environment_seed(1), 5);
-        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = hole};
+        mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = s.delaunay};
         twin t;
         twin_cursors r;
         edit_case.name = s.name;

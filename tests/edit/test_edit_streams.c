@@ -81,26 +81,26 @@ static void scattered(uint64_t *random, double *q)
 typedef struct edit_stream {
     const char *name;
     void (*draw_point)(uint64_t *random, double *q);
-    uint32_t vertices; /* about so many are there           */
-    int delaunay;      /* as in the options                 */
-    bool constraints;  /* are set and released              */
-    bool hole;         /* the mesh begins with a square hole */
+    uint32_t vertices;         /* about so many are there           */
+    mw_delaunay_mode delaunay; /* as in the options                 */
+    bool constraints;          /* are set and released              */
+    bool hole;                 /* the mesh begins with a square hole */
 } edit_stream;
 
 static const edit_stream streams[] = {
-    {"uniform", uniform, 400, 0, false, false},
-    {"grid", grid, 160, 0, false, false},
-    {"cocircular", cocircular, 90, 0, false, false},
-    {"clustered", clustered, 300, 0, false, false},
-    {"subnormal", subnormal, 120, 0, true, false},
-    {"huge", huge, 120, 0, true, false},
-    {"scattered", scattered, 100, 0, true, false},
-    {"uniform, constraints", uniform, 200, 0, true, false},
-    {"grid, constraints", grid, 120, 0, true, false},
-    {"grid with a hole", grid, 160, 1, false, true},
-    {"uniform with a hole, constraints", uniform, 200, 1, true, true},
-    {"uniform, not to be flipped", uniform, 150, 2, true, false},
-    {"cocircular, not to be flipped, a hole", cocircular, 80, 2, true, true},
+    {"uniform", uniform, 400, MW_DELAUNAY_AUTO, false, false},
+    {"grid", grid, 160, MW_DELAUNAY_AUTO, false, false},
+    {"cocircular", cocircular, 90, MW_DELAUNAY_AUTO, false, false},
+    {"clustered", clustered, 300, MW_DELAUNAY_AUTO, false, false},
+    {"subnormal", subnormal, 120, MW_DELAUNAY_AUTO, true, false},
+    {"huge", huge, 120, MW_DELAUNAY_AUTO, true, false},
+    {"scattered", scattered, 100, MW_DELAUNAY_AUTO, true, false},
+    {"uniform, constraints", uniform, 200, MW_DELAUNAY_AUTO, true, false},
+    {"grid, constraints", grid, 120, MW_DELAUNAY_AUTO, true, false},
+    {"grid with a hole", grid, 160, MW_DELAUNAY_MAKE, false, true},
+    {"uniform with a hole, constraints", uniform, 200, MW_DELAUNAY_MAKE, true, true},
+    {"uniform, not to be flipped", uniform, 150, MW_DELAUNAY_NEVER, true, false},
+    {"cocircular, not to be flipped, a hole", cocircular, 80, MW_DELAUNAY_NEVER, true, true},
 };
 enum { STREAMS = sizeof streams / sizeof *streams };
 

@@ -20,25 +20,25 @@
 
 typedef struct ties_scene {
     const char *name;
-    uint32_t span; /* points are multiples of 16 / span                  */
-    bool near;     /* but for a rounding                                 */
-    uint32_t hub;  /* this degree and less: vertices on a circle round one */
-    double scale;  /* of all coordinates                                 */
-    int delaunay;  /* as in the options                                  */
-    bool hole;     /* the mesh has two holes and a pocket                */
+    uint32_t span;             /* points are multiples of 16 / span                  */
+    bool near;                 /* but for a rounding                                 */
+    uint32_t hub;              /* this degree and less: vertices on a circle round one */
+    double scale;              /* of all coordinates                                 */
+    mw_delaunay_mode delaunay; /* as in the options                                  */
+    bool hole;                 /* the mesh has two holes and a pocket                */
 } ties_scene;
 
 static const ties_scene scenes[] = {
-    {"lattice", 8, false, 0, 1, 0, false},
-    {"nearly a lattice", 8, true, 0, 1, 0, false},
-    {"hubs", 16, false, 20, 1, 0, false},
-    {"hubs, nearly", 16, true, 20, 1, 0, false},
-    {"tiny", 8, false, 12, 0x1p-1060, 0, false},
-    {"huge", 8, false, 12, 0x1p1019, 0, false},
-    {"holes", 16, false, 0, 1, 1, true},
-    {"holes, nearly", 16, true, 12, 1, 1, true},
-    {"not to be flipped", 8, false, 12, 1, 2, false},
-    {"holes, not to be flipped", 16, false, 0, 1, 2, true},
+    {"lattice", 8, false, 0, 1, MW_DELAUNAY_AUTO, false},
+    {"nearly a lattice", 8, true, 0, 1, MW_DELAUNAY_AUTO, false},
+    {"hubs", 16, false, 20, 1, MW_DELAUNAY_AUTO, false},
+    {"hubs, nearly", 16, true, 20, 1, MW_DELAUNAY_AUTO, false},
+    {"tiny", 8, false, 12, 0x1p-1060, MW_DELAUNAY_AUTO, false},
+    {"huge", 8, false, 12, 0x1p1019, MW_DELAUNAY_AUTO, false},
+    {"holes", 16, false, 0, 1, MW_DELAUNAY_MAKE, true},
+    {"holes, nearly", 16, true, 12, 1, MW_DELAUNAY_MAKE, true},
+    {"not to be flipped", 8, false, 12, 1, MW_DELAUNAY_NEVER, false},
+    {"holes, not to be flipped", 16, false, 0, 1, MW_DELAUNAY_NEVER, true},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

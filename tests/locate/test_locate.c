@@ -104,7 +104,7 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
     location_answer *want = malloc(n * sizeof *want);
     for (size_t i = 0; i < n; i++)
         want[i] = location_oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
-    for (int layout = 1; layout <= 2; layout++) {
+    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
         mw_mesh *mesh = mesh_of(a, layout);
         mw_locator *locator = locator_of(mesh, 0);
         mw_index *index[MW_START_COUNT];

@@ -65,7 +65,7 @@ static void release(layout_scene *s)
     free(s->triangles);
 }
 
-static mw_status create(const layout_scene *s, int layout, uint32_t threads, mw_mesh **mesh, mw_error *error)
+static mw_status create(const layout_scene *s, mw_mesh_layout layout, uint32_t threads, mw_mesh **mesh, mw_error *error)
 {
     mw_arrays view = {.points = s->points,
                       .point_count = s->point_count,
@@ -133,7 +133,7 @@ static void test_same_mesh_threads(void **state)
     (void)state;
     layout_scene s = make_scene(300, 1);
     mw_mesh *kept, *laid;
-    assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
+    assert_int_equal(create(&s, MW_LAYOUT_AS_GIVEN, 1, &kept, NULL), MW_OK);
     assert_null(kept->vertex_slot);
     for (uint32_t threads = 0; threads < 8; threads++)
         for (mw_mesh_layout layout = MW_LAYOUT_AUTO; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
@@ -152,7 +152,7 @@ static void test_same_mesh_threads(void **state)
 static void expect_same_linked(const layout_scene *s)
 {
     mw_mesh *kept, *laid;
-    assert_int_equal(create(s, 2, 1, &kept, NULL), MW_OK);
+    assert_int_equal(create(s, MW_LAYOUT_AS_GIVEN, 1, &kept, NULL), MW_OK);
     for (uint32_t threads = 1; threads < 4; threads++)
         for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
             assert_int_equal(create(s, layout, threads, &laid, NULL), MW_OK);
@@ -218,7 +218,7 @@ static void test_views(void **state)
                       .triangle_count = s.triangle_count,
                       .integer_type = MW_INT32};
     mw_mesh *kept, *laid;
-    assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
+    assert_int_equal(create(&s, MW_LAYOUT_AS_GIVEN, 1, &kept, NULL), MW_OK);
     for (int wide = 0; wide < 2; wide++) {
         if (wide) view.triangles = triangles;
         if (wide) view.integer_type = MW_INT64;
@@ -245,9 +245,9 @@ static void expect_refused(const layout_scene *s)
 {
     mw_mesh *mesh;
     mw_error one, other;
-    assert_int_equal(create(s, 2, 1, &mesh, &one), MW_ERROR_INPUT);
+    assert_int_equal(create(s, MW_LAYOUT_AS_GIVEN, 1, &mesh, &one), MW_ERROR_INPUT);
     for (uint32_t threads = 1; threads < 4; threads++) {
-        assert_int_equal(create(s, 1, threads, &mesh, &other), MW_ERROR_INPUT);
+        assert_int_equal(create(s, MW_LAYOUT_HILBERT, threads, &mesh, &other), MW_ERROR_INPUT);
         assert_null(mesh);
         assert_string_equal(one.message, other.message);
         assert_int_equal(one.triangle, other.triangle);
@@ -295,8 +295,8 @@ static void test_hub(void **state)
     s.points[2 * (RIM + 5)] = INFINITY;
     s.points[2 * (RIM + 6)] = NAN;
     mw_mesh *kept, *laid;
-    assert_int_equal(create(&s, 2, 1, &kept, NULL), MW_OK);
-    assert_int_equal(create(&s, 1, 2, &laid, NULL), MW_OK);
+    assert_int_equal(create(&s, MW_LAYOUT_AS_GIVEN, 1, &kept, NULL), MW_OK);
+    assert_int_equal(create(&s, MW_LAYOUT_HILBERT, 2, &laid, NULL), MW_OK);
     expect_same(kept, laid);
     mw_mesh_destroy(kept);
     mw_mesh_destroy(laid);

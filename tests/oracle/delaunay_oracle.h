@@ -1,8 +1,8 @@
 /* delaunay_oracle.h - is a mesh the Delaunay triangulation of its points? Decided triangle by
  * triangle with the exact predicates, which test_predicates.c holds against GMP. Failures are
  * cmocka's: call this from tests only. */
-#ifndef MW_TEST_DELAUNAY_ORACLE_H
-#define MW_TEST_DELAUNAY_ORACLE_H
+#ifndef MW_TESTS_ORACLE_DELAUNAY_ORACLE_H
+#define MW_TESTS_ORACLE_DELAUNAY_ORACLE_H
 
 #include <stdint.h>
 

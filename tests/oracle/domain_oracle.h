@@ -1,8 +1,8 @@
 /* domain_oracle.h - what part of the plane a mesh covers, by brute force over pairs of
  * triangles, exactly: coordinates are small integers. A tiling is that of the mesh times
  * 2^domain_oracle_exponent. */
-#ifndef MW_TEST_DOMAIN_ORACLE_H
-#define MW_TEST_DOMAIN_ORACLE_H
+#ifndef MW_TESTS_ORACLE_DOMAIN_ORACLE_H
+#define MW_TESTS_ORACLE_DOMAIN_ORACLE_H
 
 #include <stdbool.h>
 #include <stdint.h>

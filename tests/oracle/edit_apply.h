@@ -1,7 +1,7 @@
 /* edit_apply.h - edits of an editor and of its twin: what each did is taken over from its
  * report; where it is refused nothing may have changed. */
-#ifndef MW_TEST_EDIT_APPLY_H
-#define MW_TEST_EDIT_APPLY_H
+#ifndef MW_TESTS_ORACLE_EDIT_APPLY_H
+#define MW_TESTS_ORACLE_EDIT_APPLY_H
 
 #include "oracle/edit_check.h"
 #include "oracle/edit_locate.h"

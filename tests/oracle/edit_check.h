@@ -1,6 +1,6 @@
 /* edit_check.h - the editor says what its twin does, and both are right by geometry. */
-#ifndef MW_TEST_EDIT_CHECK_H
-#define MW_TEST_EDIT_CHECK_H
+#ifndef MW_TESTS_ORACLE_EDIT_CHECK_H
+#define MW_TESTS_ORACLE_EDIT_CHECK_H
 
 #include "oracle/edit_twin.h"
 

@@ -1,7 +1,7 @@
 /* edit_locate.h - answers about a mesh that is edited, held against its twin: every walk, every
  * start, cursors that are older than the edits. */
-#ifndef MW_TEST_EDIT_LOCATE_H
-#define MW_TEST_EDIT_LOCATE_H
+#ifndef MW_TESTS_ORACLE_EDIT_LOCATE_H
+#define MW_TESTS_ORACLE_EDIT_LOCATE_H
 
 #include "oracle/edit_twin.h"
 #include "oracle/location_oracle.h"

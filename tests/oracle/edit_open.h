@@ -1,6 +1,6 @@
 /* edit_open.h - makes an editor and its twin. */
-#ifndef MW_TEST_EDIT_OPEN_H
-#define MW_TEST_EDIT_OPEN_H
+#ifndef MW_TESTS_ORACLE_EDIT_OPEN_H
+#define MW_TESTS_ORACLE_EDIT_OPEN_H
 
 #include "oracle/edit_twin.h"
 

@@ -1,6 +1,6 @@
 /* edit_predict.h - what an edit has to do to a twin, predicted by brute force. */
-#ifndef MW_TEST_EDIT_PREDICT_H
-#define MW_TEST_EDIT_PREDICT_H
+#ifndef MW_TESTS_ORACLE_EDIT_PREDICT_H
+#define MW_TESTS_ORACLE_EDIT_PREDICT_H
 
 #include "oracle/edit_sides.h"
 

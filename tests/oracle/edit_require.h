@@ -1,8 +1,8 @@
 /* edit_require.h - what the twin of an editor (edit_twin.h) requires: failures end the program
  * and name the seed, the step and the edit. It is not cmocka's, because fuzz targets use it as
  * well. */
-#ifndef MW_TEST_EDIT_REQUIRE_H
-#define MW_TEST_EDIT_REQUIRE_H
+#ifndef MW_TESTS_ORACLE_EDIT_REQUIRE_H
+#define MW_TESTS_ORACLE_EDIT_REQUIRE_H
 
 #include <meshwalk/meshwalk.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* edit_sides.h - the directed edges of a twin's triangles, and its border. */
-#ifndef MW_TEST_EDIT_SIDES_H
-#define MW_TEST_EDIT_SIDES_H
+#ifndef MW_TESTS_ORACLE_EDIT_SIDES_H
+#define MW_TESTS_ORACLE_EDIT_SIDES_H
 
 #include "oracle/edit_twin.h"
 

@@ -5,8 +5,8 @@
  * Checks compare all that the editor tells with it, and hold the triangles against geometry by
  * brute force (edit_check.h, edit_locate.h). Its triangles' edges and its border are in
  * edit_sides.h. Failures end the program (edit_require.h). */
-#ifndef MW_TEST_EDIT_TWIN_H
-#define MW_TEST_EDIT_TWIN_H
+#ifndef MW_TESTS_ORACLE_EDIT_TWIN_H
+#define MW_TESTS_ORACLE_EDIT_TWIN_H
 
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* line_oracle.h - a line in space by brute force in GMP integers, for the tests and the fuzz
  * target: where it meets the planes of two triangles. Used as predicate_oracle.h. */
-#ifndef MW_TEST_LINE_ORACLE_H
-#define MW_TEST_LINE_ORACLE_H
+#ifndef MW_TESTS_ORACLE_LINE_ORACLE_H
+#define MW_TESTS_ORACLE_LINE_ORACLE_H
 
 #include "oracle/predicate_oracle.h"
 

@@ -1,7 +1,7 @@
 /* location_oracle.h - point location by brute force in exact rationals (GMP): what every walk is
  * held against. */
-#ifndef MW_TEST_LOCATION_ORACLE_H
-#define MW_TEST_LOCATION_ORACLE_H
+#ifndef MW_TESTS_ORACLE_LOCATION_ORACLE_H
+#define MW_TESTS_ORACLE_LOCATION_ORACLE_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -5,8 +5,8 @@
  * sign, returns the exponent of two that o->result is to be multiplied with. The numbers are
  * kept between calls, because setting them up would take longer than using them: one
  * predicate_oracle for each thread. */
-#ifndef MW_TEST_PREDICATE_ORACLE_H
-#define MW_TEST_PREDICATE_ORACLE_H
+#ifndef MW_TESTS_ORACLE_PREDICATE_ORACLE_H
+#define MW_TESTS_ORACLE_PREDICATE_ORACLE_H
 
 #include <gmp.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* star_oracle.h - the facet that a ray from a centre meets, by brute force in exact rationals
  * (GMP). */
-#ifndef MW_TEST_STAR_ORACLE_H
-#define MW_TEST_STAR_ORACLE_H
+#ifndef MW_TESTS_ORACLE_STAR_ORACLE_H
+#define MW_TESTS_ORACLE_STAR_ORACLE_H
 
 #include <meshwalk/meshwalk.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* touch_oracle.h - which triangles of a shape a line touches, by brute force in exact rationals
  * (GMP). */
-#ifndef MW_TEST_TOUCH_ORACLE_H
-#define MW_TEST_TOUCH_ORACLE_H
+#ifndef MW_TESTS_ORACLE_TOUCH_ORACLE_H
+#define MW_TESTS_ORACLE_TOUCH_ORACLE_H
 
 #include <gmp.h>
 #include <meshwalk/meshwalk.h>

@@ -4,8 +4,8 @@
  *     wrap: malloc calloc realloc aligned_alloc
  * in a comment of its own at the start of a line (see CMakeLists.txt). The linker then sends all
  * calls of these functions here: those of the test, of the library and of the support library. */
-#ifndef MW_TEST_ALLOCATIONS_H
-#define MW_TEST_ALLOCATIONS_H
+#ifndef MW_TESTS_SUPPORT_ALLOCATIONS_H
+#define MW_TESTS_SUPPORT_ALLOCATIONS_H
 
 #include <stddef.h>
 

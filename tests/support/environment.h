@@ -1,7 +1,7 @@
 /* environment.h - what the environment asks of a test: MW_TEST_SEED=n other cases,
  * MW_TEST_LONG=1 many more. */
-#ifndef MW_TEST_ENVIRONMENT_H
-#define MW_TEST_ENVIRONMENT_H
+#ifndef MW_TESTS_SUPPORT_ENVIRONMENT_H
+#define MW_TESTS_SUPPORT_ENVIRONMENT_H
 
 #include <stdbool.h>
 #include <stdint.h>

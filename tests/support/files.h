@@ -1,7 +1,7 @@
 /* files.h - files for tests of reading and writing: a directory that goes away, files with given
  * contents, the data beside the project. Failures are cmocka's: call these from tests only. */
-#ifndef MW_TEST_FILES_H
-#define MW_TEST_FILES_H
+#ifndef MW_TESTS_SUPPORT_FILES_H
+#define MW_TESTS_SUPPORT_FILES_H
 
 #include <meshwalk/io.h>
 #include <stdbool.h>

@@ -173,7 +173,8 @@ mw_mesh *mesh_with_hole(uint32_t right, uint64_t *random)
     }
     a.triangle_count = kept;
     arrays_scramble(&a, 0, random);
-    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = 1 + (int)mw__random_below(random, 2)});
+    mw_mesh *mesh = arrays_mesh(
+        &a, (mw_mesh_options){.layout = mw__random_below(random, 2) ? MW_LAYOUT_AS_GIVEN : MW_LAYOUT_HILBERT});
     arrays_free(&a);
     return mesh;
 }

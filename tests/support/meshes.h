@@ -1,7 +1,7 @@
 /* meshes.h - small planar meshes for tests, as the arrays that a user would bring, and queries
  * that find fault with them. */
-#ifndef MW_TEST_MESHES_H
-#define MW_TEST_MESHES_H
+#ifndef MW_TESTS_SUPPORT_MESHES_H
+#define MW_TESTS_SUPPORT_MESHES_H
 
 #include <meshwalk/meshwalk.h>
 #include <stddef.h>

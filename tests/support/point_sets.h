@@ -1,6 +1,6 @@
 /* point_sets.h - sets of points that are hard to triangulate. */
-#ifndef MW_TEST_POINT_SETS_H
-#define MW_TEST_POINT_SETS_H
+#ifndef MW_TESTS_SUPPORT_POINT_SETS_H
+#define MW_TESTS_SUPPORT_POINT_SETS_H
 
 #include <stddef.h>
 #include <stdint.h>

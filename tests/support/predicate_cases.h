@@ -1,8 +1,8 @@
 /* predicate_cases.h - input for tests of predicates: random, nearly degenerate and degenerate
  * points, at all scales. All come from one stream of random numbers. MW_TEST_LONG=1 makes the
  * tests run a hundred times as many cases, MW_TEST_SEED=n other ones. */
-#ifndef MW_TEST_PREDICATE_CASES_H
-#define MW_TEST_PREDICATE_CASES_H
+#ifndef MW_TESTS_SUPPORT_PREDICATE_CASES_H
+#define MW_TESTS_SUPPORT_PREDICATE_CASES_H
 
 #include <stdint.h>
 

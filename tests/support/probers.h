@@ -1,6 +1,6 @@
 /* probers.h - a prober for tests of what the boxes of a surface find. */
-#ifndef MW_TEST_PROBERS_H
-#define MW_TEST_PROBERS_H
+#ifndef MW_TESTS_SUPPORT_PROBERS_H
+#define MW_TESTS_SUPPORT_PROBERS_H
 
 #include <meshwalk/meshwalk.h>
 

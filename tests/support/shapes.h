@@ -1,7 +1,7 @@
 /* shapes.h - small surfaces for tests, on a lattice so that lines run through their vertices and
  * along their edges, and lines to probe them with. */
-#ifndef MW_TEST_SHAPES_H
-#define MW_TEST_SHAPES_H
+#ifndef MW_TESTS_SUPPORT_SHAPES_H
+#define MW_TESTS_SUPPORT_SHAPES_H
 
 #include <meshwalk/meshwalk.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* star_shapes.h - star-shaped polyhedra for tests, in arrays that grow. */
-#ifndef MW_TEST_STAR_SHAPES_H
-#define MW_TEST_STAR_SHAPES_H
+#ifndef MW_TESTS_SUPPORT_STAR_SHAPES_H
+#define MW_TESTS_SUPPORT_STAR_SHAPES_H
 
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>

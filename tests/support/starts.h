@@ -1,6 +1,6 @@
 /* starts.h - for tests that go through all starts: the indices of those that need one. */
-#ifndef MW_TEST_STARTS_H
-#define MW_TEST_STARTS_H
+#ifndef MW_TESTS_SUPPORT_STARTS_H
+#define MW_TESTS_SUPPORT_STARTS_H
 
 #include <meshwalk/locate.h>
 

@@ -1,7 +1,7 @@
 /* brio.h - an order of insertion: random rounds, each about twice as large as the one before.
  * Private. */
-#ifndef MW_SRC_BRIO_H
-#define MW_SRC_BRIO_H
+#ifndef MW_SRC_TRIANGULATE_CONSTRAINED_BRIO_H
+#define MW_SRC_TRIANGULATE_CONSTRAINED_BRIO_H
 
 #include "base/base.h"
 

@@ -1,6 +1,6 @@
 /* cdt_keep.h - which triangles are kept. Private. */
-#ifndef MW_SRC_CDT_KEEP_H
-#define MW_SRC_CDT_KEEP_H
+#ifndef MW_SRC_TRIANGULATE_CONSTRAINED_CDT_KEEP_H
+#define MW_SRC_TRIANGULATE_CONSTRAINED_CDT_KEEP_H
 
 #include "triangulate/constrained/cdt_state.h"
 

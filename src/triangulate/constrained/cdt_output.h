@@ -1,6 +1,6 @@
 /* cdt_output.h - what was made becomes a mesh and a list of subsegments. Private. */
-#ifndef MW_SRC_CDT_OUTPUT_H
-#define MW_SRC_CDT_OUTPUT_H
+#ifndef MW_SRC_TRIANGULATE_CONSTRAINED_CDT_OUTPUT_H
+#define MW_SRC_TRIANGULATE_CONSTRAINED_CDT_OUTPUT_H
 
 #include "triangulate/constrained/cdt_state.h"
 

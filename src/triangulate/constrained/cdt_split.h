@@ -1,6 +1,6 @@
 /* cdt_split.h - points are made where segments cross. Private. */
-#ifndef MW_SRC_CDT_SPLIT_H
-#define MW_SRC_CDT_SPLIT_H
+#ifndef MW_SRC_TRIANGULATE_CONSTRAINED_CDT_SPLIT_H
+#define MW_SRC_TRIANGULATE_CONSTRAINED_CDT_SPLIT_H
 
 #include "triangulate/constrained/cdt_state.h"
 

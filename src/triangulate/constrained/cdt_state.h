@@ -3,8 +3,8 @@
  * A segment is inserted whole or, once it has been split where it crosses others, in several parts.
  * An inserted part is a chain of one or more subsegments [Shewchuk]: edges of the triangulation.
  * Segments may overlap, so a subsegment may have several owners. */
-#ifndef MW_SRC_CDT_STATE_H
-#define MW_SRC_CDT_STATE_H
+#ifndef MW_SRC_TRIANGULATE_CONSTRAINED_CDT_STATE_H
+#define MW_SRC_TRIANGULATE_CONSTRAINED_CDT_STATE_H
 
 #include "triangulate/constrained/segment_insertion.h"
 

@@ -6,8 +6,8 @@
  * one line share subsegments. Where the triangulation was constrained Delaunay before a subsegment
  * it is so after it: no vertex visible from a triangle lies in its circle. Two segments that cross
  * are reported, the later one is left out from the crossing on. */
-#ifndef MW_SRC_SEGMENT_INSERTION_H
-#define MW_SRC_SEGMENT_INSERTION_H
+#ifndef MW_SRC_TRIANGULATE_CONSTRAINED_SEGMENT_INSERTION_H
+#define MW_SRC_TRIANGULATE_CONSTRAINED_SEGMENT_INSERTION_H
 
 #include "mesh/mesh.h"
 

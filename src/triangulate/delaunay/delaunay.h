@@ -1,6 +1,6 @@
 /* delaunay.h - the Delaunay triangulation as records, for the rooms above. Private. */
-#ifndef MW_SRC_DELAUNAY_H
-#define MW_SRC_DELAUNAY_H
+#ifndef MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_H
+#define MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_H
 
 #include "mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 /* delaunay_collect.h - from the facets that have grown to triangles. Private. */
-#ifndef MW_SRC_DELAUNAY_COLLECT_H
-#define MW_SRC_DELAUNAY_COLLECT_H
+#ifndef MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_COLLECT_H
+#define MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_COLLECT_H
 
 #include "mesh/mesh.h"
 #include "triangulate/delaunay/delaunay_patches.h"

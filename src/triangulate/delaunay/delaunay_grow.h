@@ -1,6 +1,6 @@
 /* delaunay_grow.h - a Delaunay triangulation that grows by one point at a time. Private. */
-#ifndef MW_SRC_DELAUNAY_GROW_H
-#define MW_SRC_DELAUNAY_GROW_H
+#ifndef MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_GROW_H
+#define MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_GROW_H
 
 #include "predicates/predicates.h"
 

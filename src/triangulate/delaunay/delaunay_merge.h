@@ -1,6 +1,6 @@
 /* delaunay_merge.h - two Delaunay triangulations on either side of a line become one. Private. */
-#ifndef MW_SRC_DELAUNAY_MERGE_H
-#define MW_SRC_DELAUNAY_MERGE_H
+#ifndef MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_MERGE_H
+#define MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_MERGE_H
 
 #include "triangulate/delaunay/delaunay_grow.h"
 

@@ -1,7 +1,7 @@
 /* delaunay_patches.h - the plane is cut into patches, which are triangulated one by one, and
  * merged. Private. */
-#ifndef MW_SRC_DELAUNAY_PATCHES_H
-#define MW_SRC_DELAUNAY_PATCHES_H
+#ifndef MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_PATCHES_H
+#define MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_PATCHES_H
 
 #include "mesh/point_order.h"
 #include "triangulate/delaunay/delaunay_grow.h"

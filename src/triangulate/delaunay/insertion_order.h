@@ -1,6 +1,6 @@
 /* insertion_order.h - the order in which points are inserted. Private. */
-#ifndef MW_SRC_INSERTION_ORDER_H
-#define MW_SRC_INSERTION_ORDER_H
+#ifndef MW_SRC_TRIANGULATE_DELAUNAY_INSERTION_ORDER_H
+#define MW_SRC_TRIANGULATE_DELAUNAY_INSERTION_ORDER_H
 
 #include "base/base.h"
 

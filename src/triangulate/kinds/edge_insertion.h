@@ -1,7 +1,7 @@
 /* edge_insertion.h - a triangle with a bad angle is replaced, together with triangles beyond it, by
  * better ones. Private. */
-#ifndef MW_SRC_EDGE_INSERTION_H
-#define MW_SRC_EDGE_INSERTION_H
+#ifndef MW_SRC_TRIANGULATE_KINDS_EDGE_INSERTION_H
+#define MW_SRC_TRIANGULATE_KINDS_EDGE_INSERTION_H
 
 #include "mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 /* greedy_heap.h - edges that wait, the shortest first. Private. */
-#ifndef MW_SRC_GREEDY_HEAP_H
-#define MW_SRC_GREEDY_HEAP_H
+#ifndef MW_SRC_TRIANGULATE_KINDS_GREEDY_HEAP_H
+#define MW_SRC_TRIANGULATE_KINDS_GREEDY_HEAP_H
 
 #include "predicates/predicates.h"
 

@@ -3,8 +3,8 @@
  *
  * All triangulations of a set of points have the same number of triangles. So each kind works in
  * place, by exchanging diagonals or by writing all records anew. */
-#ifndef MW_SRC_KIND_MAKER_H
-#define MW_SRC_KIND_MAKER_H
+#ifndef MW_SRC_TRIANGULATE_KINDS_KIND_MAKER_H
+#define MW_SRC_TRIANGULATE_KINDS_KIND_MAKER_H
 
 #include "mesh/mesh.h"
 

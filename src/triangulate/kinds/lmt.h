@@ -1,7 +1,7 @@
 /* lmt.h - the parts of a triangulation of least weight: candidate edges, the LMT skeleton, its
  * faces. Private. */
-#ifndef MW_SRC_LMT_H
-#define MW_SRC_LMT_H
+#ifndef MW_SRC_TRIANGULATE_KINDS_LMT_H
+#define MW_SRC_TRIANGULATE_KINDS_LMT_H
 
 #include "mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 /* min_max_angle.h - the search for the smallest largest angle, with limits. Private. */
-#ifndef MW_SRC_MIN_MAX_ANGLE_H
-#define MW_SRC_MIN_MAX_ANGLE_H
+#ifndef MW_SRC_TRIANGULATE_KINDS_MIN_MAX_ANGLE_H
+#define MW_SRC_TRIANGULATE_KINDS_MIN_MAX_ANGLE_H
 
 #include "triangulate/kinds/kind_maker.h"
 
