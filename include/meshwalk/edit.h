@@ -76,7 +76,8 @@ typedef struct mw_changed_triangle {
         before[3]; /* its vertices before the edit; MW_NONE if it was made. mw_editor_triangle tells those after it */
 } mw_changed_triangle;
 
-/* What an edit changed. Triangles round a vertex that was moved keep their vertices, and are not listed unless flipped. */
+/* What an edit changed. Triangles round a vertex that was moved keep their vertices, and are not
+ * listed unless flipped. Holes keep their numbers. */
 typedef struct mw_change {
     mw_changed_triangle *triangle; /* `made` ones, then `reused`, then `freed`; each in order of number. Owned by
                                       the editor, until its next edit                                             */
@@ -97,7 +98,10 @@ typedef struct mw_change {
  *   remove     Its triangles are replaced by two less, which keep the lower numbers. On the hull of a mesh that fills it the hull
  *              shrinks. A vertex on the border or on constraints can go only where two of them meet and are in line.
  *   move       In place while no triangle round the vertex turns over; else by removing and inserting, the vertex keeps its number and
- *              values; this is refused where the vertex is on the border or on a constraint.
+ *              values. A vertex on a constraint, or on a border that is fixed, keeps its triangles: the move is refused where
+ *              one of them would turn over or lose its area, cover other vertices or triangles, or where an edge of it would
+ *              cross an edge or meet a vertex; any other move is done. Where the hull of a mesh that fills it would not
+ *              stay convex, new triangles fill it.
  *   flip       Needs two triangles that make a strictly convex quadrilateral. Ends keeping the mesh Delaunay, unless four points lie on a
  *              circle.
  *   constrain  May not cross a constraint, nor leave the mesh. Vertices on the way part it.
@@ -151,7 +155,8 @@ typedef struct mw_editor_info {
     uint32_t vertex_range, triangle_range; /* all numbers are below these                                         */
     uint32_t constrained_edges;            /* edges that are fixed, but for the border                            */
     int delaunay;                          /* 1: the mesh is kept Delaunay                                        */
-    int convex;                            /* 1: it fills its convex hull, which grows and shrinks                */
+    int convex;                            /* 1: it fills its convex hull, which grows and shrinks; 0: its border is
+                                              fixed. Decided when the editor is made                              */
     size_t undoable;                       /* edits that can be undone                                            */
     size_t bytes;                          /* memory in use by the editor                                           */
     size_t undo_bytes;                     /* of it, for undo and the log                                         */

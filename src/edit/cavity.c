@@ -300,21 +300,21 @@ bool mw__cavity_dig_side(mw_dynamic_tiling *f, mw_cavity *cavity, uint32_t half)
     return cavity_dig_along(f, cavity, next, one, 1, 5, false);
 }
 
-static bool sees_edge(const mw_dynamic_tiling *f, mw_point q, uint32_t half)
+bool mw__sees_hull_edge(const mw_dynamic_tiling *f, mw_point q, uint32_t half)
 {
     const mw_point *p = f->tiling->point;
     const uint32_t *v = f->tiling->tri[mw__link_triangle(half)].v;
     return mw__orient2d(p[v[mw__link_edge(half)]], p[v[mw__link_edge(half) + 1]], q) < 0;
 }
 
-static uint32_t hull_after(const mw_dynamic_tiling *f, uint32_t half)
+uint32_t mw__hull_after(const mw_dynamic_tiling *f, uint32_t half)
 {
     uint32_t at = mw__half_next(half);
     while (mw__beyond(f, at) != MW_NONE) at = mw__half_next(mw__beyond(f, at));
     return at;
 }
 
-static uint32_t hull_before(const mw_dynamic_tiling *f, uint32_t half)
+uint32_t mw__hull_before(const mw_dynamic_tiling *f, uint32_t half)
 {
     uint32_t at = mw__half_prev(half);
     while (mw__beyond(f, at) != MW_NONE) at = mw__half_prev(mw__beyond(f, at));
@@ -325,9 +325,9 @@ bool mw__cavity_dig_outside(mw_dynamic_tiling *f, mw_cavity *cavity, uint32_t t)
 {
     const mw_point q = cavity->q;
     uint32_t steps = 0, half = mw__link(t, 0), after;
-    while (mw__beyond(f, half) != MW_NONE || !sees_edge(f, q, half)) half = mw__half_next(half);
-    while (sees_edge(f, q, hull_before(f, half))) half = hull_before(f, half);
-    for (after = half; sees_edge(f, q, after); after = hull_after(f, after)) {
+    while (mw__beyond(f, half) != MW_NONE || !mw__sees_hull_edge(f, q, half)) half = mw__half_next(half);
+    while (mw__sees_hull_edge(f, q, mw__hull_before(f, half))) half = mw__hull_before(f, half);
+    for (after = half; mw__sees_hull_edge(f, q, after); after = mw__hull_after(f, after)) {
         /* this tile stays, but no other tile tells that it had no neighbour here */
         if (!mw__journal_tile(f, mw__link_triangle(after)) || !mw__boundary_room(f, room_besides(cavity, steps + 1)))
             return false;

@@ -31,6 +31,11 @@ bool mw__cavity_dig_side(mw_dynamic_tiling *f, mw_cavity *cavity, uint32_t half)
 /* Dig from the hull edges that q sees from outside. One of them is an edge of tile t. */
 bool mw__cavity_dig_outside(mw_dynamic_tiling *f, mw_cavity *cavity, uint32_t t);
 
+/* Does q lie beyond a hull edge? The hull edges after and before one, counter-clockwise. */
+bool mw__sees_hull_edge(const mw_dynamic_tiling *f, mw_point q, uint32_t half);
+uint32_t mw__hull_after(const mw_dynamic_tiling *f, uint32_t half);
+uint32_t mw__hull_before(const mw_dynamic_tiling *f, uint32_t half);
+
 /* Set the first three of f->lifted to the corners of a tile. There must be room for them. */
 static MW_INLINE void mw__lift_corners(mw_dynamic_tiling *f, uint32_t t, mw_point q)
 {

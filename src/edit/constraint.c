@@ -5,6 +5,7 @@
  * it. The tiles crossed are a channel. Each vertex of the channel is an end of an edge that crosses
  * the segment; so either side of the channel can be filled by cutting off corners (boundary.h), and
  * the constrained edge is the edge between the two sides. */
+#include "edit/channel.h"
 #include "edit/flip.h"
 #include "edit/operations.h"
 #include "edit/boundary.h"
@@ -35,12 +36,13 @@ static bool vertex_lies_ahead(const mw_dynamic_tiling *f, uint32_t from, uint32_
     return mw__orient2d(p[from], p[to], p[v]) == 0 && mw__dot2d(p[from], p[to], p[v]) > 0;
 }
 
-/* f->last is a tile of `from`. */
-static star_exit exit_from_vertex(const mw_dynamic_tiling *f, uint32_t from, uint32_t to)
+/* `begin`: an edge that begins at `from`. The search goes counter-clockwise from there; on the hull
+ * it continues at the first tile. */
+static star_exit exit_after_edge(const mw_dynamic_tiling *f, uint32_t begin, uint32_t from, uint32_t to)
 {
     const mw_point *p = f->tiling->point;
+    uint32_t at = begin;
     bool open;
-    uint32_t first = mw__vertex_star_first_from(f, from, f->last, &open), at = first;
     do {
         uint32_t across = mw__half_next(at), last = mw__half_prev(at);
         uint32_t a = mw__corner(f, across), b = mw__corner(f, last);
@@ -49,8 +51,16 @@ static star_exit exit_from_vertex(const mw_dynamic_tiling *f, uint32_t from, uin
         if (mw__orient2d(p[from], p[to], p[a]) < 0 && mw__orient2d(p[from], p[to], p[b]) > 0)
             return (star_exit){across, MW_NONE};
         at = mw__beyond(f, last);
-    } while (at != MW_NONE && at != first);
+        if (at == MW_NONE) at = mw__vertex_star_first_from(f, from, mw__link_triangle(begin), &open);
+    } while (at != begin);
     return (star_exit){MW_NONE, MW_NONE}; /* it leaves the hull: impossible between two vertices */
+}
+
+/* f->last is a tile of `from`. */
+static star_exit exit_from_vertex(const mw_dynamic_tiling *f, uint32_t from, uint32_t to)
+{
+    bool open;
+    return exit_after_edge(f, mw__vertex_star_first_from(f, from, f->last, &open), from, to);
 }
 
 static mw_status refuse_crossing(const mw_dynamic_tiling *f, uint32_t half, mw_error *error)
@@ -80,21 +90,20 @@ static mw_boundary_step boundary_step_at(const mw_dynamic_tiling *f, uint32_t ha
         .vertex = mw__corner(f, half), .beyond = mw__beyond(f, half), .half = half, .fixed = mw__is_fixed(f, half)};
 }
 
-/* Count the tiles of the channel, beginning with the tile of `half`, which is crossed. Fails if a
- * fixed edge is in the way. */
-static mw_status channel_measure(const mw_dynamic_tiling *f, uint32_t from, uint32_t to, uint32_t half, size_t *tiles,
-                                 mw_error *error)
+/* Count the tiles of the channel, beginning with the tile of `half`, which is crossed. Returns the
+ * fixed edge in the way; MW_NONE if there is none. */
+static uint32_t channel_measure(const mw_dynamic_tiling *f, uint32_t from, uint32_t to, uint32_t half, size_t *tiles)
 {
     const mw_point *p = f->tiling->point;
     for (*tiles = 1;; (*tiles)++) {
-        if (mw__is_fixed(f, half)) return refuse_crossing(f, half, error);
+        if (mw__is_fixed(f, half)) return half;
         uint32_t other = mw__beyond(f, half), apex = mw__apex(f, other);
         double side = mw__orient2d(p[from], p[to], p[apex]);
         if (side == 0) break;
         half = side > 0 ? mw__half_next(other) : mw__half_prev(other);
     }
     (*tiles)++;
-    return MW_OK;
+    return MW_NONE;
 }
 
 /* Collect both sides: f->boundary has room for `tiles` + 2 steps each, f->pool for the tiles. */
@@ -135,26 +144,32 @@ static void channel_find_slits(mw_dynamic_tiling *f, mw_boundary_step *steps, si
     }
 }
 
-/* Replace the channel by tiles on either side of a new edge, from `from` to the end of the channel.
- * Sets *end to the vertex there and *new_edge to a half-edge of the new edge. */
-static mw_status channel_fill(mw_dynamic_tiling *f, uint32_t from, uint32_t to, uint32_t half, uint32_t *end,
-                              uint32_t *new_edge, mw_error *error)
+/* Replace the channel that begins with edge `half` by tiles on either side of a new edge, from
+ * `from` to the end of the channel. False when out of memory. */
+static bool channel_fill(mw_dynamic_tiling *f, uint32_t from, uint32_t to, uint32_t half, mw_forced_edge *forced)
 {
     size_t tiles;
-    mw_status status = channel_measure(f, from, to, half, &tiles, error);
-    if (status) return status;
-    if (!mw__boundary_room(f, 4 * tiles + 8)) return mw__fail_memory(error);
+    *forced = (mw_forced_edge){MW_NONE, MW_NONE, channel_measure(f, from, to, half, &tiles)};
+    if (forced->blocked != MW_NONE) return true;
+    if (!mw__boundary_room(f, 4 * tiles + 8)) return false;
     constraint_channel c = channel_gather(f, from, to, half, tiles);
     mw_pool pool = {.tile = f->pool, .count = c.tiles, .slit = f->boundary + 2 * tiles + 4};
-    if (!mw__pool_begin(f, &pool)) return mw__fail_memory(error);
+    if (!mw__pool_begin(f, &pool)) return false;
     channel_find_slits(f, c.right, c.rights);
     channel_find_slits(f, c.left, c.lefts);
     if (!mw__chain_cut_corners(f, c.right, &c.rights, &pool) || !mw__chain_cut_corners(f, c.left, &c.lefts, &pool))
-        return mw__fail_memory(error);
-    *end = c.end;
-    *new_edge = c.left[0].beyond;
+        return false;
+    *forced = (mw_forced_edge){c.left[0].beyond, c.end, MW_NONE};
     mw__attach(f, c.left[0].beyond, c.right[0].beyond);
-    return MW_OK;
+    return true;
+}
+
+bool mw__edge_force(mw_dynamic_tiling *f, uint32_t begin, uint32_t to, mw_forced_edge *forced)
+{
+    const uint32_t from = mw__corner(f, begin);
+    star_exit exit = exit_after_edge(f, begin, from, to);
+    *forced = (mw_forced_edge){exit.half, exit.vertex, MW_NONE};
+    return exit.vertex != MW_NONE || channel_fill(f, from, to, exit.half, forced);
 }
 
 /* --- constrained edges ------------------------------------------------------------------------ */
@@ -199,8 +214,11 @@ static mw_status constrain_next_edge(mw_dynamic_tiling *f, uint32_t from, uint32
     uint32_t half = exit.half;
     if (*end == MW_NONE) {
         if (!mw__is_users_tile(f, mw__link_triangle(half))) return refuse_leaving(f, from, error);
-        mw_status status = channel_fill(f, from, to, exit.half, end, &half, error);
-        if (status) return status;
+        mw_forced_edge forced;
+        if (!channel_fill(f, from, to, exit.half, &forced)) return mw__fail_memory(error);
+        if (forced.blocked != MW_NONE) return refuse_crossing(f, forced.blocked, error);
+        *end = forced.end;
+        half = forced.half;
     }
     f->last = mw__link_triangle(half);
     return constrain_edge(f, half, error);

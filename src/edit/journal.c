@@ -231,12 +231,13 @@ static size_t list_former(const mw_dynamic_tiling *f, const mw_journal_entry *fi
 }
 
 /* Append the triangles that exist now and did not before, sorted; returns how many. They are in
- * slots of entries, and in slots at the end of the array. */
+ * slots of entries, and in slots at the end of the array. A triangle at the end with an older
+ * number has only changed its slot. */
 static size_t list_made(const mw_dynamic_tiling *f, const mw_journal_entry *first, size_t count,
                         mw_changed_triangle *list, size_t known)
 {
     const mw_tiling *tiling = f->tiling;
-    uint32_t tiles = f->step[f->step_count - 1].tiles;
+    const mw_journal_step *step = &f->step[f->step_count - 1];
     size_t n = known;
     for (size_t i = 0; i < count; i++) {
         if (first[i].slot >= tiling->tri_count) continue;
@@ -244,8 +245,10 @@ static size_t list_made(const mw_dynamic_tiling *f, const mw_journal_entry *firs
         mw_changed_triangle made = made_triangle(now);
         if (is_users_triangle(now) && !bsearch(&made, list, known, sizeof *list, compare_by_number)) list[n++] = made;
     }
-    for (uint32_t t = tiles; t < tiling->tri_count; t++)
-        if (is_users_triangle(&tiling->tri[t])) list[n++] = made_triangle(&tiling->tri[t]);
+    for (uint32_t t = step->tiles; t < tiling->tri_count; t++) {
+        const mw_triangle *now = &tiling->tri[t];
+        if (is_users_triangle(now) && (now->user & MW_USER_MASK) >= step->numbers) list[n++] = made_triangle(now);
+    }
     sort_by_number(list + known, n - known);
     return n - known;
 }

@@ -5,7 +5,7 @@
 #ifndef MW_SRC_EDIT_OPERATIONS_H
 #define MW_SRC_EDIT_OPERATIONS_H
 
-#include "edit/dynamic_tiling.h"
+#include "edit/vertex_star.h"
 
 /* Insert a vertex at q. *vertex: MW_NONE for a new vertex, else the slot of a vertex that is in no
  * tile. Sets *vertex to the vertex at q, which may have been there before. `t`: the tile where the
@@ -13,6 +13,9 @@
  * if it might fail after it has changed a tile. */
 mw_status mw__dynamic_insert(mw_dynamic_tiling *f, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
 mw_status mw__dynamic_remove(mw_dynamic_tiling *f, uint32_t vertex, mw_error *error);
+/* Remove a vertex that has no fixed edges from the tiles, given its star, which was collected last.
+ * The vertex keeps its slot and its number. */
+mw_status mw__dynamic_take_out(mw_dynamic_tiling *f, const mw_vertex_star *star, uint32_t v, mw_error *error);
 /* `t`: the tile where the search for q begins if the vertex leaves its star. MW_NONE: at its
  * star. */
 mw_status mw__dynamic_move(mw_dynamic_tiling *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error);

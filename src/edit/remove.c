@@ -1,4 +1,4 @@
-/* remove.c - a vertex is removed from its star, or moved.
+/* remove.c - a vertex is removed from its star.
  *
  * The ring round the vertex is filled by cutting off its corners; then edges between the new tiles
  * are flipped until they are Delaunay. (A small ring in a Delaunay mesh is filled with Delaunay
@@ -122,12 +122,16 @@ static bool spokes_in_line(const mw_dynamic_tiling *f, const mw_vertex_star *sta
     return mw__orient2d(a, b, p[v]) == 0 && mw__dot2d(p[v], a, b) < 0;
 }
 
-/* Remove v from the tiling, given its star. */
+mw_status mw__dynamic_take_out(mw_dynamic_tiling *f, const mw_vertex_star *star, uint32_t v, mw_error *error)
+{
+    return star->open ? shrink_hull(f, star, error) : ring_close(f, star, f->tiling->point[v], error);
+}
+
 static mw_status vertex_take_out(mw_dynamic_tiling *f, const mw_vertex_star *star, uint32_t v, mw_error *error)
 {
     if (star->spokes == 2 && spokes_in_line(f, star, v)) return close_line(f, star, error);
     if (star->spokes > 0) return refuse_fixed(f, v, error);
-    return star->open ? shrink_hull(f, star, error) : ring_close(f, star, f->tiling->point[v], error);
+    return mw__dynamic_take_out(f, star, v, error);
 }
 
 mw_status mw__dynamic_remove(mw_dynamic_tiling *f, uint32_t vertex, mw_error *error)
@@ -140,67 +144,5 @@ mw_status mw__dynamic_remove(mw_dynamic_tiling *f, uint32_t vertex, mw_error *er
     step->point = f->tiling->point[vertex];
     mw_status status = vertex_take_out(f, &star, vertex, error);
     if (!status && !mw__free_vertex(f, vertex)) status = mw__fail_memory(error);
-    return status;
-}
-
-/* --- moving ----------------------------------------------------------------------------------- */
-
-/* Does the hull stay convex if its vertex, between boundary vertices n and 0, moves to q? */
-static bool move_keeps_hull(const mw_dynamic_tiling *f, const mw_vertex_star *star, mw_point q)
-{
-    const mw_point *p = f->tiling->point;
-    uint32_t after = f->boundary[0].vertex, before = f->boundary[star->n].vertex;
-    bool open;
-    uint32_t out = mw__vertex_star_first(f, after, &open); /* the hull edge that leaves it */
-    mw_point beyond = p[mw__corner(f, mw__half_next(out))];
-    /* from the first tile of `before` to its last one, where the hull comes in */
-    uint32_t in = mw__half_prev(mw__vertex_star_first(f, before, &open));
-    while (mw__beyond(f, in) != MW_NONE) in = mw__half_prev(mw__beyond(f, in));
-    return mw__orient2d(p[before], q, p[after]) >= 0 && mw__orient2d(q, p[after], beyond) >= 0 &&
-           mw__orient2d(p[mw__corner(f, in)], p[before], q) >= 0;
-}
-
-static bool move_keeps_star(const mw_dynamic_tiling *f, const mw_vertex_star *star, mw_point q)
-{
-    const mw_point *p = f->tiling->point;
-    for (size_t i = 0; i < star->n; i++) {
-        uint32_t to = mw__corner(f, mw__half_next(f->boundary[i].half));
-        if (!(mw__orient2d(p[f->boundary[i].vertex], p[to], q) > 0)) return false;
-    }
-    return !star->open || move_keeps_hull(f, star, q);
-}
-
-/* Move the vertex within its star. All edges of the star may have to be flipped. */
-static mw_status vertex_shift(mw_dynamic_tiling *f, const mw_vertex_star *star, uint32_t v, mw_point q, mw_error *error)
-{
-    f->tiling->point[v] = q;
-    f->last = f->pool[0];
-    if (!f->delaunay) return MW_OK;
-    for (size_t i = 0; i < star->n; i++) {
-        uint32_t across = f->boundary[i].half;
-        if (!mw__stack_push(f, across) || !mw__stack_push(f, mw__half_next(across)) ||
-            !mw__stack_push(f, mw__half_prev(across)))
-            return mw__fail_memory(error);
-    }
-    return mw__legalise(f) ? MW_OK : mw__fail_memory(error);
-}
-
-mw_status mw__dynamic_move(mw_dynamic_tiling *f, uint32_t vertex, mw_point q, uint32_t t, mw_error *error)
-{
-    mw_journal_step *step = &f->step[f->step_count - 1];
-    mw_vertex_star star;
-    if (!mw__vertex_star_collect(f, vertex, &star)) return mw__fail_memory(error);
-    step->vertex = vertex;
-    step->point = f->tiling->point[vertex];
-    if (move_keeps_star(f, &star, q)) return vertex_shift(f, &star, vertex, q, error);
-    if (star.spokes > 0) return refuse_fixed(f, vertex, error);
-    mw_status status = vertex_take_out(f, &star, vertex, error);
-    if (status) return status;
-    f->tiling->point[vertex] = q;
-    uint32_t at = vertex;
-    status = mw__dynamic_insert(f, q, t < f->tiling->tri_count ? t : f->last, &at, error);
-    if (!status && at != vertex)
-        status =
-            mw__fail_at(error, -1, f->vertex_number[at], "vertex %" PRIu32 " lies there already", f->vertex_number[at]);
     return status;
 }

@@ -87,6 +87,17 @@ bool mw__vertex_star_collect(mw_dynamic_tiling *f, uint32_t v, mw_vertex_star *s
     return true;
 }
 
+bool mw__vertex_star_push(mw_dynamic_tiling *f, const mw_vertex_star *star)
+{
+    for (size_t i = 0; i < star->n; i++) {
+        uint32_t across = f->boundary[i].half;
+        if (!mw__stack_push(f, across) || !mw__stack_push(f, mw__half_next(across)) ||
+            !mw__stack_push(f, mw__half_prev(across)))
+            return false;
+    }
+    return true;
+}
+
 uint32_t mw__dynamic_edge(const mw_dynamic_tiling *f, uint32_t from, uint32_t to)
 {
     bool open;

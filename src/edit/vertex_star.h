@@ -35,4 +35,8 @@ typedef struct mw_vertex_star {
  * f->boundary[n].vertex is the end. False when out of memory. */
 bool mw__vertex_star_collect(mw_dynamic_tiling *f, uint32_t v, mw_vertex_star *star);
 
+/* Push all edges of the star that was collected last, for mw__legalise. False when out of
+ * memory. */
+bool mw__vertex_star_push(mw_dynamic_tiling *f, const mw_vertex_star *star);
+
 #endif

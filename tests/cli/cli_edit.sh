@@ -80,6 +80,10 @@ bad $'undo\n' 1 'undo: there is no edit'
 bad $'insert .5 .25\ncompact\nundo\n' 3 'undo: there is no edit'
 run_on $'insert 1.5 1.5\n' edit ring.off - -o out.off; exits 3; says ':1: insert: '
 run_on $'remove 0\n' edit ring.off - -o out.off; exits 3; says ':1: remove: '
+run_on $'move 5 1.75 1.4\nlocate 1.5 1.5\n' edit ring.off - -o out.off; exits 0; prints_line '^1.5,1.5,hole,-1,,,$'
+run check out.off; exits 0
+run_on $'move 5 2.5 1.5\n' edit ring.off - -o out.off
+exits 3; says ':1: move: vertex 5 cannot move there: triangle [0-9]+ would turn over or be flat'
 run_on $'locate 1.5 1.5\n' edit ring.off - -o out.off --strict; exits 1; prints_line '^1.5,1.5,hole,-1,,,$'
 rm out.off
 run edit m.off absent.txt -o out.off; refused 3 'absent\.txt: No such file'; absent out.off

@@ -3,8 +3,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "oracle/edit_locate.h"
+#include "support/meshes.h"
 
 /* --- the triangles round a vertex ------------------------------------------------------------- */
 
@@ -89,6 +91,28 @@ static twin_outcome predict_insert(const twin *t, const double *q)
     return where.where == MW_BAD || (where.triangle == MW_NONE && !t->convex) ? TWIN_REFUSED : TWIN_DONE;
 }
 
+/* Are the triangles an embedding with v at q, by a check from scratch? */
+static bool is_embedding_at(const twin *t, uint32_t v, const double *q)
+{
+    double *points = require_room(2 * (size_t)t->vertex_range, sizeof *points);
+    uint32_t *triangles = require_room(3 * (size_t)t->triangles, sizeof *triangles);
+    size_t n = 0;
+    for (uint32_t w = 0; w < t->vertex_range; w++)
+        if (t->state[w] != TWIN_GONE) memcpy(points + 2 * (size_t)w, w == v ? q : twin_point(t, w), 2 * sizeof *points);
+    for (uint32_t k = 0; k < t->triangle_range; k++)
+        if (twin_has_triangle(t, k)) memcpy(triangles + 3 * n++, twin_corners(t, k), 3 * sizeof *triangles);
+    mw_arrays given = {
+        .points = points, .point_count = t->vertex_range, .triangles = triangles, .triangle_count = t->triangles};
+    mw_check check;
+    mw_error error = {0};
+    expect_ok(mw_check_arrays(&given, &check, &error), "check", &error);
+    bool embedding = check.valid;
+    mw_check_release(&check);
+    free(points);
+    free(triangles);
+    return embedding;
+}
+
 static twin_outcome predict_move(const twin *t, uint32_t v, const double *q)
 {
     if (!twin_uses_vertex(t, v) || !isfinite(q[0]) || !isfinite(q[1])) return TWIN_REFUSED;
@@ -99,7 +123,8 @@ static twin_outcome predict_move(const twin *t, uint32_t v, const double *q)
     bool stays = twin_star_fits(t, &s, q), border = s.border_count > 0, fixed = s.fixed_count > 0;
     twin_star_free(&s);
     if (!border && stays) return TWIN_DONE;
-    if (border && (fixed || !is_something_left(t, v))) return stays ? TWIN_EITHER : TWIN_REFUSED;
+    if (border && (fixed || !is_something_left(t, v)))
+        return stays && is_embedding_at(t, v, q) ? TWIN_DONE : TWIN_REFUSED;
     if (fixed) return TWIN_REFUSED;
     return where.triangle == MW_NONE && !t->convex ? TWIN_REFUSED : TWIN_DONE;
 }

@@ -4,8 +4,7 @@
 
 #include "oracle/edit_sides.h"
 
-/* TWIN_EITHER: the header leaves it open. */
-typedef enum twin_outcome { TWIN_DONE, TWIN_REFUSED, TWIN_EITHER } twin_outcome;
+typedef enum twin_outcome { TWIN_DONE, TWIN_REFUSED } twin_outcome;
 
 /* Is the edit to be done or refused? */
 twin_outcome twin_predict(const twin *t, const mw_edit *e);
