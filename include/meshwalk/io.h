@@ -191,11 +191,17 @@ MW_API mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line,
 MW_API void mw_edit_reader_close(mw_edit_reader *reader); /* NULL is allowed */
 
 /* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside
- * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a link to
- * it). Pipes, terminals and devices are written directly. Writing into a closed pipe raises SIGPIPE: a program that
- * wants the error instead ignores that signal. */
+ * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a symbolic
+ * link to it, whether the file existed or not). Pipes, terminals and devices are written directly.
+ * Writing into a closed pipe raises SIGPIPE: a program that wants the error instead ignores that signal. */
 typedef struct mw_output mw_output;
 MW_API mw_status mw_output_open(const char *path, mw_output **out, mw_error *error);
+
+/* Find the name under which the output of `path` appears: what symbolic links lead to, whether
+ * there is a file or not.
+ *   name  released by the caller with free(); NULL on failure
+ * MW_ERROR_SYSTEM: links that lead to one another; MW_ERROR_MEMORY, MW_ERROR_ARGUMENT. */
+MW_API mw_status mw_output_resolve(const char *path, char **name, mw_error *error);
 /* Errors are kept for mw_output_close. */
 MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size);
 /* As printf, for text and integers: decimals would follow the locale. */
