@@ -90,6 +90,12 @@ mw_excerpt mw__excerpt(const char *text)
     return mw__excerpt_of(text, strcspn(text, " \t"));
 }
 
+mw_status mw__source_fail_large(const mw_source *source, const char *number, const char *end, mw_error *error)
+{
+    return mw__source_fail(source, error, "the number %s is too large",
+                           mw__excerpt_of(number, (size_t)(end - number)).text);
+}
+
 static mw_status source_start(mw_source *source, const char *path, size_t block, mw_error *error)
 {
     *source = (mw_source){.path = strdup(path), .capacity = block};
