@@ -91,11 +91,12 @@ static int main_unknown_command(const char *word)
 }
 
 /* Open closed standard streams on /dev/null. Else the next file that is opened would take the
- * number of one, and output or messages would go into that file. */
+ * number of one, and output or messages would go into that file. They are opened the wrong way
+ * round: to read or to write the stream is an error, as it is where it is closed. */
 static void standard_streams_fill(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
-        if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
+        if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
 }
 
 /* OpenMP ends a program that cannot get its threads with exit code 1, which has another meaning

@@ -8,7 +8,7 @@ _meshwalk_options() {
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
         info | check) echo "--as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --keep --split --kind --limit --format --columns --class --json $common" ;;
+        triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details $query $stream $common" ;;
         sample) echo "--field --outside $query $stream $common" ;;
         edit)

@@ -212,7 +212,8 @@ static int edit_work_prepare(const edit_settings *s, const char *path, edit_work
 {
     mw_mesh *mesh = NULL;
     int end = edit_read_mesh(path, s->common.threads, &mesh);
-    if (end == 0 && s->constraints) end = traced_constraints_read(&w->constraints, s->constraints, mesh, path);
+    if (end == 0 && s->constraints)
+        end = traced_constraints_read(&w->constraints, s->constraints, s->common.quiet, mesh, path);
     if (end == 0) end = edit_work_make_editor(s, path, mesh, w);
     mw_mesh_destroy(mesh);
     w->ready = monotonic_seconds();

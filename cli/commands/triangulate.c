@@ -20,7 +20,7 @@ typedef struct triangulate_settings {
     const char *columns, *classes, *constraints;
     int kind, format, keep;
     uint32_t limit;
-    bool json, split;
+    bool json, split, strict;
 } triangulate_settings;
 
 static const char *kind_name(int i)
@@ -54,6 +54,10 @@ static const option triangulate_options[] = {
      "with --constraints, the triangles to keep (default: auto):", &keep_choices},
     {"split", 0, OPTION_FLAG, offsetof(triangulate_settings, split), NULL,
      "with --constraints, put a vertex where some cross; without it that is an error", NULL},
+    {"strict", 0, OPTION_FLAG, offsetof(triangulate_settings, strict), NULL,
+     "with --constraints, refuse a FILE that has rings of fewer than three different points; without it they are "
+     "skipped with a warning",
+     NULL},
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
      "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
     {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
@@ -232,8 +236,8 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
     if (!points && !s->constraints) return triangulate_refuse("wants POINTS, or --constraints FILE");
     if (!points && (s->columns || s->classes))
         return triangulate_refuse("--columns and --class are about POINTS, which are missing");
-    if (!s->constraints && (s->keep || s->split))
-        return triangulate_refuse("--keep and --split are about --constraints");
+    if (!s->constraints && (s->keep || s->split || s->strict))
+        return triangulate_refuse("--keep, --split and --strict are about --constraints");
     if (s->constraints && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--constraints are for --kind delaunay only");
     if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
@@ -260,7 +264,8 @@ static int triangulate_read_input(const triangulate_settings *s, const char *poi
 {
     int end = points ? vertex_table_read(&w->vertices, points, s->columns, s->classes) : 0;
     if (end || !s->constraints) return end;
-    end = constraint_file_read(s->constraints, &w->constraints);
+    const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
+    end = constraint_file_read(s->constraints, options, &w->constraints);
     return end ? end : vertex_table_append(&w->vertices, &w->constraints);
 }
 

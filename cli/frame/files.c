@@ -87,6 +87,14 @@ static bool stat_directory(const char *path, struct stat *s)
     return stat(directory, s) == 0;
 }
 
+/* Of files that there are not yet. */
+static bool is_one_name(const char *one, const char *other)
+{
+    struct stat a, b;
+    return strcmp(name_in_directory(one), name_in_directory(other)) == 0 && stat_directory(one, &a) &&
+           stat_directory(other, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 bool files_same_output(const char *one, const char *other)
 {
     struct stat a, b;
@@ -94,8 +102,12 @@ bool files_same_output(const char *one, const char *other)
     if (exists != file_form_stat(other, true, 0, &b)) return false;
     if (exists) return is_one_file(&a, &b);
     if (files_is_standard(one) || files_is_standard(other)) return false;
-    return strcmp(name_in_directory(one), name_in_directory(other)) == 0 && stat_directory(one, &a) &&
-           stat_directory(other, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    char *names[2] = {NULL, NULL};
+    bool same = mw_output_resolve(one, &names[0], NULL) == MW_OK &&
+                mw_output_resolve(other, &names[1], NULL) == MW_OK && is_one_name(names[0], names[1]);
+    free(names[0]);
+    free(names[1]);
+    return same;
 }
 
 /* Can the file be read as points? */

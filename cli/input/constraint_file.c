@@ -17,7 +17,7 @@ static bool is_directory(const char *path)
     return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
 }
 
-int constraint_file_read(const char *path, mw_constraint_file *file)
+static int constraint_file_read_any(const char *path, mw_constraint_file *file)
 {
     mw_error error;
     progress_phase("reading", path);
@@ -28,6 +28,37 @@ int constraint_file_read(const char *path, mw_constraint_file *file)
     int end = fail_reading(&error);
     if (unknown) complain("a program that was built with GDAL reads other vector files too");
     return end;
+}
+
+static void complain_of_ring(const char *path, const mw_constraint_file *file, const mw_skipped_ring *ring, bool strict)
+{
+    complain("%s: %s%s %" PRIu32 ": ring %" PRIu32 " of polygon %" PRIu32 " has fewer than three different points%s",
+             path, strict ? "" : "warning: ", file->record_name, ring->record, ring->ring, ring->polygon,
+             strict            ? ", which --strict refuses"
+             : ring->ring == 0 ? ": the polygon is skipped"
+                               : ": it is skipped");
+}
+
+/* Name the first ones, and count the others. */
+static void warn_of_rings(const char *path, const mw_constraint_file *file)
+{
+    enum { NAMED = 10 };
+    const size_t count = file->skipped_count, named = count <= NAMED ? count : NAMED;
+    for (size_t i = 0; i < named; i++) complain_of_ring(path, file, &file->skipped[i], false);
+    if (count > named) complain("%s: warning: %zu more such rings are skipped", path, count - named);
+}
+
+int constraint_file_read(const char *path, constraint_file_options options, mw_constraint_file *file)
+{
+    int end = constraint_file_read_any(path, file);
+    if (end || file->skipped_count == 0) return end;
+    if (!options.strict) {
+        if (!options.quiet) warn_of_rings(path, file);
+        return 0;
+    }
+    complain_of_ring(path, file, &file->skipped[0], true);
+    mw_constraint_file_release(file);
+    return END_INPUT;
 }
 
 bool constraint_file_is_poly(const mw_constraint_file *file)

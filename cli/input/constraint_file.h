@@ -5,9 +5,14 @@
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>
 
-/* Read constraints, with GDAL if the library does not know the format. Returns 0, or an exit code
- * after a complaint. */
-int constraint_file_read(const char *path, mw_constraint_file *file);
+typedef struct constraint_file_options {
+    bool quiet;  /* no warnings */
+    bool strict; /* rings that are skipped are an error */
+} constraint_file_options;
+
+/* Read constraints, with GDAL if the library does not know the format. Rings that are skipped are
+ * named in warnings. Returns 0, or an exit code after a complaint. */
+int constraint_file_read(const char *path, constraint_file_options options, mw_constraint_file *file);
 
 /* Do they come from a .poly file? Its segments bound a domain, without polygons. */
 bool constraint_file_is_poly(const mw_constraint_file *file);

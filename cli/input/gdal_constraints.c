@@ -60,8 +60,9 @@ static bool gdal_load(void)
 /* A constraint file that grows while features are added. */
 typedef struct constraint_collector {
     mw_constraint_file *file;
-    size_t point_room, segment_room;
+    size_t point_room, segment_room, skipped_room;
     uint32_t feature;
+    uint32_t polygons; /* of the feature */
 } constraint_collector;
 
 /* Make room for one more element after `count`. Returns false if memory runs out. */
@@ -125,12 +126,45 @@ static bool collector_add_chain(constraint_collector *c, OGRGeometryH line, uint
     return polygon == MW_NONE || *end < first + 2 || collector_add_segment(c, *end - 1, first, polygon);
 }
 
+/* Does a ring have three points that differ in x or y? */
+static bool ring_is_sound(OGRGeometryH ring)
+{
+    double seen[2][2], p[3];
+    int different = 0, count = gdal.OGR_G_GetPointCount(ring);
+    for (int i = 0; i < count; i++) {
+        gdal.OGR_G_GetPoint(ring, i, &p[0], &p[1], &p[2]);
+        bool known = false;
+        for (int k = 0; k < different; k++) known = known || (p[0] == seen[k][0] && p[1] == seen[k][1]);
+        if (!known && different == 2) return true;
+        if (!known) memcpy(seen[different++], p, sizeof seen[0]);
+    }
+    return false;
+}
+
+static bool collector_skip_ring(constraint_collector *c, uint32_t ring)
+{
+    mw_constraint_file *file = c->file;
+    if (!array_make_room(&file->skipped, sizeof *file->skipped, file->skipped_count, &c->skipped_room)) return false;
+    file->skipped[file->skipped_count++] = (mw_skipped_ring){c->feature, c->polygons, ring};
+    return true;
+}
+
+/* As the library does it for GeoJSON: a ring that is not sound is skipped, and if it is the outer
+ * one, so is its polygon. */
 static bool collector_add_polygon(constraint_collector *c, OGRGeometryH polygon)
 {
-    uint32_t number = (uint32_t)c->file->polygon_count++;
-    int count = gdal.OGR_G_GetGeometryCount(polygon);
-    for (int i = 0; i < count; i++)
-        if (!collector_add_chain(c, gdal.OGR_G_GetGeometryRef(polygon, i), number)) return false;
+    const uint32_t number = (uint32_t)c->file->polygon_count;
+    const int count = gdal.OGR_G_GetGeometryCount(polygon);
+    bool skipped = false;
+    for (int i = 0; i < count; i++) {
+        OGRGeometryH ring = gdal.OGR_G_GetGeometryRef(polygon, i);
+        const bool sound = ring_is_sound(ring);
+        skipped = skipped || (i == 0 && !sound);
+        if (!sound && !collector_skip_ring(c, (uint32_t)i)) return false;
+        if (sound && !skipped && !collector_add_chain(c, ring, number)) return false;
+    }
+    c->polygons++;
+    if (!skipped) c->file->polygon_count++;
     return true;
 }
 
@@ -166,6 +200,7 @@ static int gdal_fail_feature(const constraint_collector *c, const char *path)
 static int collector_add_feature(constraint_collector *c, OGRFeatureH feature, const char *path)
 {
     OGRGeometryH geometry = gdal.OGR_F_GetGeometryRef(feature);
+    c->polygons = 0;
     if (!geometry) return gdal.CPLGetLastErrorType() >= CE_Failure ? gdal_fail_feature(c, path) : 0;
     OGRGeometryH linear = gdal.OGR_G_GetLinearGeometry(geometry, 0, NULL); /* steps of 4 degrees */
     if (!linear) return gdal_fail_feature(c, path);

@@ -138,11 +138,12 @@ static int tracer_follow_all(constraint_tracer *s, traced_constraints *traced)
     return end;
 }
 
-int traced_constraints_read(traced_constraints *traced, const char *path, const mw_mesh *mesh, const char *mesh_path)
+int traced_constraints_read(traced_constraints *traced, const char *path, bool quiet, const mw_mesh *mesh,
+                            const char *mesh_path)
 {
     mw_constraint_file file;
     *traced = (traced_constraints){0};
-    int end = constraint_file_read(path, &file);
+    int end = constraint_file_read(path, (constraint_file_options){.quiet = quiet}, &file);
     if (end) return end;
     progress_phase("preparing", mesh_path);
     constraint_tracer s = {.path = path, .mesh_path = mesh_path, .file = &file, .mesh = mesh};

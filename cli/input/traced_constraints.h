@@ -3,6 +3,7 @@
 #define MW_CLI_INPUT_TRACED_CONSTRAINTS_H
 
 #include <meshwalk/meshwalk.h>
+#include <stdbool.h>
 
 typedef struct traced_constraints {
     uint32_t *vertex; /* two for each edge */
@@ -11,8 +12,9 @@ typedef struct traced_constraints {
 
 /* Read a file of constraints and find their edges in a mesh. A segment is one edge, or a chain of
  * edges if vertices lie on it. Returns 0, or an exit code after a complaint, for instance if a
- * segment is no edge; `mesh_path` is for the message. Release in both cases. */
-int traced_constraints_read(traced_constraints *traced, const char *path, const mw_mesh *mesh, const char *mesh_path);
+ * segment is no edge; `mesh_path` is for the message; quiet: no warnings. Release in both cases. */
+int traced_constraints_read(traced_constraints *traced, const char *path, bool quiet, const mw_mesh *mesh,
+                            const char *mesh_path);
 void traced_constraints_release(traced_constraints *traced);
 
 #endif

@@ -45,6 +45,13 @@ MW_API void mw_mesh_file_release(mw_mesh_file *file); /* NULL and an empty file 
 /* The mesh of a file as arrays for mw_mesh_create and mw_check_arrays. */
 MW_API mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file);
 
+/* A ring that was skipped, as it has fewer than three different points. */
+typedef struct mw_skipped_ring {
+    uint32_t record;  /* number of the feature, from 0 */
+    uint32_t polygon; /* of that feature, from 0: it may have several */
+    uint32_t ring;    /* of that polygon; 0 is the outer one, with which the whole polygon is skipped */
+} mw_skipped_ring;
+
 /* Constraints for mw_constrained_delaunay as read: arrays owned by the structure; release with
  * mw_constraint_file_release. */
 typedef struct mw_constraint_file {
@@ -63,6 +70,8 @@ typedef struct mw_constraint_file {
     char **field_names;      /* further values per point (attributes of .poly) */
     double **fields;
     size_t field_count;
+    mw_skipped_ring *skipped; /* what is not among the above; a warning, or an error, as the caller decides */
+    size_t skipped_count;
 } mw_constraint_file;
 
 /* Read constraints.
@@ -70,7 +79,8 @@ typedef struct mw_constraint_file {
  *             segment bounds: there are no polygons, polygon[i] is MW_NONE
  *   GeoJSON   Point, MultiPoint, LineString, MultiLineString, Polygon, MultiPolygon, GeometryCollection, Feature and
  *             FeatureCollection; each polygon of a MultiPolygon is one. A ring that is not closed is closed; null and
- *             empty geometries are passed over. Refused where the library was built without Jansson
+ *             empty geometries are passed over; rings of fewer than three different points are skipped
+ *             and listed. Refused where the library was built without Jansson
  * Recognised by content; gzip is taken. MW_ERROR_SYSTEM, MW_ERROR_INPUT, MW_ERROR_LIMIT, MW_ERROR_MEMORY as
  * mw_read_mesh. On failure `file` is empty. */
 MW_API mw_status mw_read_constraints(const char *path, mw_constraint_file *file, mw_error *error);
@@ -191,11 +201,17 @@ MW_API mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line,
 MW_API void mw_edit_reader_close(mw_edit_reader *reader); /* NULL is allowed */
 
 /* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside
- * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a link to
- * it). Pipes, terminals and devices are written directly. Writing into a closed pipe raises SIGPIPE: a program that
- * wants the error instead ignores that signal. */
+ * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a symbolic
+ * link to it, whether the file existed or not). Pipes, terminals and devices are written directly.
+ * Writing into a closed pipe raises SIGPIPE: a program that wants the error instead ignores that signal. */
 typedef struct mw_output mw_output;
 MW_API mw_status mw_output_open(const char *path, mw_output **out, mw_error *error);
+
+/* Find the name under which the output of `path` appears: what symbolic links lead to, whether
+ * there is a file or not.
+ *   name  released by the caller with free(); NULL on failure
+ * MW_ERROR_SYSTEM: links that lead to one another; MW_ERROR_MEMORY, MW_ERROR_ARGUMENT. */
+MW_API mw_status mw_output_resolve(const char *path, char **name, mw_error *error);
 /* Errors are kept for mw_output_close. */
 MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size);
 /* As printf, for text and integers: decimals would follow the locale. */

@@ -112,7 +112,9 @@ if $geojson; then
     kept 2 16 line.geojson corner.xyz
     kept 1 8 line.geojson corner.xyz --keep inside
     printf '{"type":"Polygon",\n"coordinates":[[[0,0],[1,0],[0,0]]]}' >ring.geojson
-    run triangulate --constraints ring.geojson -o m.off; refused 3 'ring\.geojson: feature 0: .*three different points'
+    run triangulate --constraints ring.geojson -o m.off
+    refused 3 'ring\.geojson: warning: feature 0: ring 0 of polygon 0 has fewer than three different points: the polygon is'
+    says 'fewer than three points: 0'; absent m.off
     printf '{"type":"Polygon",\n"coordinates":[[[0,0],[1,0}' >syntax.geojson
     run triangulate --constraints syntax.geojson -o m.off; refused 3 'syntax\.geojson:2: '
 fi

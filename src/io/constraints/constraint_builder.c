@@ -78,3 +78,15 @@ mw_status mw__constraint_hole(mw_constraint_builder *builder, double x, double y
     file->hole_seed_count++;
     return MW_OK;
 }
+
+mw_status mw__constraint_skip(mw_constraint_builder *builder, mw_skipped_ring ring, mw_error *error)
+{
+    mw_constraint_file *file = builder->file;
+    if (file->skipped_count == builder->skipped_room) {
+        mw_skipped_ring *rings = array_grow(file->skipped, file->skipped_count, &builder->skipped_room, sizeof *rings);
+        if (!rings) return mw__fail_memory(error);
+        file->skipped = rings;
+    }
+    file->skipped[file->skipped_count++] = ring;
+    return MW_OK;
+}

@@ -95,5 +95,6 @@ void mw_constraint_file_release(mw_constraint_file *file)
     free(file->polygon);
     free(file->record);
     free(file->hole_seeds);
+    free(file->skipped);
     *file = (mw_constraint_file){0};
 }

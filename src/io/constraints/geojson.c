@@ -1,7 +1,8 @@
 /* GeoJSON [RFC 7946]: the geometries of all features. Properties, `crs`, `bbox` and foreign
  * members are passed over, and so are geometries that are null or have no coordinates. The third
- * number of a position is z, further ones do not count. A ring that is not closed is closed. The
- * text is parsed by Jansson. */
+ * number of a position is z, further ones do not count. A ring that is not closed is closed. One of
+ * fewer than three different points is skipped and listed; if it is the outer one, so is its
+ * polygon. The text is parsed by Jansson. */
 #include "io/constraints/geojson.h"
 
 #ifdef MW_JANSSON
@@ -15,7 +16,8 @@
 
 typedef struct geojson_reader {
     mw_constraint_builder *builder;
-    uint32_t feature; /* number of the present one */
+    uint32_t feature;  /* number of the present one */
+    uint32_t polygons; /* how many of that one were read */
     mw_error *error;
 } geojson_reader;
 
@@ -47,7 +49,7 @@ static mw_status geojson_read_position(const geojson_reader *g, const json_t *po
 }
 
 /* Adds the position as a point. */
-static mw_status geojson_add_position(const geojson_reader *g, const json_t *position)
+static mw_status geojson_add_position(geojson_reader *g, const json_t *position)
 {
     double xyz[3];
     mw_status status = geojson_read_position(g, position, xyz);
@@ -56,13 +58,13 @@ static mw_status geojson_add_position(const geojson_reader *g, const json_t *pos
     return status;
 }
 
-static mw_status geojson_read_point(const geojson_reader *g, const json_t *coordinates)
+static mw_status geojson_read_point(geojson_reader *g, const json_t *coordinates)
 {
     return geojson_add_position(g, coordinates);
 }
 
 /* Points 0 ... count - 1 of an array of positions, and the segments between them. */
-static mw_status geojson_read_chain(const geojson_reader *g, const json_t *positions, size_t count, uint32_t polygon)
+static mw_status geojson_read_chain(geojson_reader *g, const json_t *positions, size_t count, uint32_t polygon)
 {
     mw_constraint_file *file = g->builder->file;
     mw_status status = MW_OK;
@@ -75,7 +77,7 @@ static mw_status geojson_read_chain(const geojson_reader *g, const json_t *posit
     return status;
 }
 
-static mw_status geojson_read_line(const geojson_reader *g, const json_t *coordinates)
+static mw_status geojson_read_line(geojson_reader *g, const json_t *coordinates)
 {
     size_t count = json_array_size(coordinates);
     if (count < 2) return geojson_fail(g, "a line has fewer than two positions");
@@ -94,6 +96,7 @@ static mw_status ring_count_open(const geojson_reader *g, const json_t *ring, si
     double seen[2][3], p[3]; /* the first position, and one that differs from it */
     size_t size = json_array_size(ring), different = 0;
     *count = 0;
+    if (!json_is_array(ring)) return geojson_fail(g, "a ring is no array");
     for (size_t i = 0; i < size; i++) {
         mw_status status = geojson_read_position(g, json_array_get(ring, i), p);
         if (status) return status;
@@ -108,33 +111,41 @@ static mw_status ring_count_open(const geojson_reader *g, const json_t *ring, si
     return MW_OK;
 }
 
-static mw_status geojson_read_ring(const geojson_reader *g, const json_t *ring, uint32_t polygon)
+/* The first `count` positions of a ring, 3 at least, closed. */
+static mw_status geojson_add_ring(geojson_reader *g, const json_t *ring, size_t count, uint32_t polygon)
 {
     mw_constraint_file *file = g->builder->file;
-    size_t count;
-    mw_status status = ring_count_open(g, ring, &count);
-    if (!status && count == 0) status = geojson_fail(g, "a ring has fewer than three different points");
-    if (!status) status = geojson_read_chain(g, ring, count, polygon);
+    mw_status status = geojson_read_chain(g, ring, count, polygon);
     if (status) return status;
     uint32_t last = (uint32_t)file->point_count - 1, first = (uint32_t)(file->point_count - count);
     return mw__constraint_segment(g->builder, last, first, polygon, g->feature, g->error);
 }
 
-static mw_status geojson_read_polygon(const geojson_reader *g, const json_t *coordinates)
+static mw_status geojson_read_polygon(geojson_reader *g, const json_t *coordinates)
 {
     mw_constraint_file *file = g->builder->file;
     mw_status status = MW_OK;
-    size_t count = json_array_size(coordinates);
-    for (size_t i = 0; !status && i < count; i++)
-        status = geojson_read_ring(g, json_array_get(coordinates, i), (uint32_t)file->polygon_count);
-    file->polygon_count++;
+    size_t count = json_array_size(coordinates), positions;
+    bool skipped = false; /* the polygon, for its outer ring; the others are checked all the same */
+    for (size_t i = 0; !status && i < count; i++) {
+        const json_t *ring = json_array_get(coordinates, i);
+        status = ring_count_open(g, ring, &positions);
+        if (!status && positions == 0) {
+            skipped = skipped || i == 0;
+            status = mw__constraint_skip(g->builder, (mw_skipped_ring){g->feature, g->polygons, (uint32_t)i}, g->error);
+        } else if (!status && !skipped) {
+            status = geojson_add_ring(g, ring, positions, (uint32_t)file->polygon_count);
+        }
+    }
+    g->polygons++;
+    if (!skipped) file->polygon_count++;
     return status;
 }
 
 static const struct {
     const char *type;
     bool many; /* the coordinates are an array of what `read` takes */
-    mw_status (*read)(const geojson_reader *g, const json_t *coordinates);
+    mw_status (*read)(geojson_reader *g, const json_t *coordinates);
 } shapes[] = {
     {"Point", false, geojson_read_point},     {"MultiPoint", true, geojson_read_point},
     {"LineString", false, geojson_read_line}, {"MultiLineString", true, geojson_read_line},
@@ -142,7 +153,7 @@ static const struct {
 };
 enum { SHAPE_COUNT = sizeof shapes / sizeof *shapes };
 
-static mw_status geojson_read_coordinates(const geojson_reader *g, size_t shape, const json_t *coordinates)
+static mw_status geojson_read_coordinates(geojson_reader *g, size_t shape, const json_t *coordinates)
 {
     if (!json_is_array(coordinates)) return geojson_fail(g, "a %s has no array of coordinates", shapes[shape].type);
     size_t count = json_array_size(coordinates);
@@ -157,7 +168,7 @@ static mw_status geojson_read_coordinates(const geojson_reader *g, size_t shape,
     return status;
 }
 
-static mw_status geojson_read_geometry(const geojson_reader *g, const json_t *geometry)
+static mw_status geojson_read_geometry(geojson_reader *g, const json_t *geometry)
 {
     if (!geometry || json_is_null(geometry)) return MW_OK;
     const char *type = json_string_value(json_object_get(geometry, "type"));
@@ -180,7 +191,7 @@ static bool object_is_feature(const json_t *object)
     return type && strcmp(type, "Feature") == 0;
 }
 
-static mw_status geojson_read_feature(const geojson_reader *g, const json_t *feature)
+static mw_status geojson_read_feature(geojson_reader *g, const json_t *feature)
 {
     if (!object_is_feature(feature)) return geojson_fail(g, "its type is not 'Feature'");
     return geojson_read_geometry(g, json_object_get(feature, "geometry"));
@@ -201,6 +212,7 @@ static mw_status geojson_read_root(geojson_reader *g, const json_t *root)
     mw_status status = MW_OK;
     for (size_t i = 0; !status && i < json_array_size(features); i++) {
         g->feature = (uint32_t)i;
+        g->polygons = 0;
         status = geojson_read_feature(g, json_array_get(features, i));
     }
     return status;

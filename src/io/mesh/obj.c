@@ -75,6 +75,7 @@ static mw_status obj_read_face(mw_source *source, const char *p, mw_mesh_builder
     for (p = mw__skip_blanks(p); *p; p = mw__skip_blanks(p)) {
         int64_t number;
         const char *end = mw__read_integer(p, &number);
+        if (end && !mw__integer_fits(number)) return mw__source_fail_large(source, p, end, error);
         if (end) end = corner_skip_references(end);
         if (!end || number == 0)
             return mw__source_fail(source, error, "'%s' is no number of a vertex", mw__excerpt(p).text);

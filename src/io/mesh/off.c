@@ -32,10 +32,12 @@ static mw_status off_read_counts(mw_source *source, char *line, int64_t *vertice
         mw_status status = mw__source_content_line(source, &line, error);
         if (status) return status;
     }
-    const char *p = line;
-    if (!p || !(p = mw__read_integer(p, vertices)) || !(p = mw__read_integer(mw__skip_blanks(p), faces)) ||
-        !mw__at_gap(p))
-        return mw__source_fail(source, error, "expected the numbers of vertices and faces");
+    const char *p = line, *first_end = p ? mw__read_integer(p, vertices) : NULL;
+    const char *second = first_end ? mw__skip_blanks(first_end) : NULL;
+    const char *end = second ? mw__read_integer(second, faces) : NULL;
+    if (!end || !mw__at_gap(end)) return mw__source_fail(source, error, "expected the numbers of vertices and faces");
+    if (!mw__integer_fits(*vertices)) return mw__source_fail_large(source, p, first_end, error);
+    if (!mw__integer_fits(*faces)) return mw__source_fail_large(source, second, end, error);
     if (*vertices < 0 || *faces < 0) return mw__source_fail(source, error, "a negative count");
     return MW_OK;
 }
@@ -46,6 +48,7 @@ static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_buil
     const char *p = mw__read_integer(line, &corners);
     if (!p || !mw__at_gap(p) || corners < 0)
         return mw__source_fail(source, error, "'%s' is no number of corners", mw__excerpt(line).text);
+    if (!mw__integer_fits(corners)) return mw__source_fail_large(source, line, p, error);
     mw__build_face(builder);
     for (int64_t k = 0; k < corners; k++) {
         p = mw__skip_blanks(p);
@@ -56,6 +59,7 @@ static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_buil
                                        k);
             return mw__source_fail(source, error, "'%s' is no number of a vertex", mw__excerpt(p).text);
         }
+        if (!mw__integer_fits(number)) return mw__source_fail_large(source, p, end, error);
         mw_status status = mw__build_corner(builder, number, error);
         if (status) return status;
         p = end;

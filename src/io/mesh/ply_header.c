@@ -59,6 +59,7 @@ static mw_status ply_add_element(const mw_source *source, char *rest, mw_ply_hea
     const char *end = mw__read_integer(text, &count);
     if (!*name || !end || *end || count < 0)
         return mw__source_fail(source, error, "expected 'element', a name and a count");
+    if (!mw__integer_fits(count)) return mw__source_fail_large(source, text, end, error);
     if (header->element_count == ELEMENT_LIMIT)
         return mw__source_fail(source, error, "more than %d elements", ELEMENT_LIMIT);
     for (size_t e = 0; e < header->element_count; e++)

@@ -47,6 +47,7 @@ static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *
         if (!*r->p) return mw__source_fail(r->source, error, "the line ends before its last value");
         if (!end || !mw__at_gap(end))
             return mw__source_fail(r->source, error, "'%s' is no integer", mw__excerpt(r->p).text);
+        if (!mw__integer_fits(*value)) return mw__source_fail_large(r->source, r->p, end, error);
         r->p = end;
         return MW_OK;
     }
@@ -54,10 +55,10 @@ static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *
     mw_status status = mw__source_bytes(r->source, number.size, &bytes, error);
     if (status) return status;
     uint64_t bits = mw__get_bytes(bytes, number.size, r->kind == MW_PLY_BIG);
-    if (number.type == MW_PLY_SIGNED)
-        *value = sign_extend(bits, number.size);
-    else
-        *value = bits > INT64_MAX ? INT64_MAX : (int64_t)bits;
+    bool is_signed = number.type == MW_PLY_SIGNED;
+    if (!is_signed && bits > INT64_MAX)
+        return mw__source_fail(r->source, error, "the number %" PRIu64 " is too large", bits);
+    *value = is_signed ? sign_extend(bits, number.size) : (int64_t)bits;
     return MW_OK;
 }
 

@@ -105,7 +105,9 @@ mw_status mw__table_header_of_node(mw_source *source, mw_table_header *c, mw_err
     if (status) return status;
     const char *p = row;
     for (int i = 0; i < 4 && p && *p; i++) {
+        const char *number = p;
         p = mw__read_integer(p, &values[i]);
+        if (p && !mw__integer_fits(values[i])) return mw__source_fail_large(source, number, p, error);
         if (p) p = mw__at_gap(p) ? mw__skip_blanks(p) : NULL;
     }
     if (!p || *p || values[0] < 0 || values[1] < 2 || values[1] > 3 || values[2] < 0 ||

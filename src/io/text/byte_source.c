@@ -1,6 +1,7 @@
 /* One block of the input in a buffer that is refilled from zlib (which hands plain files
  * through) or from memory. */
 #include "io/text/byte_source.h"
+#include "io/text/descriptor.h"
 #include "io/text/system_error.h"
 
 #include <errno.h>
@@ -89,6 +90,12 @@ mw_excerpt mw__excerpt(const char *text)
     return mw__excerpt_of(text, strcspn(text, " \t"));
 }
 
+mw_status mw__source_fail_large(const mw_source *source, const char *number, const char *end, mw_error *error)
+{
+    return mw__source_fail(source, error, "the number %s is too large",
+                           mw__excerpt_of(number, (size_t)(end - number)).text);
+}
+
 static mw_status source_start(mw_source *source, const char *path, size_t block, mw_error *error)
 {
     *source = (mw_source){.path = strdup(path), .capacity = block};
@@ -100,10 +107,10 @@ static mw_status source_start(mw_source *source, const char *path, size_t block,
 
 /* A descriptor to read from; standard input is duplicated, so that closing the source leaves it
  * open. */
-static int descriptor_open(const char *path)
+static int source_descriptor(const char *path)
 {
-    if (strcmp(path, "-") == 0) return fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (strcmp(path, "-") == 0) return mw__descriptor_duplicate(STDIN_FILENO);
+    int fd = mw__descriptor_open(path, O_RDONLY, 0);
     struct stat status;
     if (fd >= 0 && fstat(fd, &status) == 0 && S_ISDIR(status.st_mode)) {
         close(fd);
@@ -117,7 +124,7 @@ mw_status mw__source_open(mw_source *source, const char *path, mw_error *error)
 {
     mw_status status = source_start(source, path, BLOCK, error);
     if (status) return status;
-    int fd = descriptor_open(path);
+    int fd = source_descriptor(path);
     if (fd < 0) {
         status = mw__fail_system(mw__source_name(source), errno, error);
         mw__source_close(source);

@@ -91,6 +91,10 @@ typedef struct mw_excerpt {
 mw_excerpt mw__excerpt(const char *text);
 mw_excerpt mw__excerpt_of(const char *text, size_t length);
 
+/* Fill in an error with MW_ERROR_INPUT: the integer from `number` to `end` does not fit into 64
+ * bits (mw__integer_fits). The message names it as it stands there. */
+mw_status mw__source_fail_large(const mw_source *source, const char *number, const char *end, mw_error *error);
+
 /* Control characters in a message, which pieces of the input may have brought there, become '?'. */
 void mw__message_clean(char *message);
 

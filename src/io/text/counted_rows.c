@@ -16,6 +16,7 @@ mw_status mw__row_integer(mw_number_row *row, const char *what, int64_t *value, 
     const char *end = mw__read_integer(row->p, value);
     if (!end || !mw__at_gap(end))
         return mw__source_fail(row->source, error, "expected the %s, found '%s'", what, mw__excerpt(row->p).text);
+    if (!mw__integer_fits(*value)) return mw__source_fail_large(row->source, row->p, end, error);
     row->p = end;
     return MW_OK;
 }

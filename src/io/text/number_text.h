@@ -24,6 +24,12 @@ const char *mw__read_double(const char *p, double *value);
  * is no integer. */
 const char *mw__read_integer(const char *p, int64_t *value);
 
+/* False for those, and for the two numbers that look like them; no file that is sound has any. */
+static MW_INLINE bool mw__integer_fits(int64_t value)
+{
+    return value != INT64_MAX && value != INT64_MIN;
+}
+
 /* 10^0 ... 10^22, the powers of ten that are doubles, and 5^0 ... 5^27. */
 extern const double mw__power_of_10[23];
 extern const uint64_t mw__power_of_5[MW_DECIMAL_RANGE + 1];

@@ -3,11 +3,13 @@
  * Where the system can make a file without a name (O_TMPFILE), the data go there, and the file
  * is linked to its name in the end: an interrupted program leaves nothing. Else they go to
  * ".NAME.xxxxxxxx" in the same directory, which is renamed. A file that exists is replaced in
- * one step by rename, and its permissions are kept. What is no regular file (a pipe, a terminal,
+ * one step by rename, and its permissions are kept. Symbolic links are followed, also one to a
+ * file that does not exist yet: links stay. What is no regular file (a pipe, a terminal,
  * /dev/null) is written directly. */
 #define _GNU_SOURCE /* O_TMPFILE */
 #include "io/text/output.h"
 #include "base/random.h"
+#include "io/text/descriptor.h"
 #include "io/text/system_error.h"
 
 #include <errno.h>
@@ -20,7 +22,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { ROOM = 1 << 16, NAME_ATTEMPTS = 100 };
+enum { ROOM = 1 << 16, NAME_ATTEMPTS = 100, MAX_LINKS = 40, PATH_SIZE = 4096 };
 
 struct mw_output {
     int fd;
@@ -70,7 +72,7 @@ static int output_open_nameless(mw_output *output)
     size_t length = directory_length(output->path);
     memcpy(output->temporary, output->path, length);
     strcpy(output->temporary + length, ".");
-    return open(output->temporary, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    return mw__descriptor_open(output->temporary, O_TMPFILE | O_WRONLY, 0666);
 #else
     (void)output;
     return -1;
@@ -82,10 +84,55 @@ static int output_open_named(mw_output *output)
     uint64_t state = (uintptr_t)output;
     for (int i = 0; i < NAME_ATTEMPTS; i++) {
         output_invent_name(output, &state);
-        int fd = open(output->temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+        int fd = mw__descriptor_open(output->temporary, O_CREAT | O_EXCL | O_WRONLY, 0666);
         if (fd >= 0 || errno != EEXIST) return fd;
     }
     return -1;
+}
+
+/* Where a path leads if its last part is a symbolic link: the target of the link, taken from its
+ * directory unless it begins with '/'. NULL with errno; EINVAL: it is no link. */
+static char *link_target(const char *path)
+{
+    char target[PATH_SIZE];
+    ssize_t length = readlink(path, target, sizeof target);
+    if (length < 0) return NULL;
+    size_t directory = target[0] == '/' ? 0 : directory_length(path);
+    char *next = (size_t)length < sizeof target ? mw__alloc(directory + (size_t)length + 1, 1) : NULL;
+    if (!next) {
+        errno = (size_t)length < sizeof target ? ENOMEM : ENAMETOOLONG;
+        return NULL;
+    }
+    memcpy(next, path, directory);
+    memcpy(next + directory, target, (size_t)length);
+    next[directory + (size_t)length] = 0;
+    return next;
+}
+
+/* The path that symbolic links lead to, whether there is a file or not. NULL with errno. */
+static char *link_end(const char *path)
+{
+    char *at = strdup(path);
+    if (!at) errno = ENOMEM;
+    for (int i = 0; at && i < MAX_LINKS; i++) {
+        char *next = link_target(at);
+        if (!next && (errno == EINVAL || errno == ENOENT)) return at;
+        int number = errno;
+        free(at);
+        errno = number;
+        at = next;
+    }
+    if (!at) return NULL;
+    free(at);
+    errno = ELOOP;
+    return NULL;
+}
+
+mw_status mw_output_resolve(const char *path, char **name, mw_error *error)
+{
+    if (!path || !name) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_output_resolve: NULL");
+    *name = link_end(path);
+    return *name ? MW_OK : mw__fail_system(path, errno, error);
 }
 
 /* Opens output->fd, -1 with errno if that fails. */
@@ -95,11 +142,12 @@ static int output_open_target(mw_output *output, const char *path)
     if (output->standard) return STDOUT_FILENO;
     struct stat status;
     bool exists = stat(path, &status) == 0;
-    if (exists && !S_ISREG(status.st_mode)) return open(path, O_WRONLY | O_CLOEXEC);
+    if (exists && !S_ISREG(status.st_mode)) return mw__descriptor_open(path, O_WRONLY, 0);
     if (exists && access(path, W_OK) != 0) return -1; /* a file that is protected stays */
-    output->path = exists ? realpath(path, NULL) : strdup(path);
-    if (output->path) output->temporary = mw__alloc(strlen(output->path) + 16, 1);
-    if (!output->path || !output->temporary) {
+    output->path = exists ? realpath(path, NULL) : link_end(path);
+    if (!output->path) return -1;
+    output->temporary = mw__alloc(strlen(output->path) + 16, 1);
+    if (!output->temporary) {
         errno = ENOMEM;
         return -1;
     }

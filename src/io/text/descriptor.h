@@ -1,0 +1,15 @@
+/* descriptor.h - files are opened beyond the standard streams. Private.
+ *
+ * Where a program was started with a standard stream closed, open() would give its number to the
+ * next file: what is meant for the stream would go into that file, or come from it. */
+#ifndef MW_SRC_IO_TEXT_DESCRIPTOR_H
+#define MW_SRC_IO_TEXT_DESCRIPTOR_H
+
+/* open(), never one of the descriptors 0 to 2, and closed by exec. -1 with errno; then a file made
+ * by O_EXCL is gone again. */
+int mw__descriptor_open(const char *path, int flags, unsigned mode);
+
+/* Another descriptor of the same file, as above; -1 with errno. */
+int mw__descriptor_duplicate(int fd);
+
+#endif
