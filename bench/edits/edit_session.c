@@ -1,5 +1,5 @@
 #include "bench/edits/edit_session.h"
-#include "bench/core/locations.h"
+#include "bench/core/answers.h"
 #include "bench/core/query_rounds.h"
 #include "bench/peers/engine.h"
 #include "cli/frame/message.h"

@@ -6,7 +6,7 @@
  * than that, is one of the doubles next to it. Queries are sorted along a Hilbert curve, and each
  * begins where the one before it ended: nearby, and from all sides. */
 #include "bench/paper/bench_near_vertices.h"
-#include "bench/core/locations.h"
+#include "bench/core/answers.h"
 #include "bench/core/word_list.h"
 #include "bench/data/dataset.h"
 #include "cli/frame/files.h"

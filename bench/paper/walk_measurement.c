@@ -1,5 +1,5 @@
 #include "bench/paper/walk_measurement.h"
-#include "bench/core/locations.h"
+#include "bench/core/answers.h"
 #include "bench/core/query_rounds.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "support/mesh_files.h"
+#include "support/write_mesh_file.h"
 
 typedef struct bad_mesh {
     const char *name, *text;

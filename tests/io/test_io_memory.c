@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* wrap: malloc calloc realloc strdup strndup free */
-#include "support/mesh_files.h"
+#include "support/write_mesh_file.h"
 
 static long countdown = -1; /* allocations until one fails; negative: none does */
 static long alive;          /* blocks that the library holds */

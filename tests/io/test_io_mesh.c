@@ -5,7 +5,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "support/mesh_files.h"
+#include "support/write_mesh_file.h"
 
 #include <math.h>
 #include <stdio.h>

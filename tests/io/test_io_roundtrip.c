@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "support/mesh_files.h"
+#include "support/write_mesh_file.h"
 
 #include <math.h>
 #include <stdbool.h>

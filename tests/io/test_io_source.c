@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "io/text/byte_source.h"
-#include "support/mesh_files.h"
+#include "support/write_mesh_file.h"
 
 #include <stdbool.h>
 #include <stdio.h>

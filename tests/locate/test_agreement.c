@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 #include "support/meshes.h"
-#include "support/starts.h"
+#include "support/start_list.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -8,7 +8,7 @@
 
 #include "locate/interleaved.h"
 #include "support/meshes.h"
-#include "support/starts.h"
+#include "support/start_list.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 #include "locate/index.h"
 #include "support/allocations.h"
 #include "support/meshes.h"
-#include "support/starts.h"
+#include "support/start_list.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "oracle/location_oracle.h"
 #include "support/meshes.h"
-#include "support/starts.h"
+#include "support/start_list.h"
 
 #include <math.h>
 #include <stdbool.h>

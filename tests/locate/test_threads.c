@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "support/meshes.h"
-#include "support/starts.h"
+#include "support/start_list.h"
 
 #include <math.h>
 #include <pthread.h>

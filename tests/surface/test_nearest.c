@@ -13,7 +13,7 @@
 #include "base/random.h"
 #include "support/environment.h"
 #include "support/meshes.h"
-#include "support/probers.h"
+#include "support/make_prober.h"
 #include "support/shapes.h"
 #include "probe/prober.h"
 

@@ -27,7 +27,7 @@
 #include "edit/operations.h"
 #include "edit/tile_links.h"
 
-#include "edit/move/regions.h"
+#include "edit/move/hole_numbers.h"
 
 #include "walk/walk.h"
 
@@ -455,7 +455,7 @@ static mw_status mover_settle(border_mover *m, bool delaunay)
     mw_dynamic_tiling *f = m->f;
     mw_vertex_star star;
     mw_status status = MW_OK;
-    if (m->mixed && !mw__regions_number(f)) return mover_fail_memory(m);
+    if (m->mixed && !mw__hole_numbers_update(f)) return mover_fail_memory(m);
     f->stack_count = 0;
     if (!mw__vertex_star_collect(f, m->v, &star)) return mover_fail_memory(m);
     if (f->convex) status = ghosts_adopt(m);

@@ -1,5 +1,5 @@
-/* probers.c - a prober with boxes. */
-#include "support/probers.h"
+/* make_prober.c - a prober with boxes. */
+#include "support/make_prober.h"
 
 #include "support/meshes.h"
 

@@ -1,5 +1,5 @@
-/* starts.c - an index for each start that has one. */
-#include "support/starts.h"
+/* start_list.c - an index for each start that has one. */
+#include "support/start_list.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* mesh_files.c - writes small mesh files, reads them, compares. */
-#include "support/mesh_files.h"
+/* write_mesh_file.c - writes small mesh files, reads them, compares. */
+#include "support/write_mesh_file.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* locations.h - answers compared: whatever the walk or the start, they are the same. */
-#ifndef MW_BENCH_CORE_LOCATIONS_H
-#define MW_BENCH_CORE_LOCATIONS_H
+/* answers.h - answers compared: whatever the walk or the start, they are the same. */
+#ifndef MW_BENCH_CORE_ANSWERS_H
+#define MW_BENCH_CORE_ANSWERS_H
 
 #include <meshwalk/meshwalk.h>
 

@@ -1,6 +1,6 @@
-/* probers.h - a prober for tests of what the boxes of a surface find. */
-#ifndef MW_TESTS_SUPPORT_PROBERS_H
-#define MW_TESTS_SUPPORT_PROBERS_H
+/* make_prober.h - a prober for tests of what the boxes of a surface find. */
+#ifndef MW_TESTS_SUPPORT_MAKE_PROBER_H
+#define MW_TESTS_SUPPORT_MAKE_PROBER_H
 
 #include <meshwalk/meshwalk.h>
 

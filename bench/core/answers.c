@@ -1,4 +1,4 @@
-#include "bench/core/locations.h"
+#include "bench/core/answers.h"
 #include "cli/frame/message.h"
 
 int locations_compare(const char *data, const double *queries, size_t n, const locations_pair *pair)

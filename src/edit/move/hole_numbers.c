@@ -1,4 +1,4 @@
-/* regions.c - which hole each ghost lies in, after a move that may have led parts of the mesh from
+/* hole_numbers.c - which hole each ghost lies in, after a move that may have led parts of the mesh from
  * one hole into another.
  *
  * That takes a vertex where triangles meet that are not beside one another, with different holes,
@@ -7,7 +7,7 @@
  * all ghosts that can be reached from one another without crossing the border. A region at the
  * hull is no hole. Each hole keeps its number where most of its border edges are; regions without a
  * number then take those left. O(n log n) for the n ghosts in the regions that the edit changed. */
-#include "edit/move/regions.h"
+#include "edit/move/hole_numbers.h"
 
 #include "edit/journal.h"
 #include "edit/tile_links.h"
@@ -253,7 +253,7 @@ static bool regions_write_numbers(const hole_numbering *n)
     return true;
 }
 
-bool mw__regions_number(mw_dynamic_tiling *f)
+bool mw__hole_numbers_update(mw_dynamic_tiling *f)
 {
     hole_numbering n = {.f = f};
     bool done = witnesses_call(&n) && regions_find(&n) && votes_count(&n);

@@ -1,6 +1,6 @@
-/* starts.h - for tests that go through all starts: the indices of those that need one. */
-#ifndef MW_TESTS_SUPPORT_STARTS_H
-#define MW_TESTS_SUPPORT_STARTS_H
+/* start_list.h - for tests that go through all starts: the indices of those that need one. */
+#ifndef MW_TESTS_SUPPORT_START_LIST_H
+#define MW_TESTS_SUPPORT_START_LIST_H
 
 #include <meshwalk/locate.h>
 

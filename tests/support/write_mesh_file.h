@@ -1,7 +1,7 @@
-/* mesh_files.h - small mesh files for tests of reading: a square of two triangles in several
+/* write_mesh_file.h - small mesh files for tests of reading: a square of two triangles in several
  * formats. */
-#ifndef MW_TESTS_SUPPORT_MESH_FILES_H
-#define MW_TESTS_SUPPORT_MESH_FILES_H
+#ifndef MW_TESTS_SUPPORT_WRITE_MESH_FILE_H
+#define MW_TESTS_SUPPORT_WRITE_MESH_FILE_H
 
 #include "support/files.h"
 

@@ -1,4 +1,4 @@
-/* constraint.c - constraints: a segment is forced into the tiling, or released.
+/* constrain.c - constraints: a segment is forced into the tiling, or released.
  *
  * The segment is followed from its first vertex. An edge that lies on it becomes a constrained
  * edge. Where no edge does, the segment enters a tile and crosses edges until the next vertex on
