@@ -2,7 +2,11 @@
  *
  * Functions that can fail return a mw_status; 0 is success. Where a function takes a `mw_error *`, the caller owns it,
  * may pass NULL, and finds in it after a failure what was wrong and where. The library keeps no global state, never
- * prints, and never ends the program. */
+ * prints, and never ends the program.
+ *
+ * Initialise structures of options with = {0}, which selects the defaults, then set what differs. Their `reserved`
+ * members must stay zero: a structure where one is not is refused (MW_ERROR_ARGUMENT), so that later versions can use
+ * these members without changing what today's programs mean. */
 #ifndef MESHWALK_BASE_H
 #define MESHWALK_BASE_H
 

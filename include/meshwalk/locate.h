@@ -134,7 +134,8 @@ typedef enum mw_descent { MW_DESCENT_AUTO = 0, MW_DESCENT_NEAREST, MW_DESCENT_CO
 /* All zero = choose. */
 typedef struct mw_index_options {
     uint32_t cells;  /* MW_START_GRID: about so many cells, MW_START_TWO_LEVEL_GRID: of its first level; at most 2^30;
-                        0 = one for two vertices. MW_START_CURVE: triangles that are sampled; 0 = one of 32      */
+                        0 = one for two vertices. MW_START_CURVE: triangles that are sampled; 0 = one of 32. More than 64
+                        for each triangle (65,536 in small meshes) are not made: they would only cost time and memory  */
     uint32_t layers; /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
     double ratio;    /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
     mw_descent descent; /* MW_START_LAYERS: the vertex to go down at                                             */
@@ -218,8 +219,9 @@ typedef struct mw_counters {
 /* Add `more` to `sum`: for the cursors of several threads. */
 MW_API void mw_counters_add(mw_counters *sum, const mw_counters *more);
 
-/* What a query changes; one per thread. Initialise with mw_cursor_init, then it may be copied freely. It serves only
- * the locator it was initialised with; that of an editor (edit.h) through all edits. */
+/* What a query changes; one per thread. Initialise it with mw_cursor_init; a cursor that is all zero is initialised with the
+ * default options by its first query. It may be copied freely. It serves only the locator it was initialised with; that of
+ * an editor (edit.h) through all edits. */
 typedef struct mw_cursor {
     mw_counters counters;
     const mw_index *index;

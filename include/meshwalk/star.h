@@ -101,7 +101,8 @@ typedef struct mw_star_index mw_star_index;
 
 /* All zero = choose. */
 typedef struct mw_star_index_options {
-    uint32_t cells;  /* grids: about so many cells, at most 2^30; 0 = one for 16 facets                       */
+    uint32_t cells;  /* grids: about so many cells, at most 2^30; 0 = one for 16 facets. More than 64 for
+                        each facet (65,536 on small polyhedra) are not made, and no finer octahedron         */
     uint32_t levels; /* octahedron: subdivisions, 0 to MW_STAR_MAX_LEVELS, plus 1; 0 = by the number of facets */
     uint32_t reserved[6];
 } mw_star_index_options;

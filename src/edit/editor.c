@@ -1,5 +1,6 @@
 /* editor.c - making an editor, and carrying out edits. */
 #include "edit/editor.h"
+#include "base/options.h"
 
 #include "tiling/tiling_create.h"
 #include "edit/dynamic_tiling_memory.h"
@@ -128,12 +129,14 @@ mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options
         return mw__fail(error, MW_ERROR_ARGUMENT, "no constraints");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
+    mw_status status = MW_RESERVED_CHECK(mw_editor_options, options, error);
+    if (status) return status;
     mw_editor *editor = mw__calloc(1, sizeof *editor);
     if (!editor) return mw__fail_memory(error);
     editor->keeps_log = options->log != 0;
     editor->threads = options->threads;
     editor->undo = options->undo;
-    mw_status status = editor_make(editor, mesh, options, error);
+    status = editor_make(editor, mesh, options, error);
     if (status)
         mw_editor_destroy(editor);
     else

@@ -1,5 +1,6 @@
 /* index.c - building, describing and asking the index of a start. */
 #include "locate/index.h"
+#include "base/options.h"
 
 #include <stdlib.h>
 
@@ -14,14 +15,17 @@ static mw_status index_build_layers(mw_layers *layers, const mw_tiling *tiling, 
 mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
                           const mw_index_options *options, mw_error *error)
 {
+    mw_status status = MW_RESERVED_CHECK(mw_index_options, options, error);
+    if (status) return status;
     if (options->cells > MW_MAX_CELLS) return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
+    uint32_t cells = mw__cells_bound(options->cells, tiling->tri_count);
     bool done = false;
     switch (index->start) {
-    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, options->cells); break;
+    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, cells); break;
     case MW_START_TWO_LEVEL_GRID:
-        done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, options->cells);
+        done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, cells);
         break;
-    case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, options->cells); break;
+    case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, cells); break;
     case MW_START_LAYERS: return index_build_layers(&index->layers, tiling, options, error);
     default: break;
     }

@@ -1,5 +1,6 @@
 /* locator.c - preparing a mesh for queries. */
 #include "locate/locator.h"
+#include "base/options.h"
 
 #include "base/clock.h"
 #include "tiling/tiling_create.h"
@@ -184,10 +185,12 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     if ((unsigned)options->fill > MW_FILL_NO) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
+    mw_status status = MW_RESERVED_CHECK(mw_locator_options, options, error);
+    if (status) return status;
     mw_locator *locator = mw__calloc(1, sizeof *locator);
     if (!locator) return mw__fail_memory(error);
     locator->mesh = mesh;
-    mw_status status = locator_prepare(locator, options, error);
+    status = locator_prepare(locator, options, error);
     if (status)
         mw_locator_destroy(locator);
     else

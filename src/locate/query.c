@@ -6,6 +6,7 @@
  * path (fast_path.h): they are strictly inside a triangle or outside, where there is no tie. So the
  * answer depends on neither walk, start, seed nor threads. */
 #include "locate/query.h"
+#include "base/options.h"
 
 #include "base/random.h"
 #include "locate/fast_path.h"
@@ -263,7 +264,8 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
     if (!options) options = &defaults;
     if ((unsigned)options->walk >= MW_WALK_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
     mw_start_kind start;
-    mw_status status = query_resolve_start(options, &start, error);
+    mw_status status = MW_RESERVED_CHECK(mw_query_options, options, error);
+    if (!status) status = query_resolve_start(options, &start, error);
     if (status) return status;
     if (options->finish && options->finish != MW_WALK_REMEMBERING && options->finish != MW_WALK_STOCHASTIC)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by remembering or stochastic");
@@ -310,11 +312,18 @@ void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor)
     cursor->epoch = locator->epoch;
 }
 
+void mw__cursor_default(const mw_locator *locator, mw_cursor *cursor)
+{
+    /* every cursor that was initialised has a walk */
+    if (MW_UNLIKELY(cursor->walk == MW_WALK_AUTO)) mw_cursor_init(locator, NULL, cursor, NULL);
+}
+
 /* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where
  * the start says. */
 static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     mw_work work;
+    mw__cursor_default(locator, cursor);
     mw_walk walk = cursor->fast ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
                                                  mw__random(&cursor->random), NULL)
                                 : mw__query_begin(locator, cursor, cursor->last, q, &cursor->random, &work);

@@ -21,6 +21,8 @@ uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor
 
 /* If the mesh was edited since the cursor's last query: let it begin at the tile that is now where
  * that query ended, or near it. */
+/* Give a cursor that is all zero, which was never initialised, the default options. */
+void mw__cursor_default(const mw_locator *locator, mw_cursor *cursor);
 void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor);
 
 /* Before the mesh may be edited: remember by its name, which outlasts edits, the tile where the

@@ -25,6 +25,7 @@ size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, doub
     mw_walk_trace trace = {.triangle = triangles, .capacity = triangles ? capacity : 0};
     *at = nowhere;
     if (!isfinite(x) || !isfinite(y)) return 0;
+    mw__cursor_default(locator, cursor);
     if (cursor->live) mw__cursor_follow_edits(locator, cursor);
     mw_cursor exact = *cursor; /* a walk that is written down counts */
     exact.count = 1;

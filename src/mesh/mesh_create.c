@@ -1,5 +1,6 @@
 /* mesh_create.c - makes a planar mesh from arrays: copies, orientation, neighbours. */
 #include "base/threads.h"
+#include "base/options.h"
 #include "mesh/arrays.h"
 #include "mesh/connect.h"
 #include "mesh/layout.h"
@@ -97,7 +98,8 @@ mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options
     static const mw_mesh_options defaults;
     if (!options) options = &defaults;
     if (options->layout < 0 || options->layout > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
-    mw_status status = mw__arrays_validate(arrays, 2, error);
+    mw_status status = MW_RESERVED_CHECK(mw_mesh_options, options, error);
+    if (!status) status = mw__arrays_validate(arrays, 2, error);
     if (status) return status;
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     if (!mesh) return mw__fail_memory(error);

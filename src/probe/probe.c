@@ -1,6 +1,7 @@
 /* probe.c - one probe [thesis App. G]. Published mode: the triangle that walks find. Certain mode:
  * a search of the BVH; a short walk from the triangle touched last gives the first bound. */
 #include "base/random.h"
+#include "base/options.h"
 #include "probe/plane_walk.h"
 
 enum {
@@ -65,6 +66,8 @@ mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *
     if (!(options->max_distance >= 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
     if (options->certain && !prober->has_bvh)
         return mw__fail(error, MW_ERROR_ARGUMENT, "certain probes need a prober with options.boxes");
+    mw_status status = MW_RESERVED_CHECK(mw_probe_options, options, error);
+    if (status) return status;
     *cursor = (mw_probe_cursor){
         .options = probe_options_resolve(options, prober->surface),
         .prober = prober,
@@ -142,7 +145,8 @@ static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_search *s
 static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3],
                              mw_probe_trace *trace)
 {
-    bool counted = cursor->options.counters || trace; /* a walk with a trace counts */
+    if (!cursor->prober) mw_probe_cursor_init(prober, NULL, cursor, NULL); /* was all zero */
+    bool counted = cursor->options.counters || trace;                      /* a walk with a trace counts */
     mw_probe_counters work = {0};
     mw_touch touch = mw__touch_none(MW_TOUCH_BAD);
     if (mw__is_finite3(q) && mw__is_finite3(m) && (m[0] != 0 || m[1] != 0 || m[2] != 0)) {

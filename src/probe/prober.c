@@ -4,6 +4,7 @@
  * has moved farther than `slack` since they were fitted, boxes that are widened by `slack` on all
  * sides still contain their triangles. */
 #include "probe/prober.h"
+#include "base/options.h"
 
 #include "base/clock.h"
 
@@ -53,6 +54,8 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     *out = NULL;
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
     if (surface->tri_count == 0) return mw__fail(error, MW_ERROR_INPUT, "the surface has no triangle");
+    mw_status status = MW_RESERVED_CHECK(mw_prober_options, options, error);
+    if (status) return status;
     mw_prober *prober = mw__calloc(1, sizeof *prober);
     if (!prober) return mw__fail_memory(error);
     prober->surface = surface;

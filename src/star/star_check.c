@@ -1,5 +1,6 @@
 /* star_check.c - what keeps arrays from being a star-shaped polyhedron. */
 #include "star/kernel_check.h"
+#include "base/options.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +32,8 @@ mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_
     *check = (mw_check){0};
     if (options && !mw__is_finite3(options->centre))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
-    mw_status status = mw_surface_check_arrays(arrays, weld, check, error);
+    mw_status status = options ? MW_RESERVED_CHECK(mw_star_options, options, error) : MW_OK;
+    if (!status) status = mw_surface_check_arrays(arrays, weld, check, error);
     if (status) return status;
     mw_defects defects = {0};
     bool usable = true, sound = false;

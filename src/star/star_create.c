@@ -1,5 +1,6 @@
 /* star_create.c - prepares a surface for rays from a centre. */
 #include "topology/coincident.h"
+#include "base/options.h"
 #include "star/flat_facets.h"
 #include "star/kernel_check.h"
 
@@ -131,6 +132,8 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
     if (!options) options = &defaults;
     if (!mw__is_finite3(options->centre)) return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
+    mw_status status = MW_RESERVED_CHECK(mw_star_options, options, error);
+    if (status) return status;
     mw_star *star = mw__calloc(1, sizeof *star);
     if (!star) return mw__fail_memory(error);
     star->surface = surface;
@@ -138,7 +141,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     star->point_count = surface->point_count;
     star->fuel = star_fuel(surface->tri_count);
     memcpy(star->centre, options->centre, sizeof star->centre);
-    mw_status status = star_allocate(star, options->angles) ? star_prepare(star, error) : mw__fail_memory(error);
+    status = star_allocate(star, options->angles) ? star_prepare(star, error) : mw__fail_memory(error);
     if (status)
         mw_star_destroy(star);
     else

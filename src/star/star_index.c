@@ -1,5 +1,6 @@
 /* star_index.c - builds and describes the index of a start. */
 #include "star/star_index.h"
+#include "base/options.h"
 
 #include "base/clock.h"
 
@@ -23,9 +24,11 @@ static bool star_index_build(mw_star_index *index, const mw_star *star, const mw
 {
     if (index->start == MW_STAR_START_OCTAHEDRON) {
         uint32_t levels = options->levels ? options->levels - 1 : star_index_choose_levels(star);
+        while (mw__cells_bound(mw__star_octahedron_cells(levels), star->tri_count) < mw__star_octahedron_cells(levels))
+            levels--;
         return mw__star_octahedron_create(&index->octahedron, star, levels);
     }
-    uint32_t cells = options->cells ? options->cells : star_index_choose_cells(star);
+    uint32_t cells = options->cells ? mw__cells_bound(options->cells, star->tri_count) : star_index_choose_cells(star);
     return mw__star_grid_create(&index->grid, star, cells, index->start == MW_STAR_START_GRID);
 }
 
@@ -39,7 +42,7 @@ static mw_status star_index_check(const mw_star *star, mw_star_start_kind start,
         return mw__fail(error, MW_ERROR_ARGUMENT, "an octahedron has at most %d levels", MW_STAR_MAX_LEVELS);
     if (!star->ready || star->version != star->surface->version)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the star is not up to date with its surface");
-    return MW_OK;
+    return MW_RESERVED_CHECK(mw_star_index_options, options, error);
 }
 
 mw_status mw_star_index_create(const mw_star *star, mw_star_start_kind start, const mw_star_index_options *options,

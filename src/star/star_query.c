@@ -1,5 +1,6 @@
 /* star_query.c - cursors and single queries. */
 #include "base/random.h"
+#include "base/options.h"
 #include "star/star_index.h"
 #include "star/star_locate.h"
 
@@ -21,6 +22,8 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
         return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index", mw_star_start_name(start));
     if (options->index && mw__star_index_start(options->index) != start)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the index is one of another start");
+    mw_status status = MW_RESERVED_CHECK(mw_star_query_options, options, error);
+    if (status) return status;
     *cursor = (mw_star_cursor){
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),

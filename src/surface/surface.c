@@ -1,6 +1,7 @@
 /* surface.c - makes a surface in space from arrays: copies points, finds coincident vertices and
  * neighbours; its updates. */
 #include "surface/surface.h"
+#include "base/options.h"
 #include "mesh/arrays.h"
 #include "mesh/connect.h"
 #include "topology/coincident.h"
@@ -9,7 +10,8 @@
 
 static mw_status surface_check_arguments(const mw_arrays *arrays, const mw_surface_options *options, mw_error *error)
 {
-    mw_status status = mw__arrays_validate(arrays, 3, error);
+    mw_status status = MW_RESERVED_CHECK(mw_surface_options, options, error);
+    if (!status) status = mw__arrays_validate(arrays, 3, error);
     if (status || !options->borrow || arrays->point_stride == 0 || arrays->point_stride == 3) return status;
     return mw__fail(error, MW_ERROR_ARGUMENT, "points with a stride of %zu cannot be borrowed", arrays->point_stride);
 }

@@ -335,13 +335,13 @@ static void add_bundle(arrays *a)
     for (int i = 0; i < SLIVERS; i++) sliver(a, i, 0, i + 0.5, 0, SLIVERS - i, SLIVERS);
 }
 
-static mw_embedding_check survey_of(const arrays *a, mw_mesh **mesh)
+static mw_embedding_check embedding_check_of(const arrays *a, mw_mesh **mesh)
 {
     mw_arrays view = arrays_view(a);
-    mw_embedding_check survey;
+    mw_embedding_check check;
     assert_int_equal(mw_mesh_create(&view, NULL, mesh, NULL), MW_OK);
-    assert_int_equal(mw__embedding_check_create(&survey, *mesh, NULL), MW_OK);
-    return survey;
+    assert_int_equal(mw__embedding_check_create(&check, *mesh, NULL), MW_OK);
+    return check;
 }
 
 /* Half a minute where edges are forced in in the order of the mesh: time grew as the square of the number. */
@@ -353,11 +353,11 @@ static void test_slivers(void **state)
         arrays a = arrays_make(3 * SLIVERS, SLIVERS);
         adds[i](&a);
         mw_mesh *mesh;
-        mw_embedding_check survey = survey_of(&a, &mesh);
-        assert_true(survey.embedding && !survey.convex && survey.defects.count == 0);
-        assert_int_equal(survey.regions.hole_count, 0);
-        assert_int_equal(survey.coverage.net.wasted, 0);
-        mw__embedding_check_release(&survey);
+        mw_embedding_check check = embedding_check_of(&a, &mesh);
+        assert_true(check.embedding && !check.convex && check.defects.count == 0);
+        assert_int_equal(check.regions.hole_count, 0);
+        assert_int_equal(check.coverage.net.wasted, 0);
+        mw__embedding_check_release(&check);
         mw_mesh_destroy(mesh);
         arrays_free(&a);
     }
@@ -372,22 +372,22 @@ static void test_bundle(void **state)
     sliver(&a, -80, 5, -70, 5, -75, 15); /* inside that one */
     add_bundle(&a);
     mw_mesh *mesh;
-    mw_embedding_check survey = survey_of(&a, &mesh);
-    assert_false(survey.embedding);
-    size_t count = survey.defects.count, crossings = 0;
+    mw_embedding_check check = embedding_check_of(&a, &mesh);
+    assert_false(check.embedding);
+    size_t count = check.defects.count, crossings = 0;
     for (size_t i = 0; i < count; i++) {
-        const mw_defect *d = &survey.defects.list[i], *next = d + 1;
+        const mw_defect *d = &check.defects.list[i], *next = d + 1;
         crossings += d->kind == MW_DEFECT_CROSSING && d->triangle >= 2 && d->other >= 2 && d->triangle != d->other;
         bool again = i + 1 < count && next->triangle == d->triangle && next->edge == d->edge;
         assert_false(again); /* each edge tells of one crossing at most */
     }
     assert_in_range(crossings, 100, 2 * SLIVERS);
     assert_int_equal(crossings, count - 1);
-    assert_int_equal(survey.defects.list[count - 1].kind, MW_DEFECT_OVERLAP);
-    assert_int_equal(survey.defects.list[count - 1].triangle, 1);
-    size_t cells = survey.coverage.cell_count, edges = survey.outline.half_count;
-    assert_true(survey.coverage.net.wasted <= 65 * cells + 64 * edges);
-    mw__embedding_check_release(&survey);
+    assert_int_equal(check.defects.list[count - 1].kind, MW_DEFECT_OVERLAP);
+    assert_int_equal(check.defects.list[count - 1].triangle, 1);
+    size_t cells = check.coverage.cell_count, edges = check.outline.half_count;
+    assert_true(check.coverage.net.wasted <= 65 * cells + 64 * edges);
+    mw__embedding_check_release(&check);
     mw_mesh_destroy(mesh);
     arrays_free(&a);
 }

@@ -1,6 +1,7 @@
 /* Edits as lines of text, in both directions: what the editor's log is written as, and what the
  * program carries out. */
 #include "io/edits/edit_text.h"
+#include "base/options.h"
 #include "io/text/delimited.h"
 #include "io/text/number_text.h"
 
@@ -248,7 +249,8 @@ mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, m
 {
     if (!text || !line) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_parse: NULL");
     *line = (mw_edit_line){0};
-    return edit_parse(text, options ? options : &by_number, line, error);
+    mw_status status = options ? MW_RESERVED_CHECK(mw_edit_text_options, options, error) : MW_OK;
+    return status ? status : edit_parse(text, options ? options : &by_number, line, error);
 }
 
 /* Can a name stand in a line, and does it lead back to its field? *quotes: it has to stand in
@@ -339,7 +341,8 @@ mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *opti
     if (out) *out = NULL;
     if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_reader_open: NULL");
     mw_source source;
-    mw_status status = mw__source_open(&source, path, error);
+    mw_status status = options ? MW_RESERVED_CHECK(mw_edit_text_options, options, error) : MW_OK;
+    if (!status) status = mw__source_open(&source, path, error);
     return status ? status : mw__edit_reader_start(source, options, out, error);
 }
 

@@ -1,5 +1,6 @@
 /* Points in files: telling the format, and the stream. */
 #include "io/points/point_file.h"
+#include "base/options.h"
 
 #include "io/mesh/mesh_formats.h"
 #include "io/points/las.h"
@@ -58,7 +59,8 @@ mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *
     if (out) *out = NULL;
     if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_open: NULL");
     mw_source source;
-    mw_status status = mw__source_open(&source, path, error);
+    mw_status status = options ? MW_RESERVED_CHECK(mw_point_reader_options, options, error) : MW_OK;
+    if (!status) status = mw__source_open(&source, path, error);
     return status ? status : mw__point_reader_start(source, options, out, error);
 }
 

@@ -6,6 +6,7 @@
  * cross and are to be split, points are put there (cdt_split.c) and all is made anew, until nothing
  * crosses. */
 #include "base/hilbert.h"
+#include "base/options.h"
 #include "triangulate/constrained/cdt_keep.h"
 #include "triangulate/constrained/cdt_output.h"
 #include "triangulate/constrained/cdt_split.h"
@@ -318,7 +319,8 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_co
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
     if (!options) options = &defaults;
-    mw_status status = cdt_check_arguments(constraints, options->keep, error);
+    mw_status status = MW_RESERVED_CHECK(mw_constrain_options, options, error);
+    if (!status) status = cdt_check_arguments(constraints, options->keep, error);
     if (status) return status;
     mw_cdt m = {.given = constraints, .threads = options->threads};
     status = cdt_build(&m, options, duplicate_of, report, edges, out, error);

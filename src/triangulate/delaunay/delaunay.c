@@ -4,6 +4,7 @@
  * All work is done on a copy of the points along a Hilbert curve (slot i holds point order[i]), so
  * that what lies close in the plane lies close in memory; numbers are translated at the end. */
 #include "triangulate/delaunay/delaunay.h"
+#include "base/options.h"
 
 #include "base/threads.h"
 #include "mesh/layout.h"
@@ -298,5 +299,8 @@ mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *point
 mw_status mw_delaunay(const double *points, size_t n, size_t stride, const mw_delaunay_options *options,
                       uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error)
 {
+    if (out) *out = NULL;
+    mw_status status = options ? MW_RESERVED_CHECK(mw_delaunay_options, options, error) : MW_OK;
+    if (status) return status;
     return mw__delaunay_mesh(options ? options->threads : 0, true, points, n, stride, duplicate_of, report, out, error);
 }

@@ -1,5 +1,6 @@
 /* triangulate.c - the table of kinds of triangulation, and what they share. */
 #include "triangulate/kinds/kind_maker.h"
+#include "base/options.h"
 
 #include "mesh/connect.h"
 #include "mesh/layout.h"
@@ -123,9 +124,11 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
     *out = NULL;
     if ((unsigned)kind >= MW_KIND_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of triangulation");
     if (!options) options = &defaults;
+    mw_status status = MW_RESERVED_CHECK(mw_kind_options, options, error);
+    if (status) return status;
     mw_mesh *mesh;
-    mw_status status = mw__delaunay_mesh(options->threads, kind == MW_KIND_DELAUNAY, points, n, stride, duplicate_of,
-                                         &made.delaunay, &mesh, error);
+    status = mw__delaunay_mesh(options->threads, kind == MW_KIND_DELAUNAY, points, n, stride, duplicate_of,
+                               &made.delaunay, &mesh, error);
     if (status == MW_OK) status = kind_convert(kind, mesh, options, &made, error);
     if (status == MW_OK && !mw__mesh_lay_out_vertices(mesh, options->threads)) status = mw__fail_memory(error);
     if (status == MW_OK) {
