@@ -264,9 +264,9 @@ static void fix_border(mw_dynamic_tiling *f)
         }
 }
 
-mw_status mw__dynamic_create(mw_dynamic_tiling *f, mw_tiling *tiling, const mw_mesh *mesh, mw_error *error)
+mw_status mw__dynamic_create(mw_dynamic_tiling *f, mw_tiling *tiling, const mw_mesh *mesh, bool convex, mw_error *error)
 {
-    *f = (mw_dynamic_tiling){.tiling = tiling, .convex = tiling->ghost_count == 0};
+    *f = (mw_dynamic_tiling){.tiling = tiling, .convex = convex};
     mw_status status = mesh_check_editable(tiling, mesh, error);
     if (status) return status;
     if (!own_arrays(f) || !make_numbers(f, mesh)) return mw__fail_memory(error);

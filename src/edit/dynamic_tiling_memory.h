@@ -8,10 +8,12 @@
 #include "edit/dynamic_tiling.h"
 
 /* Take over the arrays of a tiling; arrays borrowed from `mesh` are copied. `mesh` gives the
- * numbers of vertices. Fixes the edges between user tiles and ghosts. MW_ERROR_INPUT: coincident
+ * numbers of vertices. `convex`: the mesh fills its hull, which follows the edits; else the border
+ * is fixed, even where it happens to be convex. Fixes the border's edges. MW_ERROR_INPUT: coincident
  * vertices, or triangles that the tiling cut; MW_ERROR_MEMORY. Release in either case, before the
  * tiling. */
-mw_status mw__dynamic_create(mw_dynamic_tiling *f, mw_tiling *tiling, const mw_mesh *mesh, mw_error *error);
+mw_status mw__dynamic_create(mw_dynamic_tiling *f, mw_tiling *tiling, const mw_mesh *mesh, bool convex,
+                             mw_error *error);
 void mw__dynamic_release(mw_dynamic_tiling *f);
 size_t mw__dynamic_bytes(const mw_dynamic_tiling *f); /* without mw__tiling_bytes */
 

@@ -106,7 +106,7 @@ static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh, const mw_ed
     mw_dynamic_tiling *f = &editor->dynamic;
     locator->mesh = &editor->view;
     mw_status status = mw__tiling_create(mesh, false, &locator->tiling, error);
-    if (!status) status = mw__dynamic_create(f, &locator->tiling, mesh, error);
+    if (!status) status = mw__dynamic_create(f, &locator->tiling, mesh, locator->tiling.ghost_count == 0, error);
     if (!status) status = mw__fix_edges(f, options->constrained_edges, options->constrained_edge_count, error);
     if (!status) status = editor_choose_delaunay(f, options->delaunay, error);
     if (!status && !copy_fields(editor, mesh)) status = mw__fail_memory(error);

@@ -153,7 +153,7 @@ static mw_status compaction_create(const mw_editor *editor, compaction *c, mw_er
 {
     mw_status status = editor_make_mesh(editor, &c->numbers, &c->mesh, error);
     if (!status) status = mw__tiling_create(c->mesh, false, &c->tiling, error);
-    if (!status) status = mw__dynamic_create(&c->dynamic, &c->tiling, c->mesh, error);
+    if (!status) status = mw__dynamic_create(&c->dynamic, &c->tiling, c->mesh, editor->dynamic.convex, error);
     if (!status) status = compaction_fix_edges(editor, c, error);
     c->dynamic.delaunay = editor->dynamic.delaunay;
     return status;

@@ -57,7 +57,7 @@ static mw_status layer_make_dynamic(mw_live_layers *live, uint32_t i, mw_error *
         .point = tiling->point, .tri = tiling->tri, .point_count = tiling->point_count, .tri_count = tiling->tri_count};
     free(tiling->area);
     tiling->area = NULL;
-    mw_status status = mw__dynamic_create(&live->dynamic[i], tiling, &numbers, error);
+    mw_status status = mw__dynamic_create(&live->dynamic[i], tiling, &numbers, true, error);
     live->dynamic[i].delaunay = true;
     return status;
 }

@@ -440,6 +440,29 @@ static void test_cover(void **state)
     twin_close(&t);
 }
 
+/* --- compaction ------------------------------------------------------------------------------- */
+
+/* A border that is fixed stays so when a move makes it convex: compaction must not take the mesh
+ * for one that fills its hull, where insertions outside are done. */
+static void test_compaction_keeps_the_border(void **state)
+{
+    (void)state;
+    twin t;
+    arrays a = arrays_make(5, 3);
+    const double points[5][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 1}};
+    for (int i = 0; i < 5; i++) arrays_point(&a, points[i][0], points[i][1]);
+    arrays_triangle(&a, 0, 1, 4);
+    arrays_triangle(&a, 1, 2, 4);
+    arrays_triangle(&a, 0, 4, 3);
+    twin_open(&t, arrays_mesh(&a, (mw_mesh_options){0}), NULL);
+    REQUIRE(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = 4, .x = 2, .y = 4}, true) == MW_OK);
+    twin_compact(&t);
+    REQUIRE(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_INSERT, .x = 2, .y = 5}, true) == MW_ERROR_INPUT);
+    twin_check_all(&t);
+    twin_close(&t);
+    arrays_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -447,6 +470,7 @@ int main(void)
         cmocka_unit_test(test_pocket),
         cmocka_unit_test(test_past_a_component),
         cmocka_unit_test(test_corner_with_constraint),
+        cmocka_unit_test(test_compaction_keeps_the_border),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_reasons),
         cmocka_unit_test(test_cover),

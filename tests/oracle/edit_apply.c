@@ -360,6 +360,7 @@ void twin_compact(twin *t)
         t->fixed[2 * i] = a < b ? a : b;
         t->fixed[2 * i + 1] = a < b ? b : a;
     }
+    t->compacted = true;
     t->vertex_range = t->vertices;
     t->triangle_range = t->triangles;
     for (uint32_t v = 0; v < t->vertices; v++) {

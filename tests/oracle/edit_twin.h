@@ -36,6 +36,7 @@ typedef struct twin {
     size_t fixed_count;
     bool convex, delaunay;
     bool border_moved; /* a vertex of a border that is fixed was moved           */
+    bool compacted;    /* so that holes have other numbers than at first         */
     double *border;    /* the straight parts of such a border, x y to x y, sorted */
     size_t border_count;
     mw_mesh *first; /* the mesh that the editor was made from, and a locator of it */
