@@ -2,7 +2,8 @@
 
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
-    local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --tolerance --columns'
+    local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
+    query="$query --columns"
     query="$query --any"
     local stream='--strict --stats --json --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
@@ -13,7 +14,7 @@ _meshwalk_options() {
         sample) echo "--field --outside --status $query $stream $common" ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
-            echo "--start --cells --layers --format --stats --json $common"
+            echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
         star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
         probe)
@@ -62,6 +63,7 @@ _meshwalk_names() {
             echo 'auto remembering stochastic'
             ;;
         --fill) echo 'auto yes no' ;;
+        --descent) echo 'auto nearest coordinate' ;;
         --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;

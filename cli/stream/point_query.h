@@ -13,13 +13,14 @@ typedef struct point_query_settings {
     uint32_t sample, steps, cells, layers;
     int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
     int finish, fill;            /* numbers of the names of --finish and --fill */
+    int descent;                 /* mw_descent */
     bool areas, any;
 } point_query_settings;
 
 extern const option point_query_options[];
 
-/* The names that --walk and --start accept. */
-extern const choices point_query_walks, point_query_starts;
+/* The names that --walk, --start and --descent accept. */
+extern const choices point_query_walks, point_query_starts, point_query_descents;
 
 /* Refuse values of --cells and --layers above the limits of the library. Returns 0, or END_USAGE
  * after a complaint. */

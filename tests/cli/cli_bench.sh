@@ -58,7 +58,7 @@ publishes rectangle 10000 hybrid triangles 123.07
 run bench paper C1 --sizes 1e4 "${few[@]}"; exits 0; sound 70
 publishes uniform 10000 direct-dw1 orient 104.2
 publishes uniform 10000 direct-dw2 orient 207.4
-run bench paper C2 --sizes 100,1000,10000 "${few[@]}"; exits 0; sound 150
+run bench paper C2 --sizes 100,1000,10000 "${few[@]}"; exits 0; sound 180
 publishes uniform 100 direct-dw2 orient 13.5
 publishes uniform 10000 improved-orthogonal comparisons 43.1
 publishes uniform 10000 remembering layers 3
@@ -94,7 +94,7 @@ printf '%s\n' "$square" >m.off
 run bench paper E2 --data p.xyz,./m.off "${few[@]}"; exits 0; says_nothing; sound 140
 holds "nothing is published for them" test -z "$(tail -n +2 "$logs/out" | cut -f 7 | tr -d '\n')"
 holds "both are named" test "$(tail -n +2 "$logs/out" | cut -f 2,3 | sort -u | tr '\n' ' ')" == $'m.off\t4 p.xyz\t7 '
-run bench paper C2 --data p.xyz "${few[@]}"; exits 0; sound 50
+run bench paper C2 --data p.xyz "${few[@]}"; exits 0; sound 60
 run bench paper A1 --data "$source_tree/data/jacksboro.csv" --queries 50 --no-times; exits 0
 prints_line '^jacksboro.csv, 20000 vertices$'
 prints_line '^  stochastic +RSW  triangles +1\.[0-9]{3}  1\.092 to 1\.092$'

@@ -49,7 +49,9 @@ for walk in $walks; do
 done
 # Whatever adjusts them, too; what is out of range is refused before anything is printed.
 for options in '--start grid --cells 1' '--start grid --cells 1000' '--start two-level-grid --cells 3' \
-    '--start layers --layers 1' '--start layers --layers 2' '--start sample --sample 1' \
+    '--start layers --layers 1' '--start layers --layers 2' '--start layers --layers 3 --descent nearest' \
+    '--start layers --layers 3 --descent coordinate' '--walk direct --start layers --descent coordinate' \
+    '--start sample --sample 1' \
     '--start sample --sample cube-root' '--start sample --sample fourth-root' '--finish remembering' \
     '--finish stochastic' '--areas' '--steps 1'; do
     # shellcheck disable=SC2086 # words
