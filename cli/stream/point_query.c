@@ -49,8 +49,8 @@ static const char *descent_name(int i)
 static const char *descent_help(int i)
 {
     static const char *const helps[] = {"the nearest", "the nearest, which makes the shorter walks",
-                                        "the one with the largest coordinate of the point, which --walk direct and "
-                                        "barycentric know"};
+                                        ("the one with the largest coordinate of the point, which --walk direct and "
+                                         "barycentric know")};
     return helps[i];
 }
 
