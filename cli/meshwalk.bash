@@ -5,13 +5,13 @@ _meshwalk_options() {
     local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
     query="$query --columns"
     query="$query --any"
-    local stream='--strict --stats --json'
+    local stream='--strict --stats --json --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
         info | check) echo "--as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details $query $stream $common" ;;
-        sample) echo "--field --outside $query $stream $common" ;;
+        sample) echo "--field --outside --status $query $stream $common" ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
