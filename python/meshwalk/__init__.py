@@ -23,7 +23,13 @@ from meshwalk._files import mesh_formats, read, write
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
-from meshwalk._triangulate import DuplicateWarning, delaunay
+from meshwalk._triangulate import (
+    DuplicateWarning,
+    OptimumWarning,
+    constrained_delaunay,
+    delaunay,
+    triangulate,
+)
 from meshwalk._where import Where
 
 __all__ = [
@@ -40,11 +46,14 @@ __all__ = [
     "Mesh",
     "MeshInfo",
     "NearestBorder",
+    "OptimumWarning",
     "Where",
     "__version__",
     "check",
+    "constrained_delaunay",
     "delaunay",
     "mesh_formats",
     "read",
+    "triangulate",
     "write",
 ]

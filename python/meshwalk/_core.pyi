@@ -97,6 +97,27 @@ def check_arrays(
 def delaunay(
     cls: type[_Mesh], points: Buffer, duplicate_of: Buffer, threads: int, /
 ) -> tuple[_Mesh, int]: ...
+def triangulate(
+    cls: type[_Mesh],
+    points: Buffer,
+    duplicate_of: Buffer,
+    kind: str,
+    limit: int,
+    threads: int,
+    /,
+) -> tuple[_Mesh, int, bool]: ...
+def constrained_delaunay(
+    cls: type[_Mesh],
+    points: Buffer,
+    duplicate_of: Buffer,
+    segments: Buffer,
+    polygons: Buffer | None,
+    seeds: Buffer,
+    keep: int,
+    split: bool,
+    threads: int,
+    /,
+) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(path: bytes, /) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]: ...
 def write_mesh(
     path: bytes,
