@@ -13,6 +13,8 @@ import numpy as np
 from meshwalk._errors import LimitError
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import ArrayLike, NDArray
 
     Rejected = NDArray[np.bool_]
@@ -200,6 +202,25 @@ def field(given: ArrayLike, name: str, count: int) -> NDArray[np.float64]:
     own = np.array(array, order="C")
     own.flags.writeable = False
     return own
+
+
+def fields(given: Mapping[str, ArrayLike] | None, count: int) -> dict[str, NDArray[np.float64]]:
+    """Fields of a mesh by name, each a copy that cannot be written."""
+    return {
+        name: field(values, f"fields[{name!r}]", count) for name, values in (given or {}).items()
+    }
+
+
+def record_type(layout: dict[str, int], members: dict[str, Any]) -> np.dtype[Any]:
+    """The type of one of the library's answers; the library tells where its members stand."""
+    return np.dtype(
+        {
+            "names": list(members),
+            "formats": list(members.values()),
+            "offsets": [layout[name] for name in members],
+            "itemsize": layout["itemsize"],
+        }
+    )
 
 
 def numbers(array: NDArray[np.uint32]) -> NDArray[np.int32] | NDArray[np.int64]:

@@ -15,33 +15,29 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
     from meshwalk._mesh import Mesh
+    from meshwalk._surface import Surface
 
-_MEMBERS: dict[str, Any] = {
-    "weights": (np.float64, (3,)),
-    "triangle": np.int32,
-    "hole": np.int32,
-    "where": np.uint8,
-    "local": np.uint8,
-}
-LOCATION = np.dtype(
+LOCATION = _arrays.record_type(
+    _core.LOCATION_LAYOUT,
     {
-        "names": list(_MEMBERS),
-        "formats": list(_MEMBERS.values()),
-        "offsets": [_core.LOCATION_LAYOUT[name] for name in _MEMBERS],
-        "itemsize": _core.LOCATION_LAYOUT["itemsize"],
-    }
+        "weights": (np.float64, (3,)),
+        "triangle": np.int32,
+        "hole": np.int32,
+        "where": np.uint8,
+        "local": np.uint8,
+    },
 )
 """The type of one answer, as the library writes it."""
 
 
 class Locations:
-    """Where points lie: the answer of `Locator.locate`, of the shape of the points.
+    """Where points lie: the answer of `Locator.locate` or `Star.locate`, of the points' shape.
 
     The attributes are views of the library's own answers: they cost nothing, and share memory.
 
     Attributes
     ----------
-    mesh : Mesh
+    mesh : Mesh or Surface
         The mesh in which the points were located.
     records : ndarray
         All answers, as a structured array.
@@ -65,7 +61,7 @@ class Locations:
 
     __slots__ = ("mesh", "records")
 
-    def __init__(self, mesh: Mesh, records: NDArray[Any]) -> None:
+    def __init__(self, mesh: Mesh | Surface, records: NDArray[Any]) -> None:
         if records.dtype != LOCATION:
             raise TypeError(f"records must be of the type that locate gives, not {records.dtype}")
         self.mesh = mesh

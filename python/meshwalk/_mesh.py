@@ -157,10 +157,7 @@ class Mesh(_core.Mesh):
             if "z" in given:
                 raise ValueError("z is given twice: as a field, and as the third column of points")
             given = {"z": heights, **given}
-        self._fields = {
-            name: _arrays.field(values, f"fields[{name!r}]", self.vertex_count)
-            for name, values in given.items()
-        }
+        self._fields = _arrays.fields(given, self.vertex_count)
 
     def _set_constraints(self, edges: NDArray[np.uint32], segments: NDArray[np.uint32]) -> None:
         self._constraints = (edges, segments)
