@@ -49,8 +49,8 @@ static const char *descent_name(int i)
 static const char *descent_help(int i)
 {
     static const char *const helps[] = {"the nearest", "the nearest, which makes the shorter walks",
-                                        "the one with the largest coordinate of the point, which --walk direct and "
-                                        "barycentric know"};
+                                        ("the one with the largest coordinate of the point, which --walk direct and "
+                                         "barycentric know")};
     return helps[i];
 }
 
@@ -96,7 +96,7 @@ const option point_query_options[] = {
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.columns), "LIST",
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
-     "calls x and y, lon and lat, ..., else the first two)",
+     "calls so, by names that the manual page lists, or the only two)",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
      "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
@@ -282,7 +282,7 @@ static void point_query_report(const void *self, report *r)
     point_query_report_memory(r, context->query);
 }
 
-int point_query_run(const point_query *q, const char *points, const char *header, point_query_row *row,
+int point_query_run(const point_query *q, const char *points, const char *const *answers, point_query_row *row,
                     const void *self)
 {
     point_query_context context = {.query = q, .row = row, .self = self};
@@ -290,8 +290,9 @@ int point_query_run(const point_query *q, const char *points, const char *header
         .settings = &q->settings->stream,
         .begin = q->begin,
         .doing = "locating",
-        .header = header,
-        .columns = {.names = {"x", "y"}, .count = 2, .accept_first = true},
+        .columns = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2},
+        .shown = 2,
+        .answers = answers,
         .answer_size = sizeof(mw_location),
         .answer = point_query_answer_block,
         .row = point_query_write_row,
