@@ -84,7 +84,7 @@ def test_globe(random: np.random.Generator) -> None:
     np.testing.assert_array_equal(hit.triangle, [_oracle(surface, p) for p in directions])
     at_vertices = hit[100:].interpolate("latitude")
     np.testing.assert_array_equal(at_vertices, lonlat[:, 1])
-    assert globe.locate([[0, 91], [np.nan, 0]], lonlat=True).where.tolist() == [Where.BAD] * 2
+    assert globe.locate(np.array([[0, 91], [np.nan, 0]]), True).where.tolist() == [Where.BAD] * 2
     np.testing.assert_allclose(
         meshwalk.direction_to_lonlat(directions[:100]),
         np.column_stack([(queries[:100, 0] + 180) % 360 - 180, queries[:100, 1]]),
@@ -167,7 +167,7 @@ def test_flips(octahedron: meshwalk.Surface) -> None:
 
 def test_probes(octahedron: meshwalk.Surface) -> None:
     prober = meshwalk.Prober(octahedron, boxes=True)
-    points = [[0.1, 0.2, 5], [5, 5, 5], [np.nan, 0, 0]]
+    points = np.array([[0.1, 0.2, 5], [5, 5, 5], [np.nan, 0, 0]])
     for certain in (False, True):
         touch = prober.probe(points, [0, 0, -1], certain=certain)
         assert touch.triangle.tolist() == [0, -1, -1]
