@@ -21,7 +21,7 @@ _meshwalk_options() {
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
-        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --no-times --format --plot $common" ;;
+        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --seeds --no-times --format --plot $common" ;;
     esac
 }
 
@@ -46,9 +46,9 @@ _meshwalk_names() {
         --as) echo 'plane surface star' ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return
-            echo 'auto lawson remembering stochastic fast-stochastic barycentric direct straight normal-straight'
-            echo 'orthogonal improved-orthogonal hybrid celestial border'
-            [[ $1 == walk ]] && echo forgetful
+            echo 'auto lawson remembering stochastic forgetful fast-stochastic barycentric direct straight'
+            echo 'normal-straight normal-straight-turn orthogonal improved-orthogonal improved-orthogonal-vertex'
+            echo 'hybrid celestial border'
             ;;
         --start)
             case $1 in
@@ -104,7 +104,7 @@ _meshwalk() {
     fi
     case $before in
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field) return ;;
-        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --undo) return ;;
+        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

@@ -15,6 +15,8 @@ static const algorithm normal_straight = {.name = "normal-straight", .abbreviati
 static const algorithm orthogonal = {.name = "orthogonal", .abbreviation = "OW", .walk = "orthogonal"};
 static const algorithm improved_orthogonal = {
     .name = "improved-orthogonal", .abbreviation = "IOW", .walk = "improved-orthogonal"};
+static const algorithm improved_orthogonal_vertex = {
+    .name = "improved-orthogonal-vertex", .abbreviation = "IOW", .walk = "improved-orthogonal-vertex"};
 static const algorithm hybrid = {.name = "hybrid", .abbreviation = "HW", .walk = "hybrid"};
 static const algorithm direct_computed = {.name = "direct-dw2", .abbreviation = "DW2", .walk = "direct"};
 static const algorithm direct_stored = {
@@ -117,7 +119,7 @@ static const paper_table tables[] = {
      .drawn = TRIANGLES},
     {.name = "B2",
      .title = "hybrid walk in a turned rectangle (App. B, Table II)",
-     .algorithms = {&improved_orthogonal, &hybrid},
+     .algorithms = {&improved_orthogonal_vertex, &improved_orthogonal, &hybrid},
      .reference = &hybrid,
      .finish = "stochastic",
      .start = "random",

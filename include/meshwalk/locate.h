@@ -175,7 +175,7 @@ typedef struct mw_query_options {
                             MW_WALK_STOCHASTIC; 0 = remembering where a look at edges finds the mesh Delaunay            */
     uint64_t seed;         /* for everything random; answers do not depend on it                                  */
     uint32_t samples;      /* MW_START_SAMPLE: triangles looked at, at most all; or one of the rules below        */
-    uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: steps with one test, at most 4096 + 45
+    uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: its steps, one test each, at most 4096 + 45
                             sqrt(triangles); 0 = estimate by distance and density                       */
     uint32_t threads;      /* batches: 0 = what OpenMP gives                                                      */
     double tolerance;      /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */

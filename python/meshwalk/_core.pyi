@@ -5,6 +5,8 @@ from numpy.typing import NDArray
 from meshwalk._where import Where
 
 LOCATION_LAYOUT: dict[str, int]
+TOUCH_LAYOUT: dict[str, int]
+NEAREST_LAYOUT: dict[str, int]
 MAX_TRIANGLES: int
 MESH_FORMATS: tuple[str, ...]
 version: str
@@ -91,12 +93,95 @@ def locator_from_mesh(
     threads: int,
     /,
 ) -> _Locator: ...
+
+class Surface:
+    @property
+    def vertex_count(self) -> int: ...
+    @property
+    def triangle_count(self) -> int: ...
+    def _copy_points(self, out: Buffer, /) -> None: ...
+    def _copy_triangles(self, out: Buffer, /) -> None: ...
+    def _move(
+        self,
+        points: Buffer,
+        vertices: Buffer | None,
+        kept: list[Any],
+        moved: float,
+        threads: int,
+        /,
+    ) -> None: ...
+    def _flip(self, triangle: int, edge: int, kept: list[Any], threads: int, /) -> None: ...
+    def _describe(self) -> dict[str, Any]: ...
+
+class Star:
+    @property
+    def surface(self) -> Surface: ...
+    def _locate(
+        self, points: Buffer, out: Buffer, walk: str, start: str, threads: int, /
+    ) -> None: ...
+    def _describe(self) -> dict[str, Any]: ...
+
+class Prober:
+    @property
+    def surface(self) -> Surface: ...
+    def _probe(
+        self,
+        queries: Buffer,
+        out: Buffer,
+        max_distance: float,
+        certain: bool,
+        start: str,
+        iterations: int,
+        threads: int,
+        /,
+    ) -> None: ...
+    def _nearest(self, points: Buffer, out: Buffer, max_distance: float, /) -> None: ...
+
+_Surface = TypeVar("_Surface", bound=Surface)
+_Star = TypeVar("_Star", bound=Star)
+_Prober = TypeVar("_Prober", bound=Prober)
+
+def surface_from_arrays(
+    cls: type[_Surface], points: Buffer, triangles: Buffer, tolerant: bool, weld: bool, /
+) -> _Surface: ...
+def star_from_surface(
+    cls: type[_Star], surface: Surface, x: float, y: float, z: float, /
+) -> _Star: ...
+def prober_from_surface(cls: type[_Prober], surface: Surface, boxes: bool, /) -> _Prober: ...
+def lonlat_to_direction(lonlat: Buffer, out: Buffer, /) -> None: ...
+def direction_to_lonlat(directions: Buffer, out: Buffer, /) -> None: ...
 def check_arrays(
-    points: Buffer, triangles: Buffer, /
+    kind: str,
+    points: Buffer,
+    triangles: Buffer,
+    weld: bool,
+    centre: tuple[float, float, float],
+    /,
 ) -> tuple[bool, list[tuple[str, str, int, int, int, int, int]]]: ...
 def delaunay(
     cls: type[_Mesh], points: Buffer, duplicate_of: Buffer, threads: int, /
 ) -> tuple[_Mesh, int]: ...
+def triangulate(
+    cls: type[_Mesh],
+    points: Buffer,
+    duplicate_of: Buffer,
+    kind: str,
+    limit: int,
+    threads: int,
+    /,
+) -> tuple[_Mesh, int, bool]: ...
+def constrained_delaunay(
+    cls: type[_Mesh],
+    points: Buffer,
+    duplicate_of: Buffer,
+    segments: Buffer,
+    polygons: Buffer | None,
+    seeds: Buffer,
+    keep: int,
+    split: bool,
+    threads: int,
+    /,
+) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(path: bytes, /) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]: ...
 def write_mesh(
     path: bytes,
