@@ -13,8 +13,9 @@ static int core_exec(PyObject *module)
     return errors_init(state) || memory_init(module, state) || mesh_init(module, state) ||
                    location_init(module, state) || locator_init(module, state) ||
                    surface_init(module, state) || star_init(module, state) ||
-                   prober_init(module, state) || check_init(module) || layouts_init(module) ||
-                   triangulation_init(module) || files_init(module) || core_add_numbers(module)
+                   prober_init(module, state) || editor_init(module, state) || check_init(module) ||
+                   layouts_init(module) || triangulation_init(module) || files_init(module) ||
+                   core_add_numbers(module)
                ? -1
                : 0;
 }
@@ -28,6 +29,7 @@ static int core_traverse(PyObject *module, visitproc visit, void *arg)
     Py_VISIT(state->surface_type);
     Py_VISIT(state->star_type);
     Py_VISIT(state->prober_type);
+    Py_VISIT(state->editor_type);
     Py_VISIT(state->memory_type);
     Py_VISIT(state->input_error);
     Py_VISIT(state->limit_error);
@@ -44,6 +46,7 @@ static int core_clear(PyObject *module)
     Py_CLEAR(state->surface_type);
     Py_CLEAR(state->star_type);
     Py_CLEAR(state->prober_type);
+    Py_CLEAR(state->editor_type);
     Py_CLEAR(state->memory_type);
     Py_CLEAR(state->input_error);
     Py_CLEAR(state->limit_error);

@@ -45,9 +45,19 @@ static int layout_add_nearest(PyObject *module)
                                     "itemsize", (Py_ssize_t)sizeof(mw_nearest_surface_point)));
 }
 
+static int layout_add_changed(PyObject *module)
+{
+    return layout_add(module, "CHANGED_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n}",
+                                    LAYOUT_MEMBER(mw_changed_triangle, "triangle", triangle),
+                                    LAYOUT_MEMBER(mw_changed_triangle, "before", before),
+                                    "itemsize", (Py_ssize_t)sizeof(mw_changed_triangle)));
+}
+
 int layouts_init(PyObject *module)
 {
-    return layout_add_location(module) || layout_add_touch(module) || layout_add_nearest(module)
+    return layout_add_location(module) || layout_add_touch(module) || layout_add_nearest(module) ||
+                   layout_add_changed(module)
                ? -1
                : 0;
 }

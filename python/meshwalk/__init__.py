@@ -18,6 +18,15 @@ released while the library works, and objects may be used by any number of threa
 from meshwalk._check import Check, Defect, check, check_star, check_surface
 from meshwalk._core import Location
 from meshwalk._core import version as __version__
+from meshwalk._editor import (
+    Change,
+    EdgeKind,
+    Edit,
+    EditKind,
+    Editor,
+    EditorInfo,
+    EditorLocations,
+)
 from meshwalk._errors import Error, InputError, LimitError
 from meshwalk._files import mesh_formats, read, write
 from meshwalk._locations import Locations
@@ -36,9 +45,16 @@ from meshwalk._triangulate import (
 from meshwalk._where import Where
 
 __all__ = [
+    "Change",
     "Check",
     "Defect",
     "DuplicateWarning",
+    "EdgeKind",
+    "Edit",
+    "EditKind",
+    "Editor",
+    "EditorInfo",
+    "EditorLocations",
     "Error",
     "InputError",
     "LimitError",

@@ -233,6 +233,14 @@ def numbers(array: NDArray[np.uint32]) -> NDArray[np.int32] | NDArray[np.int64]:
     return signed
 
 
+def field_name(name: str) -> bytes:
+    """The name of a field as the library takes it."""
+    encoded = name.encode("utf-8", "surrogateescape")
+    if b"\0" in encoded:
+        raise ValueError("the name of a field has no null characters")
+    return encoded
+
+
 def path(given: Any) -> bytes:
     """The name of a file as the system takes it."""
     import os

@@ -115,6 +115,6 @@ def write(path: str | os.PathLike[str], mesh: Mesh, format: str | None = None) -
     heights = fields.pop("z", None)
     if heights is not None:
         points[:, 2] = heights
-    named = [(name.encode("utf-8", "surrogateescape"), values) for name, values in fields.items()]
+    named = [(_arrays.field_name(name), values) for name, values in fields.items()]
     triangles = mesh.triangles.astype(np.uint32, copy=False)
     _core.write_mesh(_arrays.path(path), format, points, heights is not None, triangles, named)
