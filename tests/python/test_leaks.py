@@ -34,7 +34,7 @@ def _use_meshes(folder: Path) -> None:
     hit = locator.locate(POINTS, 0.1)
     one = locator.locate_one(0.5, 0.5)
     _ = one.where, one.weights, one.triangle, one.hole, one.local, one.inside, repr(one)
-    _ = repr(hit), hit.inside, hit[3:], hit.operator(), locator.describe()
+    _ = repr(hit), hit.inside, hit[3:], locator.describe()
     locator.nearest_border(2, 2)
     hit.interpolate("z")
     hit.interpolate(np.zeros((400, 3), np.float32))
@@ -143,7 +143,7 @@ def test_nothing_is_left(use: Callable[..., None], tmp_path: Path) -> None:
     if not hasattr(ctypes.CDLL(None), "mallinfo2"):
         pytest.skip("this C library does not tell what its heap holds")
     arguments = [tmp_path] if use in (_use_meshes, _fail) else []
-    rounds = 10
+    rounds = 20
     grown = []
     for _ in range(12):  # caches fill in the first rounds
         before = _held()
