@@ -1,6 +1,8 @@
 /* locator.c - Locator: a mw_locator as an object, which keeps its mesh alive. */
 #include "core.h"
 
+#include <stdlib.h>
+
 typedef struct locator_object {
     PyObject_HEAD core_state *state;
     PyObject *mesh;
@@ -155,6 +157,43 @@ static PyObject *locator_nearest_border(PyObject *self, PyObject *args)
                          nearest.weight[2]);
 }
 
+/* The triangles of a walk, and how many; NULL when out of memory. Each call begins anew, so two of
+ * them are of one length. */
+static uint32_t *locator_walk(const mw_locator *locator, const mw_cursor *begin,
+                              const double point[2], size_t *count)
+{
+    mw_cursor cursor = *begin;
+    uint32_t *triangles;
+    *count = mw_walk_path(locator, &cursor, point[0], point[1], NULL, 0, NULL);
+    triangles = malloc((*count + 1) * sizeof *triangles);
+    if (!triangles) return NULL;
+    cursor = *begin;
+    mw_walk_path(locator, &cursor, point[0], point[1], triangles, *count, NULL);
+    return triangles;
+}
+
+/* _walk_path(x, y, walk, start, seed): memory of the numbers of triangles */
+static PyObject *locator_walk_path(PyObject *self, PyObject *args)
+{
+    locator_object *object = (locator_object *)self;
+    locator_query query = {0};
+    double point[2];
+    uint32_t *triangles;
+    size_t count;
+    mw_cursor cursor;
+    mw_error error;
+    if (!PyArg_ParseTuple(args, "ddssO&", &point[0], &point[1], &query.walk, &query.start,
+                          option_uint64, &query.options.seed) ||
+        locator_resolve_names(&query))
+        return NULL;
+    if (mw_cursor_init(object->locator, &query.options, &cursor, &error))
+        return errors_raise(object->state, &error);
+    Py_BEGIN_ALLOW_THREADS triangles = locator_walk(object->locator, &cursor, point, &count);
+    Py_END_ALLOW_THREADS return triangles
+        ? memory_new(object->state, triangles, count * sizeof *triangles)
+        : PyErr_NoMemory();
+}
+
 /* describe(): a dictionary of the members of mw_locator_info, and of the void promise, or None */
 static PyObject *locator_describe(PyObject *self, PyObject *unused)
 {
@@ -181,6 +220,7 @@ static PyMethodDef locator_methods[] = {
     {"_locate", locator_locate, METH_VARARGS, NULL},
     {"locate_one", (PyCFunction)(void (*)(void))locator_locate_one, METH_FASTCALL, locator_one_doc},
     {"_nearest_border", locator_nearest_border, METH_VARARGS, NULL},
+    {"_walk_path", locator_walk_path, METH_VARARGS, NULL},
     {"_describe", locator_describe, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

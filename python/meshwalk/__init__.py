@@ -32,6 +32,7 @@ from meshwalk._files import mesh_formats, read, write
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
+from meshwalk._plot import explain, plot
 from meshwalk._prober import NearestPoints, Prober, Touches, TouchState
 from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
 from meshwalk._surface import Surface, SurfaceInfo
@@ -82,8 +83,10 @@ __all__ = [
     "constrained_delaunay",
     "delaunay",
     "direction_to_lonlat",
+    "explain",
     "lonlat_to_direction",
     "mesh_formats",
+    "plot",
     "read",
     "triangulate",
     "write",

@@ -14,7 +14,7 @@ from meshwalk._mesh import Mesh
 if TYPE_CHECKING:
     from typing import Self
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 _FILLS = {"auto": 0, "yes": 1, "no": 2}
 
@@ -218,6 +218,38 @@ class Locator(_core.Locator):
         NearestBorder(triangle=0, edge=0, distance=2.0, point=(1.0, 0.0), weights=(0.75, 0.25, 0.0))
         """
         return NearestBorder(*self._nearest_border(x, y))
+
+    def walk_path(
+        self, x: float, y: float, *, walk: str = "auto", start: str = "auto", seed: int = 0
+    ) -> NDArray[np.int32]:
+        """List the triangles that a query visits, in order, the first one included.
+
+        Parameters
+        ----------
+        x, y : float
+            The point, in the units of the mesh.
+        walk, start : str, optional
+            By which walk, and from which first triangle; as on the command line, such as
+            ``"straight"`` and ``"random"``.
+        seed : int, optional
+            Of random choices.
+
+        Returns
+        -------
+        ndarray of int32
+            Each is entered over an edge of the one before, but for those with a pocket or hole in
+            between. Empty for a point that is not finite.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> path = meshwalk.Locator(mesh).walk_path(1, 3, walk="straight", start="centre")
+        >>> int(path[-1])
+        1
+        """
+        path = np.frombuffer(self._walk_path(x, y, walk, start, seed), np.uint32)
+        return path.view(np.int32)
 
     def describe(self) -> LocatorInfo:
         """Tell what the locator has built beside the mesh, in bytes.
