@@ -1,6 +1,8 @@
-/* The library does not call back while it works, so a thread shows the progress. It sleeps for a
- * second, then paints the line a few times a second until it is told to stop. */
+/* The library calls back only where it can be stopped, and not on time. So a thread shows the
+ * progress. It sleeps for a second, then paints the line a few times a second until it is told to
+ * stop. */
 #include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -18,7 +20,9 @@ static struct {
     cnd_t wake;
     const char *doing, *what, *unit;
     uint64_t done;
-    struct timespec begin;
+    char stage[64];                    /* of a call of the library; "": none */
+    double fraction;                   /* of the phase or the call that is done; -1: not known */
+    struct timespec begin, part_begin; /* of the program, and of what the fraction is of */
 } watch;
 
 static double seconds_since(const struct timespec *begin)
@@ -49,8 +53,13 @@ static void progress_paint(void)
     if (!watch.doing) return;
     fprintf(stderr, "\r\033[K%s", watch.doing);
     if (watch.what) fprintf(stderr, " %s", strcmp(watch.what, "-") == 0 ? "standard input" : watch.what);
+    double part = seconds_since(&watch.part_begin);
+    if (*watch.stage) fprintf(stderr, ": %s", watch.stage);
     if (watch.done) fprintf(stderr, ": %" PRIu64 " %s", watch.done, watch.unit);
+    if (watch.done && part > 0) fprintf(stderr, ", %.3g a second", (double)watch.done / part);
+    if (watch.fraction >= 0) fprintf(stderr, ", %.0f %%", 100 * watch.fraction);
     fprintf(stderr, ", %.0f s", seconds_since(&watch.begin));
+    if (watch.fraction > 0.02) fprintf(stderr, ", about %.0f s left", part / watch.fraction * (1 - watch.fraction));
     fflush(stderr);
     watch.shown = true;
 }
@@ -84,26 +93,53 @@ void progress_phase(const char *doing, const char *what)
     watch.doing = doing;
     watch.what = what;
     watch.done = 0;
+    watch.fraction = -1;
+    *watch.stage = 0;
+    timespec_get(&watch.part_begin, TIME_UTC);
     mtx_unlock(&watch.lock);
 }
 
-static void progress_count(uint64_t done, const char *unit)
+static void progress_count(uint64_t done, double fraction, const char *unit)
 {
     if (!watch.running) return;
     mtx_lock(&watch.lock);
     watch.done = done;
     watch.unit = unit;
+    watch.fraction = fraction;
+    *watch.stage = 0;
     mtx_unlock(&watch.lock);
 }
 
-void progress_points(uint64_t done)
+void progress_points(uint64_t done, double fraction)
 {
-    progress_count(done, "points");
+    progress_count(done, fraction, "points");
 }
 
-void progress_lines(uint64_t done)
+void progress_lines(uint64_t done, double fraction)
 {
-    progress_count(done, "lines");
+    progress_count(done, fraction, "lines");
+}
+
+/* While points are counted, calls of the library are short, and would only hide the count. */
+static int progress_report(void *unused, const char *stage, double fraction)
+{
+    (void)unused;
+    if (watch.running) {
+        mtx_lock(&watch.lock);
+        if (!watch.done) {
+            if (fraction < watch.fraction) timespec_get(&watch.part_begin, TIME_UTC); /* the next call */
+            snprintf(watch.stage, sizeof watch.stage, "%s", stage);
+            watch.fraction = fraction;
+        }
+        mtx_unlock(&watch.lock);
+    }
+    return signals_have_come();
+}
+
+const mw_progress *progress_of_call(void)
+{
+    static const mw_progress of_call = {.report = progress_report};
+    return &of_call;
 }
 
 void progress_end(void)

@@ -105,7 +105,8 @@ static int point_query_make_mesh(point_query *q, const char *path, const mw_mesh
 {
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_mesh_options options = {.tolerant = q->settings->any, .threads = q->settings->stream.common.threads};
+    mw_mesh_options options = {
+        .tolerant = q->settings->any, .threads = q->settings->stream.common.threads, .progress = progress_of_call()};
     progress_phase("preparing", path);
     return mw_mesh_create(&arrays, &options, &q->mesh, &error) == MW_OK ? 0
                                                                         : point_query_fail_mesh(q, path, area, &error);
@@ -119,7 +120,8 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
                                   .border = border || settings->tolerance > 0,
                                   .areas = settings->areas,
                                   .fill = (mw_fill_mode)settings->fill,
-                                  .threads = settings->stream.common.threads};
+                                  .threads = settings->stream.common.threads,
+                                  .progress = progress_of_call()};
     if (settings->walk == MW_WALK_BORDER && settings->fill == MW_FILL_AUTO) options.fill = MW_FILL_NO;
     if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK)
         return point_query_fail_mesh(q, path, area, &error);
@@ -149,7 +151,11 @@ static int point_query_make_index(point_query *q)
     mw_start_kind start = (mw_start_kind)settings->start;
     if (!mw_start_has_index(start)) return 0;
     mw_index_options options = {
-        .cells = settings->cells, .layers = settings->layers, .seed = settings->stream.common.seed};
+        .cells = settings->cells,
+        .layers = settings->layers,
+        .seed = settings->stream.common.seed,
+        .progress = progress_of_call(),
+    };
     return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
@@ -206,6 +212,7 @@ static int point_query_answer_block(void *self, const query_block *block, void *
         .tolerance = settings->tolerance,
         .counters = settings->stream.stats,
         .index = context->query->index,
+        .progress = progress_of_call(),
     };
     mw_status status = mw_locate_batch(context->query->locator, block->values, block->count, block->stride, &options,
                                        answers, &counters, &error);

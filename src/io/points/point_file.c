@@ -80,6 +80,11 @@ mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t c
     return reader->read(reader, values, capacity, count, error);
 }
 
+double mw_point_reader_fraction(const mw_point_reader *reader)
+{
+    return mw__source_fraction(&reader->source);
+}
+
 void mw_point_reader_close(mw_point_reader *reader)
 {
     if (!reader) return;
