@@ -1,14 +1,17 @@
 /* job.c - stages, reports, and loops that threads share. */
 #include "base/job.h"
 
+#include <assert.h>
+
 #define REPORTS 256 /* of a whole job, beside one for each stage */
 
 /* Tell the user how far the job is. */
 static bool job_tell(mw_job *job, double whole)
 {
     const mw_progress *p = job->progress;
-    job->next = whole + 1.0 / REPORTS;
-    if (p->report && p->report(p->context, job->stage, whole)) atomic_store(&job->stopped, true);
+    if (whole > job->told) job->told = whole; /* rounding may make a stage begin before the last one ended */
+    job->next = job->told + 1.0 / REPORTS;
+    if (p->report && p->report(p->context, job->stage, job->told)) atomic_store(&job->stopped, true);
     return !mw__job_stopped(job);
 }
 
@@ -23,6 +26,7 @@ void mw__job_stage(mw_job *job, const char *name, double share)
 {
     job->stage = name;
     job->span = (mw_job_span){job->span.from + job->span.size, share * job->part.size};
+    assert(job->span.from + job->span.size < job->part.from + job->part.size + 1e-9);
     if (job->progress && !mw__job_stopped(job) && job->span.from < 1) job_tell(job, job->span.from);
 }
 
@@ -30,6 +34,7 @@ mw_job_span mw__job_part(mw_job *job, double share)
 {
     mw_job_span outer = job->part;
     job->part = (mw_job_span){job->span.from + job->span.size, share * outer.size};
+    assert(job->part.from + job->part.size < outer.from + outer.size + 1e-9);
     job->span = (mw_job_span){job->part.from, 0};
     return outer;
 }

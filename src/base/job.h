@@ -31,7 +31,7 @@ typedef struct mw_job {
     const char *stage;           /* the name of the present stage              */
     mw_job_span part;            /* the part of the present function           */
     mw_job_span span;            /* the present stage                          */
-    double next;                 /* the fraction of the whole to report next   */
+    double told, next;           /* fractions: reported last, and next          */
     atomic_bool stopped;         /* the user has cancelled                     */
 } mw_job;
 

@@ -237,7 +237,9 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
         const mw_patch *whole = &d.patches.patch[0];
         if (duplicate_of) report_duplicates(&d, duplicate_of);
         if (report) *report = (mw_delaunay_report){n, whole->duplicates, whole->visited};
+        mw_job_span outer = mw__job_part(job, 0.1);
         if (!delaunay_collect(&d, tri, tri_count)) status = mw__fail_memory(error);
+        mw__job_part_end(job, outer);
     }
     if (d.setup.order) {
         *d.setup.order = status == MW_OK ? d.arrays.order : NULL;
