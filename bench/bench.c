@@ -57,6 +57,10 @@ const option bench_options[] = {
      &engine_task_choices},
     {"rounds", 0, OPTION_COUNT, offsetof(bench_settings, rounds), "N",
      "rounds of peers, scale and edit, whose median counts (default: 0, five)", NULL},
+    {"seeds", 0, OPTION_COUNT, offsetof(bench_settings, seeds), "N",
+     "of paper: N runs with seeds one after the other from --seed; prints means and the spread of one (default: 0, one "
+     "run)",
+     NULL},
     {"no-times", 0, OPTION_FLAG, offsetof(bench_settings, no_times), NULL, "count only", NULL},
     {"format", 0, OPTION_CHOICE, offsetof(bench_settings, format), "NAME",
      "how to print the figures (default: table):", &format_choices},
@@ -72,7 +76,12 @@ static int run_measurement(size_t i, const bench_settings *s, const char *table)
                  measurements[i].name);
         return END_USAGE;
     }
-    return measurements[i].run(s, table);
+    if (s->seeds && measurements[i].run != bench_paper) {
+        complain("bench %s: --seeds is for 'bench paper'", measurements[i].name);
+        return END_USAGE;
+    }
+    int end = options_limit("seeds", s->seeds, 1000, NULL);
+    return end ? end : measurements[i].run(s, table);
 }
 
 int bench_run(const bench_settings *s, const char *measurement, const char *table)

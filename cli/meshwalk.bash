@@ -2,25 +2,26 @@
 
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
-    local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --tolerance --columns'
+    local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
+    query="$query --columns"
     query="$query --any"
-    local stream='--strict --stats --json'
+    local stream='--strict --stats --json --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
         info | check) echo "--as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details $query $stream $common" ;;
-        sample) echo "--field --outside $query $stream $common" ;;
+        sample) echo "--field --outside --status $query $stream $common" ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
-            echo "--start --cells --layers --format --stats --json $common"
+            echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
         star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
         probe)
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
-        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --no-times --format --plot $common" ;;
+        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --seeds --no-times --format --plot $common" ;;
     esac
 }
 
@@ -45,9 +46,9 @@ _meshwalk_names() {
         --as) echo 'plane surface star' ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return
-            echo 'auto lawson remembering stochastic fast-stochastic barycentric direct straight normal-straight'
-            echo 'orthogonal improved-orthogonal hybrid celestial border'
-            [[ $1 == walk ]] && echo forgetful
+            echo 'auto lawson remembering stochastic forgetful fast-stochastic barycentric direct straight'
+            echo 'normal-straight normal-straight-turn orthogonal improved-orthogonal improved-orthogonal-vertex'
+            echo 'hybrid celestial border'
             ;;
         --start)
             case $1 in
@@ -62,6 +63,7 @@ _meshwalk_names() {
             echo 'auto remembering stochastic'
             ;;
         --fill) echo 'auto yes no' ;;
+        --descent) echo 'auto nearest coordinate' ;;
         --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
@@ -100,7 +102,7 @@ _meshwalk() {
     fi
     case $before in
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field) return ;;
-        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --undo) return ;;
+        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

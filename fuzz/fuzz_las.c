@@ -1,4 +1,5 @@
-/* Any bytes behind "LASF" as LAS; the first byte chooses the columns and a filter of classes. */
+/* Any bytes behind "LASF" as LAS; the first byte chooses the columns, a filter of classes, and
+ * whether rows are kept as text. */
 #include "reader.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -9,6 +10,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         "green,blue"};
     if (size < 5) return 0;
     mw_point_reader_options options = {.columns = selections[data[0] % 3]};
+    options.table = data[0] >> 6 & 1;
     if (data[0] & 0x80) options.classes[data[0] & 31] = 1;
     uint8_t *file = malloc(size - 1);
     require(file != NULL);

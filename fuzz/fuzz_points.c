@@ -1,5 +1,5 @@
-/* Any bytes as points: the first line is the selection of columns, none if it is empty. Twice: as a table of its
- * own kind and as the vertices of a .node file. */
+/* Any bytes as points: the first line is the selection of columns, none if it is empty. As a table of its own kind
+ * and as the vertices of a .node file, without and with the rows' texts. */
 #include "reader.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -21,7 +21,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bool sound = mw__point_reader_start(source, &options, &reader, &error) == MW_OK;
     mw_point_reader_close(reader);
     if (!sound) options.columns = NULL;
-    fuzz_points("input.txt", &options, data + skipped, size - skipped);
-    fuzz_points("input.node", &options, data + skipped, size - skipped);
+    for (options.table = 0; options.table < 2; options.table++) {
+        fuzz_points("input.txt", &options, data + skipped, size - skipped);
+        fuzz_points("input.node", &options, data + skipped, size - skipped);
+    }
     return 0;
 }

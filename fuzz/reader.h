@@ -104,6 +104,19 @@ static inline void fuzz_constraints(constraint_reader *read, const char *name, c
     mw__source_close(&source);
 }
 
+/* A reader with `table` that has chosen no columns reads the first ones. */
+static inline mw_status fuzz_table(mw_point_reader *reader, mw_error *error)
+{
+    mw_point_table table;
+    size_t columns[] = {1, 0};
+    require(mw_point_reader_table(reader, &table, NULL) == MW_OK);
+    require(table.column_count <= MW_COLUMN_LIMIT && strchr(",;\t", table.separator));
+    for (size_t i = 0; table.names && i < table.column_count; i++) require(table.names[i] != NULL);
+    require((table.names == NULL) == (table.header == NULL));
+    if (mw_point_reader_width(reader) > 0 || table.column_count < 2) return MW_OK;
+    return mw_point_reader_select(reader, columns, 2, error);
+}
+
 /* Run the reader of points that the contents choose. */
 static inline void fuzz_points(const char *name, const mw_point_reader_options *options, const uint8_t *data,
                                size_t size)
@@ -115,14 +128,18 @@ static inline void fuzz_points(const char *name, const mw_point_reader_options *
     if (mw__source_memory(&source, name, data, size, &error) != MW_OK) return;
     mw_status status = mw__point_reader_start(source, options, &reader, &error);
     if (!status) {
+        if (options->table) require(fuzz_table(reader, &error) == MW_OK);
         size_t width = mw_point_reader_width(reader), count = BLOCK, total = 0;
-        require(width >= 2 && width <= MW_COLUMN_LIMIT);
+        require((width >= 2 || options->table) && width <= MW_COLUMN_LIMIT);
         for (size_t i = 0; i < width; i++) require(mw_point_reader_column(reader, i) != NULL);
-        double *values = malloc(BLOCK * width * sizeof *values);
+        double *values = malloc(BLOCK * (width + 1) * sizeof *values);
         require(values != NULL);
         while (!status && count > 0) {
+            size_t length;
             status = mw_point_reader_read(reader, values, BLOCK, &count, &error);
             require(count <= BLOCK && (total += count) <= size);
+            for (size_t i = 0; i < count; i++)
+                require((mw_point_reader_row(reader, i, &length) != NULL) == (options->table != 0));
             require_values(values, count * width);
         }
         free(values);

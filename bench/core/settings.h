@@ -11,6 +11,7 @@ typedef struct bench_settings {
     common_settings common;
     const char *sizes, *data, *plot, *engines, *tasks; /* lists and a file; NULL: not given */
     uint32_t queries, rounds;                          /* 0: the default of the measurement */
+    uint32_t seeds;                                    /* of paper: so many runs; 0: one    */
     int enclose, format;
     bool no_times;
 } bench_settings;

@@ -6,6 +6,7 @@
 #include "bench/paper/paper_plot.h"
 #include "bench/paper/paper_polyhedra.h"
 #include "bench/paper/paper_print.h"
+#include "bench/paper/paper_seeds.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 
@@ -82,6 +83,22 @@ static int paper_check_file(const char *path, void *self)
     return end || !p->settings->plot ? end : files_check_output(p->settings->plot, &path, 1);
 }
 
+/* All sets, once for each seed. */
+static int paper_run(paper *p, const bench_settings *s, const size_t *sizes)
+{
+    bench_settings own = *s;
+    uint32_t seeds = s->seeds ? s->seeds : 1;
+    int end = 0;
+    p->settings = &own;
+    for (uint32_t i = 0; i < seeds && end == 0; i++) {
+        own.common.seed = s->common.seed + i;
+        end = s->data ? word_list_each(s->data, paper_run_file, p) : paper_run_made(p, sizes);
+    }
+    p->settings = s;
+    if (end == 0) paper_seeds_fold(p, seeds);
+    return end;
+}
+
 int bench_paper(const bench_settings *s, const char *name)
 {
     const paper_table *table = paper_table_named(name);
@@ -97,9 +114,7 @@ int bench_paper(const bench_settings *s, const char *name)
     if (end == 0 && s->data) end = word_list_each(s->data, paper_check_file, &p);
     if (end == 0) end = files_try_output(s->common.output, NULL);
     if (end == 0 && s->plot) end = files_try_output(s->plot, NULL);
-    if (end == 0)
-        end = s->data ? word_list_each(s->data, paper_run_file, &p)
-                      : paper_run_made(&p, s->sizes ? sizes.size : table->sizes);
+    if (end == 0) end = paper_run(&p, s, s->sizes ? sizes.size : table->sizes);
     if (end == 0 && s->plot) end = paper_plot(&p, s->plot);
     if (end == 0) {
         text t = {0};

@@ -18,17 +18,22 @@ typedef struct paper_figure {
     const paper_result *result;
     const algorithm *algorithm;
     quantity quantity;
-    double ours, published, ratio; /* NaN: none */
+    double ours, spread, published, ratio; /* NaN: none */
 } paper_figure;
 
 typedef void paper_figure_print(text *t, const paper_figure *f);
 
+static bool has_spread(const paper *p)
+{
+    return p->settings->seeds > 1;
+}
+
 static void each_quantity(const paper *p, const paper_result *r, const algorithm *a, const double *value,
-                          uint64_t which, text *t, paper_figure_print *print)
+                          const double *spread, uint64_t which, text *t, paper_figure_print *print)
 {
     for (quantity q = 0; q < QUANTITIES; q++) {
         if (!(which >> q & 1) || (quantity_is_time(q) && p->settings->no_times)) continue;
-        paper_figure f = {p, r, a, q, rounded(value[q]), 0, 0};
+        paper_figure f = {p, r, a, q, rounded(value[q]), has_spread(p) ? rounded(spread[q]) : NAN, 0, 0};
         f.published = paper_published_of(p, r, a, q);
         f.ratio = f.published > 0 ? rounded(f.ours / f.published) : NAN;
         print(t, &f);
@@ -39,8 +44,9 @@ static void each_figure(const paper *p, const paper_result *r, text *t, paper_fi
 {
     const paper_table *table = p->table;
     for (size_t i = 0; r->walks && table->algorithms[i]; i++)
-        each_quantity(p, r, table->algorithms[i], r->outcome.value[i], table->quantities, t, print);
-    if (r->whole) each_quantity(p, r, table->whole, r->outcome.whole, table->whole_quantities, t, print);
+        each_quantity(p, r, table->algorithms[i], r->outcome.value[i], r->spread.value[i], table->quantities, t, print);
+    if (r->whole)
+        each_quantity(p, r, table->whole, r->outcome.whole, r->spread.whole, table->whole_quantities, t, print);
 }
 
 /* --format tsv */
@@ -59,6 +65,7 @@ static void tsv_line(text *t, const paper_figure *f)
     tsv_number(t, f->ours);
     tsv_number(t, f->published);
     tsv_number(t, f->ratio);
+    if (has_spread(f->paper)) tsv_number(t, f->spread);
     text_string(t, "\n");
 }
 
@@ -83,6 +90,7 @@ static void json_object(text *t, const paper_figure *f)
     json_number(t, "ours", f->ours);
     json_number(t, "published", f->published);
     json_number(t, "ratio", f->ratio);
+    if (has_spread(f->paper)) json_number(t, "spread", f->spread);
     text_string(t, "}");
 }
 
@@ -119,8 +127,9 @@ static void table_line(text *t, const paper_figure *f)
     int decimals = decimals_of(f->quantity);
     if (f->ours == 0 && isnan(f->published)) return;
     if (f->quantity == LAYERS && strcmp(f->paper->table->start, "layers") != 0) return;
-    text_printf(t, "  %-19s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation, quantity_name(f->quantity));
+    text_printf(t, "  %-26s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation, quantity_name(f->quantity));
     print_cell(t, 10, decimals, f->ours);
+    if (has_spread(f->paper)) print_cell(t, 10, decimals, f->spread);
     print_cell(t, 10, decimals, f->published);
     print_cell(t, 7, 3, f->ratio);
     end_line(t);
@@ -194,9 +203,10 @@ static void proportion_line(text *t, const paper *p, const paper_result *r, size
 {
     double ours = over_reference(p, r, i, proportions[k].of, false);
     double published = over_reference(p, r, i, proportions[k].of, true);
-    text_printf(t, "  %-19s %-4s %-21s", p->table->algorithms[i]->name, p->table->algorithms[i]->abbreviation,
+    text_printf(t, "  %-26s %-4s %-21s", p->table->algorithms[i]->name, p->table->algorithms[i]->abbreviation,
                 proportions[k].name);
     print_cell(t, 10, 3, ours);
+    if (has_spread(p)) print_cell(t, 10, 3, NAN);
     if (r->users_file) {
         cell_of_range(t, p, i, proportions[k].of);
     } else {
@@ -240,12 +250,16 @@ static void paper_print_table(text *t, const paper *p)
 {
     text_printf(t, "%s: %s\n%" PRIu64 " queries on each set, from %s; means per query, times in microseconds\n",
                 p->table->name, p->table->title, p->queries, p->table->from);
+    if (has_spread(p))
+        text_printf(t, "means over %" PRIu32 " seeds, and the standard deviation of one\n", p->settings->seeds);
     for (size_t i = 0; i < p->count; i++) {
         const paper_result *r = &p->results[i];
         text_printf(t, "\n%s, %zu vertices", r->dataset, r->outcome.vertices);
         if (r->model) text_printf(t, "; published: the thesis' %s", r->model);
         text_string(t, "\n\n");
-        text_printf(t, "  %-24s %-21s %10s %10s %7s\n", "algorithm", "quantity", "ours", "published", "ratio");
+        text_printf(t, "  %-31s %-21s %10s", "algorithm", "quantity", "ours");
+        if (has_spread(p)) text_printf(t, " %10s", "spread");
+        text_printf(t, " %10s %7s\n", "published", "ratio");
         each_figure(p, r, t, table_line);
         if (!r->walks) continue;
         paper_print_local_optima(t, p, r);
@@ -257,7 +271,8 @@ void paper_print(const paper *p, text *t)
 {
     switch (p->settings->format) {
     case FORMAT_TSV:
-        text_string(t, "table\tdataset\tvertices\talgorithm\tquantity\tours\tpublished\tratio\n");
+        text_string(t, "table\tdataset\tvertices\talgorithm\tquantity\tours\tpublished\tratio");
+        text_string(t, has_spread(p) ? "\tspread\n" : "\n");
         for (size_t i = 0; i < p->count; i++) each_figure(p, &p->results[i], t, tsv_line);
         break;
     case FORMAT_JSON:

@@ -7,41 +7,61 @@
 #include <string.h>
 #include <strings.h>
 
-static const algorithm remembering = {"remembering", "RW", "remembering", FILLED, MW_KIND_DELAUNAY};
-static const algorithm stochastic = {"stochastic", "RSW", "stochastic", FILLED, MW_KIND_DELAUNAY};
-static const algorithm barycentric = {"barycentric", "BW", "barycentric", FILLED, MW_KIND_DELAUNAY};
-static const algorithm straight = {"straight", "SW", "straight", FILLED, MW_KIND_DELAUNAY};
-static const algorithm normal_straight = {"normal-straight", "NSW", "normal-straight", FILLED, MW_KIND_DELAUNAY};
-static const algorithm orthogonal = {"orthogonal", "OW", "orthogonal", FILLED, MW_KIND_DELAUNAY};
-static const algorithm improved_orthogonal = {"improved-orthogonal", "IOW", "improved-orthogonal", FILLED,
-                                              MW_KIND_DELAUNAY};
-static const algorithm hybrid = {"hybrid", "HW", "hybrid", FILLED, MW_KIND_DELAUNAY};
-static const algorithm direct_computed = {"direct-dw2", "DW2", "direct", FILLED, MW_KIND_DELAUNAY};
-static const algorithm direct_stored = {"direct-dw1", "DW1", "direct", FILLED_WITH_AREAS, MW_KIND_DELAUNAY};
+static const algorithm remembering = {.name = "remembering", .abbreviation = "RW", .walk = "remembering"};
+static const algorithm stochastic = {.name = "stochastic", .abbreviation = "RSW", .walk = "stochastic"};
+static const algorithm barycentric = {.name = "barycentric", .abbreviation = "BW", .walk = "barycentric"};
+static const algorithm straight = {.name = "straight", .abbreviation = "SW", .walk = "straight"};
+static const algorithm normal_straight = {.name = "normal-straight", .abbreviation = "NSW", .walk = "normal-straight"};
+static const algorithm orthogonal = {.name = "orthogonal", .abbreviation = "OW", .walk = "orthogonal"};
+static const algorithm improved_orthogonal = {
+    .name = "improved-orthogonal", .abbreviation = "IOW", .walk = "improved-orthogonal"};
+static const algorithm improved_orthogonal_vertex = {
+    .name = "improved-orthogonal-vertex", .abbreviation = "IOW", .walk = "improved-orthogonal-vertex"};
+static const algorithm hybrid = {.name = "hybrid", .abbreviation = "HW", .walk = "hybrid"};
+static const algorithm direct_computed = {.name = "direct-dw2", .abbreviation = "DW2", .walk = "direct"};
+static const algorithm direct_stored = {
+    .name = "direct-dw1", .abbreviation = "DW1", .walk = "direct", .preparation = FILLED_WITH_AREAS};
+
+/* Appendix C, Table 2: the direct walk goes down through the layers at the vertex of the largest
+ * coordinate; beside it, as the others do, at the nearest. */
+static const algorithm layers_computed = {
+    .name = "direct-dw2", .abbreviation = "DW2", .walk = "direct", .descent = MW_DESCENT_COORDINATE};
+static const algorithm layers_stored = {.name = "direct-dw1",
+                                        .abbreviation = "DW1",
+                                        .walk = "direct",
+                                        .preparation = FILLED_WITH_AREAS,
+                                        .descent = MW_DESCENT_COORDINATE};
+static const algorithm layers_nearest = {.name = "direct-nearest",
+                                         .abbreviation = "",
+                                         .walk = "direct",
+                                         .preparation = FILLED_WITH_AREAS,
+                                         .descent = MW_DESCENT_NEAREST};
 
 /* Appendix D: the mesh as it is; and beside it, on the same mesh with its pockets and holes filled,
  * two that need that. */
-static const algorithm border = {"border", "", "border", UNFILLED, MW_KIND_DELAUNAY};
-static const algorithm filled_straight = {"straight-filled", "", "straight", FILLED, MW_KIND_DELAUNAY};
-static const algorithm filled_auto = {"auto-filled", "", "auto", FILLED, MW_KIND_DELAUNAY};
-static const algorithm mesh = {"mesh", "", NULL, FILLED, MW_KIND_DELAUNAY};
+static const algorithm border = {.name = "border", .abbreviation = "", .walk = "border", .preparation = UNFILLED};
+static const algorithm filled_straight = {.name = "straight-filled", .abbreviation = "", .walk = "straight"};
+static const algorithm filled_auto = {.name = "auto-filled", .abbreviation = "", .walk = "auto"};
+static const algorithm mesh = {.name = "mesh", .abbreviation = ""};
 
 /* Appendix E, Table 1: one walk in four triangulations. */
-static const algorithm delaunay = {"delaunay", "DT", "stochastic", FILLED, MW_KIND_DELAUNAY};
-static const algorithm greedy = {"greedy", "GT", "stochastic", FILLED, MW_KIND_GREEDY};
-static const algorithm min_weight = {"min-weight", "MWT", "stochastic", FILLED, MW_KIND_MIN_WEIGHT};
-static const algorithm min_max_angle = {"min-max-angle", "MMA", "stochastic", FILLED, MW_KIND_MIN_MAX_ANGLE};
-static const algorithm kinds = {"kinds", "", NULL, FILLED, MW_KIND_DELAUNAY};
+static const algorithm delaunay = {.name = "delaunay", .abbreviation = "DT", .walk = "stochastic"};
+static const algorithm greedy = {.name = "greedy", .abbreviation = "GT", .walk = "stochastic", .kind = MW_KIND_GREEDY};
+static const algorithm min_weight = {
+    .name = "min-weight", .abbreviation = "MWT", .walk = "stochastic", .kind = MW_KIND_MIN_WEIGHT};
+static const algorithm min_max_angle = {
+    .name = "min-max-angle", .abbreviation = "MMA", .walk = "stochastic", .kind = MW_KIND_MIN_MAX_ANGLE};
+static const algorithm kinds = {.name = "kinds", .abbreviation = ""};
 
 /* Appendix F, Table 1; and Table 2, whose rows are ways to begin. */
-static const algorithm wu = {"barycentric", "WBW", "barycentric", FILLED, MW_KIND_DELAUNAY};
-static const algorithm spatial_forgetful = {"forgetful", "RSW", "forgetful", FILLED, MW_KIND_DELAUNAY};
-static const algorithm octahedron = {"octahedron", "WBW", "barycentric", FILLED, MW_KIND_DELAUNAY};
-static const algorithm grid = {"grid", "OW", "orthogonal", FILLED, MW_KIND_DELAUNAY};
-static const algorithm nonuniform_grid = {"nonuniform-grid", "OW", "orthogonal", FILLED, MW_KIND_DELAUNAY};
+static const algorithm wu = {.name = "barycentric", .abbreviation = "WBW", .walk = "barycentric"};
+static const algorithm spatial_forgetful = {.name = "forgetful", .abbreviation = "RSW", .walk = "forgetful"};
+static const algorithm octahedron = {.name = "octahedron", .abbreviation = "WBW", .walk = "barycentric"};
+static const algorithm grid = {.name = "grid", .abbreviation = "OW", .walk = "orthogonal"};
+static const algorithm nonuniform_grid = {.name = "nonuniform-grid", .abbreviation = "OW", .walk = "orthogonal"};
 
 /* Appendix G has one walk. */
-static const algorithm plane = {"plane", "", "plane", FILLED, MW_KIND_DELAUNAY};
+static const algorithm plane = {.name = "plane", .abbreviation = "", .walk = "plane"};
 
 #define SET(kind) (1u << DATASET_##kind)
 
@@ -99,7 +119,7 @@ static const paper_table tables[] = {
      .drawn = TRIANGLES},
     {.name = "B2",
      .title = "hybrid walk in a turned rectangle (App. B, Table II)",
-     .algorithms = {&improved_orthogonal, &hybrid},
+     .algorithms = {&improved_orthogonal_vertex, &improved_orthogonal, &hybrid},
      .reference = &hybrid,
      .finish = "stochastic",
      .start = "random",
@@ -123,7 +143,7 @@ static const paper_table tables[] = {
      .drawn = TRIANGLES},
     {.name = "C2",
      .title = "direct walk in layers (App. C, Table 2)",
-     .algorithms = {&remembering, &stochastic, &improved_orthogonal, &direct_computed, &direct_stored},
+     .algorithms = {&remembering, &stochastic, &improved_orthogonal, &layers_computed, &layers_stored, &layers_nearest},
      .reference = &remembering,
      .finish = "remembering",
      .start = "layers",

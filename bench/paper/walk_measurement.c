@@ -11,6 +11,8 @@
 
 #define BLOCK ((size_t)1 << 18) /* queries in memory at a time */
 
+enum { DESCENTS = MW_DESCENT_COORDINATE + 1 };
+
 /* Meshes made ready, and a block of queries with their answers. */
 typedef struct walk_measurement {
     const walk_trial *trial;
@@ -19,7 +21,7 @@ typedef struct walk_measurement {
     mw_locator *locator[MW_KIND_COUNT][PREPARATIONS];
     double seconds[MW_KIND_COUNT][PREPARATIONS]; /* that it took to make them */
     mw_locator *place;                           /* the queries are in its mesh; NULL: in that of the trial */
-    mw_index *index;
+    mw_index *index[DESCENTS];                   /* of layers, by descent */
     double *queries;
     mw_location *answers, *locations;
     uint64_t random; /* of the queries */
@@ -31,7 +33,7 @@ static void walk_measurement_release(walk_measurement *s)
     free(s->queries);
     free(s->answers);
     free(s->locations);
-    mw_index_destroy(s->index);
+    for (int descent = 0; descent < DESCENTS; descent++) mw_index_destroy(s->index[descent]);
     mw_locator_destroy(s->place);
     for (int kind = 0; kind < MW_KIND_COUNT; kind++) {
         for (int k = 0; k < PREPARATIONS; k++) mw_locator_destroy(s->locator[kind][k]);
@@ -57,21 +59,30 @@ static int make_locator(walk_measurement *s, mw_triangulation_kind kind, prepara
     return 0;
 }
 
+/* The same layers, gone down as one algorithm or another does. */
+static int make_layers(walk_measurement *s, mw_descent descent)
+{
+    mw_error error;
+    mw_index_options options = {.layers = s->trial->layers, .descent = descent, .seed = s->trial->seed};
+    if (s->index[descent]) return 0;
+    if (mw_index_create(s->locator[0][FILLED], MW_START_LAYERS, &options, &s->index[descent], &error) != MW_OK)
+        return walk_trial_fail(s->trial, &error);
+    return 0;
+}
+
 /* Of each kind also one that is filled: what it answers is what all others must find. */
 static int make_locators(walk_measurement *s)
 {
     mw_error error;
+    bool layers = strcmp(s->trial->start, "layers") == 0;
     for (size_t i = 0; i < s->algorithms; i++) {
         const algorithm *a = s->trial->algorithms[i];
         int end = make_locator(s, a->kind, a->preparation);
         if (end == 0) end = make_locator(s, a->kind, FILLED);
+        if (end == 0 && layers) end = make_layers(s, a->descent);
         if (end) return end;
     }
     if (s->trial->place && mw_locator_create(s->trial->place, NULL, &s->place, &error) != MW_OK)
-        return walk_trial_fail(s->trial, &error);
-    if (strcmp(s->trial->start, "layers") != 0) return 0;
-    mw_index_options options = {.layers = s->trial->layers, .seed = s->trial->seed};
-    if (mw_index_create(s->locator[0][FILLED], MW_START_LAYERS, &options, &s->index, &error) != MW_OK)
         return walk_trial_fail(s->trial, &error);
     return 0;
 }
@@ -184,7 +195,7 @@ static mw_query_options walk_options(const walk_measurement *s, const algorithm 
         .finish = mw_walk_by_name(s->trial->finish),
         .start = mw_start_by_name(s->trial->start),
         .samples = s->trial->sample,
-        .index = s->index,
+        .index = s->index[a->descent],
         .arithmetic = arithmetic,
         .threads = s->trial->threads,
     };
@@ -259,7 +270,7 @@ static void walk_outcome_take_counts(const walk_measurement *s, size_t i, const 
     const algorithm *a = s->trial->algorithms[i];
     mw_index_info index = {.layers = 1};
     mw_locator_info locator;
-    if (s->index) mw_index_describe(s->index, &index);
+    if (s->index[a->descent]) mw_index_describe(s->index[a->descent], &index);
     mw_locator_describe(locator_for(s, a), &locator);
     walk_outcome_take_means(sum, o->value[i]);
     o->value[i][SAMPLE] = strcmp(s->trial->start, "sample") == 0 ? s->trial->sample : 1;

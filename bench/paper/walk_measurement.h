@@ -28,6 +28,7 @@ typedef struct algorithm {
     const char *walk;
     preparation preparation;
     mw_triangulation_kind kind; /* of the points; those of a kind stand together */
+    mw_descent descent;         /* through the layers, where the trial has them  */
 } algorithm;
 
 #define MOST_ALGORITHMS 8

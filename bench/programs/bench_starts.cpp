@@ -51,8 +51,9 @@ std::vector<StartRule> all_starts()
     std::vector<StartRule> starts;
     for (int kind = MW_START_AUTO; kind < MW_START_COUNT; kind++) {
         mw_start_kind start = static_cast<mw_start_kind>(kind);
-        starts.push_back({mw_start_name(start), start, MW_SAMPLE_CUBE_ROOT});
-        if (start == MW_START_SAMPLE) starts.push_back({"sample, fourth root", start, MW_SAMPLE_FOURTH_ROOT});
+        starts.push_back({mw_start_name(start), start, MW_SAMPLE_CUBE_ROOT_OF_VERTICES});
+        if (start == MW_START_SAMPLE)
+            starts.push_back({"sample, fourth root", start, MW_SAMPLE_FOURTH_ROOT_OF_VERTICES});
     }
     return starts;
 }

@@ -22,6 +22,7 @@ typedef struct edit_settings {
     uint32_t undo, cells, layers;
     int delaunay, format; /* mw_delaunay_mode; a number of mesh_formats */
     int walk, start;      /* mw_walk_kind, mw_start_kind */
+    int descent;          /* mw_descent */
     bool skip, heights, strict, stats, json;
 } edit_settings;
 
@@ -68,6 +69,8 @@ static const option edit_options[] = {
      "--start grid, two-level-grid, curve: as for locate (default: 0, by the size of the mesh)", NULL},
     {"layers", 0, OPTION_COUNT, offsetof(edit_settings, layers), "N",
      "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
+    {"descent", 0, OPTION_CHOICE, offsetof(edit_settings, descent), "NAME",
+     "--start layers: the vertex at which to go down from one to the next (default: auto):", &point_query_descents},
     {"format", 0, OPTION_CHOICE, offsetof(edit_settings, format), "NAME",
      "format of the mesh written; node is two files, .node and .ele (default: auto, by its ending):", &mesh_formats},
     {"output", 'o', OPTION_TEXT, offsetof(edit_settings, common.output), "FILE",
@@ -184,8 +187,11 @@ static int edit_make_cursor(const edit_settings *s, edit_stream *e)
     mw_start_kind start = (mw_start_kind)s->start;
     mw_query_options asking = {
         .walk = (mw_walk_kind)s->walk, .start = start, .seed = s->common.seed, .counters = s->stats};
-    mw_index_options options = {
-        .cells = s->cells, .layers = s->layers, .seed = s->common.seed, .progress = progress_of_call()};
+    mw_index_options options = {.cells = s->cells,
+                                .layers = s->layers,
+                                .descent = (mw_descent)s->descent,
+                                .seed = s->common.seed,
+                                .progress = progress_of_call()};
     if (mw_start_has_index(start) && mw_editor_index(e->editor, start, &options, &asking.index, &error) != MW_OK)
         return fail_query(&error);
     const mw_locator *locator = mw_editor_locator(e->editor);

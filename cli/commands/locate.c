@@ -33,25 +33,23 @@ static bool locate_row(const point_query *q, const void *self, const double poin
                        text *out)
 {
     const locate_settings *s = self;
-    csv_row_numbers(out, point, 2);
     csv_row_status(out, mw_where_name((mw_where)where->where), where->triangle);
     csv_row_weights(out, where->triangle, where->weight);
     if (s->details) locate_write_details(q, point, where, out);
-    csv_row_end(out);
     return where->triangle != MW_NONE;
 }
+
+#define PLAIN_ANSWERS "status", "triangle", "w0", "w1", "w2"
+static const char *const plain_answers[] = {PLAIN_ANSWERS, NULL};
+static const char *const detailed_answers[] = {PLAIN_ANSWERS, "local", "border_triangle", "border_edge", "distance",
+                                               "hole",        NULL};
 
 static int locate_run(const void *settings, const char *const *operands)
 {
     const locate_settings *s = settings;
     point_query q;
     int end = point_query_open(&q, &s->query, operands, s->details, NULL, NULL);
-    if (end == 0)
-        end = point_query_run(&q, operands[1],
-                              s->details
-                                  ? "x,y,status,triangle,w0,w1,w2,local,border_triangle,border_edge,distance,hole\n"
-                                  : "x,y,status,triangle,w0,w1,w2\n",
-                              locate_row, s);
+    if (end == 0) end = point_query_run(&q, operands[1], s->details ? detailed_answers : plain_answers, locate_row, s);
     point_query_release(&q);
     return end;
 }
@@ -63,7 +61,7 @@ const command locate_command = {
     .operands = "MESH POINTS",
     .operand_count = 2,
     .summary = "find the triangle that contains each point",
-    .description = "Writes one line for each point, in the order of POINTS: x,y,status,triangle,w0,w1,w2. The status "
+    .description = "Writes every row of POINTS as it is, and behind it status,triangle,w0,w1,w2. The status "
                    "is inside, edge, vertex, outside, hole, near or bad; the triangle is its number in MESH, from 0, "
                    "or -1; w0, w1, w2 are the weights of its corners, empty where there is no triangle. A point on "
                    "an edge or a corner belongs to the lowest-numbered triangle that contains it. '-' is standard "

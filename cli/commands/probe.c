@@ -57,7 +57,7 @@ static const option probe_options[] = {
      NULL},
     {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.columns), "LIST",
      "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: those that a header "
-     "calls x, y, z, mx, my, mz, else the first six)",
+     "calls x, y, z, mx, my, mz, or the only six)",
      NULL},
     {"strict", 0, OPTION_FLAG, offsetof(probe_settings, stream.strict), NULL,
      "exit with 1 if a row is 'limit' or 'bad'; 'none' is an answer", NULL},
@@ -160,12 +160,11 @@ static int probed_surface_answer(void *self, const query_block *block, void *ans
 static bool probe_row(const void *self, const double *query, const void *answer, text *out)
 {
     (void)self;
+    (void)query;
     const mw_touch *touch = answer;
-    csv_row_numbers(out, query, 3);
     csv_row_status(out, mw_touch_state_name((mw_touch_state)touch->state), touch->triangle);
     csv_row_double(out, touch->triangle != MW_NONE, touch->distance);
     csv_row_weights(out, touch->triangle, touch->weight);
-    csv_row_end(out);
     return touch->state == MW_TOUCH_HIT || touch->state == MW_TOUCH_NONE;
 }
 
@@ -202,12 +201,14 @@ static void probed_surface_report(const void *self, report *r)
 
 static int probed_surface_run(probed_surface *p, const char *path)
 {
+    static const char *const answers[] = {"status", "triangle", "distance", "w0", "w1", "w2", NULL};
     query_stream s = {
         .settings = &p->settings->stream,
         .begin = p->begin,
         .doing = "probing",
-        .header = "x,y,z,status,triangle,distance,w0,w1,w2\n",
-        .columns = {.names = {"x", "y", "z", "mx", "my", "mz"}, .count = 6},
+        .columns = {.axes = QUERY_SPACE, .names = {"x", "y", "z", "mx", "my", "mz"}, .count = 6},
+        .shown = 3,
+        .answers = answers,
         .answer_size = sizeof(mw_touch),
         .answer = probed_surface_answer,
         .row = probe_row,
@@ -241,8 +242,8 @@ const command probe_command = {
     .description =
         "A row of QUERIES is x,y,z,mx,my,mz: where a probe is, and how it moves. It touches a triangle of SURFACE that "
         "the line through the point along the motion meets, on either side of the point, if the motion points at the "
-        "triangle's front: the side from which its corners are seen counter-clockwise. Writes one line for each, in "
-        "order: x,y,z,status,triangle,distance,w0,w1,w2. The status is hit; none, where surely nothing is touched; "
+        "triangle's front: the side from which its corners are seen counter-clockwise. Writes every row as it is, and "
+        "behind it status,triangle,distance,w0,w1,w2. The status is hit; none, where surely nothing is touched; "
         "limit, where the walks found nothing, though there may be something; or bad, where the motion is zero or a "
         "number is not finite. The distance is negative behind the point; w0, w1, w2 are the weights of the triangle's "
         "corners. Of several triangles walks tell the first that they find, and with --certain the nearest is told. "

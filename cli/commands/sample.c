@@ -14,6 +14,7 @@ typedef struct sample_settings {
     point_query_settings query;
     const char *field;
     int outside;
+    bool status;
 } sample_settings;
 
 static const char *outside_name(int i)
@@ -32,6 +33,8 @@ static const option sample_options[] = {
      "the value to sample: z or a field of MESH (default: z)", NULL},
     {"outside", 0, OPTION_CHOICE, offsetof(sample_settings, outside), "NAME",
      "what a point outside the mesh gets (default: empty):", &outside_choices},
+    {"status", 0, OPTION_FLAG, offsetof(sample_settings, status), NULL,
+     "add the column status: inside, edge, vertex, outside, hole, near or bad", NULL},
     {0},
 };
 
@@ -39,6 +42,7 @@ static const option sample_options[] = {
 typedef struct sampled_field {
     const double *values; /* one for each vertex */
     int outside;
+    bool status;
 } sampled_field;
 
 /* The value at the nearest point of the border. */
@@ -81,9 +85,8 @@ static bool sample_row(const point_query *q, const void *self, const double poin
         mw_interpolate(q->mesh, s->values, where, 1, &value);
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
         value = sample_value_outside(q, s, point);
-    csv_row_numbers(out, point, 2);
     csv_row_double(out, !isnan(value), value);
-    csv_row_end(out);
+    if (s->status) csv_row_word(out, mw_where_name((mw_where)where->where));
     return !isnan(value);
 }
 
@@ -120,34 +123,18 @@ static int sample_load_field(mw_mesh *mesh, const char *path, const mw_mesh_file
     return mw_mesh_set_field(mesh, field, values, stride, &error) == MW_OK ? 0 : fail_mesh(path, &error);
 }
 
-/* Write the header. A name that would not be read as one cell of CSV is quoted. */
-static void sample_write_header(text *header, const char *field)
-{
-    text_string(header, "x,y,");
-    if (!field[strcspn(field, ",\"\r\n")]) {
-        text_string(header, field);
-    } else {
-        text_string(header, "\"");
-        for (; *field; field++) text_bytes(header, *field == '"' ? "\"\"" : field, *field == '"' ? 2 : 1);
-        text_string(header, "\"");
-    }
-    text_bytes(header, "\n", 2); /* and the terminating 0 */
-}
-
 static int sample_run(const void *settings, const char *const *operands)
 {
     const sample_settings *s = settings;
     const char *field = s->field ? s->field : "z";
     point_query q;
-    text header = {0};
-    sampled_field rows = {.outside = s->outside};
+    const char *const answers[] = {field, s->status ? "status" : NULL, NULL};
+    sampled_field rows = {.outside = s->outside, .status = s->status};
     int end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field, field);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);
-        sample_write_header(&header, field);
-        end = header.failed ? fail_memory() : point_query_run(&q, operands[1], header.bytes, sample_row, &rows);
+        end = point_query_run(&q, operands[1], answers, sample_row, &rows);
     }
-    text_release(&header);
     point_query_release(&q);
     return end;
 }
@@ -159,8 +146,9 @@ const command sample_command = {
     .operands = "MESH POINTS",
     .operand_count = 2,
     .summary = "interpolate heights or other values at points",
-    .description = "Writes one line x,y,z for each point, in the order of POINTS: z is interpolated linearly in the "
-                   "triangle that contains the point, and empty where there is none. '-' is standard input.",
+    .description =
+        "Writes every row of POINTS as it is, and behind it the value, z: it is interpolated linearly in the "
+        "triangle that contains the point, and empty where there is none. '-' is standard input.",
     .options = tables,
     .settings_size = sizeof(sample_settings),
     .run = sample_run,

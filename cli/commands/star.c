@@ -72,8 +72,7 @@ static const option star_options[] = {
      "--start octahedron: N levels, the octahedron itself counted (default: 0, by the number of facets)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.columns), "LIST",
      "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers from 1: u,v,w or "
-     "3,4,5 "
-     "(default: those that a header calls so, else the first ones)",
+     "3,4,5 (default: those that a header calls so, by names that the manual page lists, or the only ones)",
      NULL},
     {0},
 };
@@ -203,12 +202,11 @@ static int ray_queries_answer(void *self, const query_block *block, void *answer
 
 static bool ray_queries_write_row(const void *self, const double *direction, const void *answer, text *out)
 {
-    const ray_queries *r = self;
+    (void)self;
+    (void)direction;
     const mw_location *where = answer;
-    csv_row_numbers(out, direction, r->settings->lonlat ? 2 : 3);
     csv_row_status(out, mw_where_name((mw_where)where->where), where->triangle);
     csv_row_weights(out, where->triangle, where->weight);
-    csv_row_end(out);
     return where->triangle != MW_NONE;
 }
 
@@ -236,19 +234,24 @@ static void ray_queries_report(const void *self, report *out)
 static int ray_queries_run(ray_queries *r, const char *path)
 {
     const star_settings *s = r->settings;
+    static const char *const answers[] = {"status", "triangle", "w0", "w1", "w2", NULL};
     query_stream asked = {
         .settings = &s->stream,
         .begin = r->begin,
         .doing = "locating",
-        .header = s->lonlat ? "lon,lat,status,triangle,w0,w1,w2\n" : "x,y,z,status,triangle,w0,w1,w2\n",
-        .columns = {.names = {"x", "y", "z"}, .count = 3, .hint = "; --lonlat reads longitude and latitude"},
+        .columns = {.axes = QUERY_SPACE,
+                    .names = {"x", "y", "z"},
+                    .count = 3,
+                    .hint = "; --lonlat reads longitude and latitude"},
+        .answers = answers,
         .answer_size = sizeof(mw_location),
         .answer = ray_queries_answer,
         .row = ray_queries_write_row,
         .report = ray_queries_report,
         .self = r,
     };
-    if (s->lonlat) asked.columns = (query_columns){.names = {"lon", "lat"}, .count = 2, .accept_first = true};
+    if (s->lonlat) asked.columns = (query_columns){.axes = QUERY_LONLAT, .names = {"lon", "lat"}, .count = 2};
+    asked.shown = asked.columns.count;
     return query_stream_run(&asked, path);
 }
 
@@ -279,7 +282,7 @@ const command star_command = {
     .operand_count = 2,
     .summary = "find the facet that each ray from a centre meets",
     .description =
-        "Writes one line for each point of DIRECTIONS, in their order: x,y,z,status,triangle,w0,w1,w2. The triangle is "
+        "Writes every row of DIRECTIONS as it is, and behind it status,triangle,w0,w1,w2. The triangle is "
         "the facet of POLYHEDRON that the ray from the centre through the point meets, from 0; status is inside, edge "
         "or vertex, or bad, with -1 for the triangle, where a point is the centre or is not finite; w0, w1, w2 are the "
         "weights of the facet's corners in the place where the ray meets it. A ray through an edge or a corner belongs "

@@ -7,6 +7,7 @@
 #include "cli/frame/progress.h"
 #include "cli/input/lonlat_input.h"
 #include "cli/input/mesh_space.h"
+#include "cli/stream/point_query.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,30 +20,10 @@ typedef struct walk_settings {
     coordinates from, to;
     double max_distance;
     uint32_t samples, iterations;
-    int walk; /* the number of a name of walk_choices */
+    int walk; /* mw_walk_kind; a polyhedron has the walk of that name */
 } walk_settings;
 
 /* --- options ---------------------------------------------------------------------------------- */
-
-/* The walks of the plane, then those that only star-shaped polyhedra have. */
-static const char *walk_choice_name(int i)
-{
-    if (i < MW_WALK_COUNT) return mw_walk_name((mw_walk_kind)i);
-    i -= MW_WALK_COUNT;
-    for (int s = 0; s < MW_STAR_WALK_COUNT; s++) {
-        const char *name = mw_star_walk_name((mw_star_walk_kind)s);
-        if (mw_walk_by_name(name) == MW_WALK_COUNT && i-- == 0) return name;
-    }
-    return NULL;
-}
-
-static const char *walk_choice_help(int i)
-{
-    return i < MW_WALK_COUNT ? mw_walk_help((mw_walk_kind)i)
-                             : mw_star_walk_help(mw_star_walk_by_name(walk_choice_name(i)));
-}
-
-static const choices walk_choices = {"walk", walk_choice_name, walk_choice_help};
 
 static const option walk_options[] = {
     {"from", 0, OPTION_XY_OR_XYZ, offsetof(walk_settings, from), "X,Y",
@@ -52,9 +33,9 @@ static const option walk_options[] = {
     {"to", 0, OPTION_XY_OR_XYZ, offsetof(walk_settings, to), "X,Y",
      "where it is to end, likewise; --as surface: a point that the probe's motion points at", NULL},
     {"walk", 0, OPTION_CHOICE, offsetof(walk_settings, walk), "NAME",
-     "how to walk (default: auto). --as plane takes all of these but forgetful, and --as star auto, stochastic, "
+     "how to walk (default: auto). --as plane takes all of these, and --as star auto, stochastic, "
      "forgetful, barycentric, orthogonal and straight; a probe has one walk:",
-     &walk_choices},
+     &point_query_walks},
     {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(walk_settings, max_distance), "D",
      "--as surface: touch nothing that is farther than D from the point, either way; 0: only what lies at the point "
      "(default: no limit)",
@@ -88,13 +69,11 @@ static int walk_check_coordinates(const walk_settings *s, const char *name, cons
 
 static int walk_check_name(const walk_settings *s)
 {
-    const char *name = walk_choice_name(s->walk);
+    const char *name = mw_walk_name((mw_walk_kind)s->walk);
     if (s->mesh.space == SPACE_SURFACE && s->walk != MW_WALK_AUTO)
         return walk_option_wants("walk", "--as plane or --as star");
-    bool known =
-        s->mesh.space == SPACE_STAR ? mw_star_walk_by_name(name) != MW_STAR_WALK_COUNT : s->walk < MW_WALK_COUNT;
-    if (known) return 0;
-    complain("there is no walk '%s' with --as %s", name, s->mesh.space == SPACE_STAR ? "star" : "plane");
+    if (s->mesh.space != SPACE_STAR || mw_star_walk_by_name(name) != MW_STAR_WALK_COUNT) return 0;
+    complain("there is no walk '%s' with --as star", name);
     return END_USAGE;
 }
 
@@ -322,7 +301,7 @@ static int walk_on_star(walk_record *w, const mw_star *star, const mw_surface *s
     mw_error error;
     mw_star_cursor begin, cursor;
     double from[3], to[3];
-    mw_star_query_options options = {.walk = mw_star_walk_by_name(walk_choice_name(s->walk)),
+    mw_star_query_options options = {.walk = mw_star_walk_by_name(mw_walk_name((mw_walk_kind)s->walk)),
                                      .start = MW_STAR_START_LAST,
                                      .seed = s->mesh.common.seed};
     int end = ray_point(s, "from", &s->from, from);
@@ -344,7 +323,7 @@ static int walk_star(walk_record *w)
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
     mw_surface_options welded = {.weld = 1, .progress = progress_of_call()};
     mw_star_options options = {.centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
-                               .angles = strcmp(walk_choice_name(s->walk), "orthogonal") == 0,
+                               .angles = strcmp(mw_walk_name((mw_walk_kind)s->walk), "orthogonal") == 0,
                                .progress = progress_of_call()};
     bool made = mw_surface_create(&arrays, &welded, &surface, &error) == MW_OK &&
                 mw_star_create(surface, &options, &star, &error) == MW_OK;
@@ -415,7 +394,7 @@ static int walk_write_picture(const walk_record *w)
     const walk_settings *s = w->settings;
     char caption[160];
     const char *name = strrchr(w->path, '/'),
-               *walk = s->mesh.space == SPACE_SURFACE ? "probe" : walk_choice_name(s->walk);
+               *walk = s->mesh.space == SPACE_SURFACE ? "probe" : mw_walk_name((mw_walk_kind)s->walk);
     snprintf(caption, sizeof caption, "%.100s: %s, %zu triangle%s", name ? name + 1 : w->path, walk, w->count,
              w->count == 1 ? "" : "s");
     drawing d = {.view = views[s->mesh.space],

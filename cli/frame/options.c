@@ -113,9 +113,9 @@ static bool parse_sample(const char *value, uint32_t *sample)
 {
     uint64_t number = 0;
     if (strcmp(value, "cube-root") == 0)
-        *sample = MW_SAMPLE_CUBE_ROOT;
+        *sample = MW_SAMPLE_CUBE_ROOT_OF_VERTICES;
     else if (strcmp(value, "fourth-root") == 0)
-        *sample = MW_SAMPLE_FOURTH_ROOT;
+        *sample = MW_SAMPLE_FOURTH_ROOT_OF_VERTICES;
     else if (parse_natural(value, UINT32_MAX - 1, &number) && number > 0)
         *sample = (uint32_t)number;
     else

@@ -20,7 +20,7 @@ typedef enum option_kind {
     OPTION_XYZ,          /* coordinates: X,Y,Z, finite                                       */
     OPTION_XY_OR_XYZ,    /* coordinates: X,Y or X,Y,Z, finite                                */
     OPTION_COUNT,        /* uint32_t                                                         */
-    OPTION_SAMPLE,       /* uint32_t: at least 1, or a rule by name: MW_SAMPLE_CUBE_ROOT, ... */
+    OPTION_SAMPLE,       /* uint32_t: at least 1, or a rule by name: MW_SAMPLE_CUBE_ROOT_OF_VERTICES, ... */
     OPTION_SEED,         /* uint64_t                                                         */
     OPTION_CHOICE,       /* int: the number of a name among the option's choices             */
 } option_kind;

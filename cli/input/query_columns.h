@@ -7,21 +7,28 @@
 
 #define MAX_QUERY_COLUMNS 6
 
+/* Which names of coordinates a command knows (mw_axis_names). */
+typedef enum query_axes {
+    QUERY_PLANE,  /* x and y, or longitude and latitude */
+    QUERY_LONLAT, /* longitude and latitude */
+    QUERY_SPACE,  /* x, y and z */
+} query_axes;
+
 /* What a command reads from each row. */
 typedef struct query_columns {
-    const char *names[MAX_QUERY_COLUMNS]; /* "x", "y" */
-    size_t count;
-    bool accept_first; /* take the first columns if the header does not name the wanted ones */
-    const char *hint;  /* the end of the complaint if they are not found; NULL: none */
+    query_axes axes;
+    const char *names[MAX_QUERY_COLUMNS]; /* "x", "y": for files without names, and for messages */
+    size_t count;                         /* behind the coordinates come columns of just these names */
+    const char *hint;                     /* the end of the complaint if they are not found; NULL: none */
 } query_columns;
 
-/* Find the columns: column k is at index[k] among those of the reader. These are tried in order:
- *   1. the columns that the user has `chosen` (--columns): the reader gives them in that order;
- *   2. the columns that the header calls so, in upper or lower case;
- *   3. the first columns, if `accept_first`; if there is no header; or if there are no others and
- *      the first is not called a longitude.
- * Returns 0, or an exit code after a complaint if none of this holds. */
-int query_columns_find(const query_columns *wanted, const char *path, const mw_point_reader *reader, bool chosen,
+/* Find the columns: column k is at index[k] in the table. These are tried in order:
+ *   1. the columns that the user has `chosen` (--columns): the reader reads them already;
+ *   2. the columns whose names are known as coordinates, if exactly one set of names fits;
+ *   3. all columns, if there are no others and none is known as a coordinate of another kind;
+ *   4. the first columns of a file without names whose path ends in .xyz.
+ * Returns 0 when the reader reads those, or an exit code after a complaint if none of this holds. */
+int query_columns_find(const query_columns *wanted, const char *path, mw_point_reader *reader, bool chosen,
                        size_t index[MAX_QUERY_COLUMNS]);
 
 #endif

@@ -31,10 +31,15 @@ void csv_row_double(text *out, bool filled, double value)
     if (filled) text_double(out, value);
 }
 
-void csv_row_status(text *out, const char *status, uint32_t triangle)
+void csv_row_word(text *out, const char *word)
 {
     text_bytes(out, ",", 1);
-    text_string(out, status);
+    text_string(out, word);
+}
+
+void csv_row_status(text *out, const char *status, uint32_t triangle)
+{
+    csv_row_word(out, status);
     if (triangle != MW_NONE)
         csv_row_count(out, true, triangle);
     else
@@ -44,6 +49,17 @@ void csv_row_status(text *out, const char *status, uint32_t triangle)
 void csv_row_weights(text *out, uint32_t triangle, const double weight[3])
 {
     for (int k = 0; k < 3; k++) csv_row_double(out, triangle != MW_NONE && !isnan(weight[k]), weight[k]);
+}
+
+void csv_row_adapt(text *out, size_t begin, char separator, char decimal)
+{
+    if (out->failed || (separator == ',' && decimal == '.')) return;
+    for (char *c = out->bytes + begin, *end = out->bytes + out->size; c < end; c++) {
+        if (*c == ',')
+            *c = separator;
+        else if (*c == '.')
+            *c = decimal;
+    }
 }
 
 void csv_row_end(text *out)

@@ -7,6 +7,8 @@
 
 /* The numbers of the query, which are the first cells of its row. */
 void csv_row_numbers(text *out, const double *values, size_t count);
+/* A word, which holds no comma. */
+void csv_row_word(text *out, const char *word);
 /* The status, and the triangle's number: -1 for MW_NONE. */
 void csv_row_status(text *out, const char *status, uint32_t triangle);
 /* A number; an empty cell if not `filled`. */
@@ -15,6 +17,9 @@ void csv_row_double(text *out, bool filled, double value);
 /* The weights of the triangle's corners; empty cells for unknown weights (NaN), and if the triangle
  * is MW_NONE. */
 void csv_row_weights(text *out, uint32_t triangle, const double weight[3]);
+/* Write the cells from byte `begin` on as those of another table: its separator in place of commas, its
+ * decimal mark in place of points. They hold numbers and words only. */
+void csv_row_adapt(text *out, size_t begin, char separator, char decimal);
 /* The end of the row. */
 void csv_row_end(text *out);
 

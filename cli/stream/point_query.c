@@ -40,8 +40,23 @@ static const char *fill_name(int i)
     return names[i];
 }
 
+/* Where layers go down: by mw_descent. */
+static const char *descent_name(int i)
+{
+    static const char *const names[] = {"auto", "nearest", "coordinate", NULL};
+    return names[i];
+}
+static const char *descent_help(int i)
+{
+    static const char *const helps[] = {"the nearest", "the nearest, which makes the shorter walks",
+                                        ("the one with the largest coordinate of the point, which --walk direct and "
+                                         "barycentric know")};
+    return helps[i];
+}
+
 const choices point_query_walks = {"walk", walk_name, walk_help};
 const choices point_query_starts = {"start", start_name, start_help};
+const choices point_query_descents = {"descent", descent_name, descent_help};
 static const choices arithmetics = {"arithmetic", arithmetic_name, NULL};
 static const choices fill_choices = {"way to fill", fill_name, NULL};
 static const choices finish_choices = {"way to finish", finish_name, NULL};
@@ -66,7 +81,7 @@ const option point_query_options[] = {
      "store the areas of the triangles, which saves tests with --walk direct", NULL},
     {"sample", 0, OPTION_SAMPLE, offsetof(point_query_settings, sample), "K",
      "--start sample: look at K random triangles; also cube-root (the default) or fourth-root, of the number of "
-     "triangles",
+     "vertices",
      NULL},
     {"cells", 0, OPTION_COUNT, offsetof(point_query_settings, cells), "N",
      "--start grid, two-level-grid: about N cells, of the first level; curve: N samples (default: 0, by the size of "
@@ -75,11 +90,13 @@ const option point_query_options[] = {
      NULL},
     {"layers", 0, OPTION_COUNT, offsetof(point_query_settings, layers), "N",
      "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
+    {"descent", 0, OPTION_CHOICE, offsetof(point_query_settings, descent), "NAME",
+     "--start layers: the vertex at which to go down from one to the next (default: auto):", &point_query_descents},
     {"tolerance", 0, OPTION_LENGTH, offsetof(point_query_settings, tolerance), "D",
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.columns), "LIST",
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
-     "calls x and y, lon and lat, ..., else the first two)",
+     "calls so, by names that the manual page lists, or the only two)",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
      "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
@@ -150,12 +167,11 @@ static int point_query_make_index(point_query *q)
     const point_query_settings *settings = q->settings;
     mw_start_kind start = (mw_start_kind)settings->start;
     if (!mw_start_has_index(start)) return 0;
-    mw_index_options options = {
-        .cells = settings->cells,
-        .layers = settings->layers,
-        .seed = settings->stream.common.seed,
-        .progress = progress_of_call(),
-    };
+    mw_index_options options = {.cells = settings->cells,
+                                .layers = settings->layers,
+                                .descent = (mw_descent)settings->descent,
+                                .seed = settings->stream.common.seed,
+                                .progress = progress_of_call()};
     return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
@@ -270,7 +286,7 @@ static void point_query_report(const void *self, report *r)
     point_query_report_memory(r, context->query);
 }
 
-int point_query_run(const point_query *q, const char *points, const char *header, point_query_row *row,
+int point_query_run(const point_query *q, const char *points, const char *const *answers, point_query_row *row,
                     const void *self)
 {
     point_query_context context = {.query = q, .row = row, .self = self};
@@ -278,8 +294,9 @@ int point_query_run(const point_query *q, const char *points, const char *header
         .settings = &q->settings->stream,
         .begin = q->begin,
         .doing = "locating",
-        .header = header,
-        .columns = {.names = {"x", "y"}, .count = 2, .accept_first = true},
+        .columns = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2},
+        .shown = 2,
+        .answers = answers,
         .answer_size = sizeof(mw_location),
         .answer = point_query_answer_block,
         .row = point_query_write_row,

@@ -13,13 +13,14 @@ typedef struct point_query_settings {
     uint32_t sample, steps, cells, layers;
     int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
     int finish, fill;            /* numbers of the names of --finish and --fill */
+    int descent;                 /* mw_descent */
     bool areas, any;
 } point_query_settings;
 
 extern const option point_query_options[];
 
-/* The names that --walk and --start accept. */
-extern const choices point_query_walks, point_query_starts;
+/* The names that --walk, --start and --descent accept. */
+extern const choices point_query_walks, point_query_starts, point_query_descents;
 
 /* Refuse values of --cells and --layers above the limits of the library. Returns 0, or END_USAGE
  * after a complaint. */
@@ -34,7 +35,7 @@ typedef struct point_query {
     double begin;    /* monotonic_seconds when the command began */
 } point_query;
 
-/* Write the row of one point, with its newline. Returns false if the point has no answer. `self` is
+/* Write the answer for one point, each cell behind a comma. Returns false if there is none. `self` is
  * the command's own data. Several threads call this at the same time. */
 typedef bool point_query_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
                              text *out);
@@ -50,8 +51,9 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
                      point_query_load *load, const void *self);
 void point_query_release(point_query *q);
 
-/* Write the header, then the row of every point, in order. Returns the exit code. */
-int point_query_run(const point_query *q, const char *points, const char *header, point_query_row *row,
+/* Write the header, then the row of every point with its answer, in order. `answers` are the names of
+ * the answer's cells; NULL ends them. Returns the exit code. */
+int point_query_run(const point_query *q, const char *points, const char *const *answers, point_query_row *row,
                     const void *self);
 
 #endif

@@ -4,12 +4,14 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
+#include "cli/output/csv_row.h"
+#include "cli/stream/query_header.h"
 #include "cli/stream/statistics.h"
 #include "src/base/threads.h"
 
+#include <inttypes.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define CHUNK ((size_t)1 << 12) /* rows that one thread makes at a time */
 #define CHUNKS (QUERY_BLOCK_SIZE / CHUNK)
@@ -20,6 +22,8 @@ const option query_stream_options[] = {
     {"stats", 0, OPTION_FLAG, offsetof(query_stream_settings, stats), NULL,
      "print counts and times on standard error when done", NULL},
     {"json", 0, OPTION_FLAG, offsetof(query_stream_settings, json), NULL, "with --stats: as JSON", NULL},
+    {"only-answers", 0, OPTION_FLAG, offsetof(query_stream_settings, only_answers), NULL,
+     "write the coordinates and the answers, not the other columns; as CSV with commas", NULL},
     {0},
 };
 
@@ -29,8 +33,9 @@ typedef struct query_pipeline {
     mw_point_reader *reader;
     mw_output *out;
     const char *path;
-    size_t width, index[MAX_QUERY_COLUMNS];
-    bool in_order; /* are the wanted columns the first ones, in their order? */
+    mw_point_table table;
+    size_t width, index[MAX_QUERY_COLUMNS]; /* values of a query, and their columns in the table */
+    char decimal;                           /* how answers are written; 0: not decided yet */
     double *values;
     char *answers;
     text chunk[CHUNKS];
@@ -38,15 +43,37 @@ typedef struct query_pipeline {
     stream_statistics statistics;
 } query_pipeline;
 
-static void pipeline_format_chunk(query_pipeline *p, size_t k, size_t count)
+/* Write what stands before the answer: the row as it was read, or the query. */
+static void pipeline_begin_row(const query_pipeline *p, size_t i, text *out)
+{
+    size_t length;
+    if (p->stream->settings->only_answers) {
+        csv_row_numbers(out, p->values + i * p->width, p->stream->shown);
+        return;
+    }
+    const char *row = mw_point_reader_row(p->reader, i, &length);
+    text_bytes(out, row, length);
+}
+
+static void pipeline_write_row(const query_pipeline *p, size_t i, bool *answered, text *out)
 {
     const query_stream *s = p->stream;
+    pipeline_begin_row(p, i, out);
+    size_t begin = out->size;
+    *answered = s->row(s->self, p->values + i * p->width, p->answers + i * s->answer_size, out);
+    if (!s->settings->only_answers) csv_row_adapt(out, begin, p->table.separator, p->decimal);
+    csv_row_end(out);
+}
+
+static void pipeline_format_chunk(query_pipeline *p, size_t k, size_t count)
+{
     size_t begin = k * CHUNK, end = begin + CHUNK < count ? begin + CHUNK : count;
     text_clear(&p->chunk[k]);
     p->unanswered[k] = 0;
     for (size_t i = begin; i < end; i++) {
-        const void *answer = p->answers + i * s->answer_size;
-        p->unanswered[k] += !s->row(s->self, p->values + i * p->width, answer, &p->chunk[k]);
+        bool answered;
+        pipeline_write_row(p, i, &answered, &p->chunk[k]);
+        p->unanswered[k] += !answered;
     }
 }
 
@@ -78,21 +105,8 @@ static int pipeline_write_block(query_pipeline *p, size_t count)
     return 0;
 }
 
-/* Move the wanted columns to the front of each row. */
-static void pipeline_arrange_columns(query_pipeline *p, size_t count)
-{
-    size_t wanted = p->stream->columns.count;
-    double row[MAX_QUERY_COLUMNS];
-    for (size_t i = 0; i < count; i++) {
-        double *values = p->values + i * p->width;
-        for (size_t k = 0; k < wanted; k++) row[k] = values[p->index[k]];
-        memcpy(values, row, wanted * sizeof *row);
-    }
-}
-
 static int pipeline_answer_block(query_pipeline *p, size_t count)
 {
-    if (!p->in_order) pipeline_arrange_columns(p, count);
     query_block block = {.values = p->values, .stride = p->width, .count = count, .block = p->statistics.blocks};
     double begin = monotonic_seconds();
     int end = p->stream->answer(p->stream->self, &block, p->answers);
@@ -102,29 +116,46 @@ static int pipeline_answer_block(query_pipeline *p, size_t count)
     return end;
 }
 
+/* Answers have decimal commas where the table has them. Its first block decides. */
+static int pipeline_choose_decimal(query_pipeline *p)
+{
+    mw_error error;
+    if (mw_point_reader_table(p->reader, &p->table, &error) != MW_OK) return fail_reading(&error);
+    if (!p->decimal) p->decimal = p->table.decimal;
+    if (p->decimal == p->table.decimal || p->stream->settings->only_answers) return 0;
+    complain("%s: has its first decimal comma after %" PRIu64
+             " rows, whose answers are written with points; --only-answers writes no table",
+             p->path, p->statistics.queries);
+    return END_INPUT;
+}
+
 static int pipeline_read_block(query_pipeline *p, size_t *count)
 {
     mw_error error;
-    return mw_point_reader_read(p->reader, p->values, QUERY_BLOCK_SIZE, count, &error) == MW_OK ? 0
-                                                                                                : fail_reading(&error);
+    if (mw_point_reader_read(p->reader, p->values, QUERY_BLOCK_SIZE, count, &error) != MW_OK)
+        return fail_reading(&error);
+    return *count > 0 ? pipeline_choose_decimal(p) : 0;
 }
 
-static int pipeline_find_columns(query_pipeline *p)
+static int pipeline_write_header(query_pipeline *p)
 {
     const query_stream *s = p->stream;
-    int end = query_columns_find(&s->columns, p->path, p->reader, s->settings->columns, p->index);
-    p->in_order = true;
-    for (size_t k = 0; k < s->columns.count; k++) p->in_order = p->in_order && p->index[k] == k;
+    text header = {0};
+    if (s->settings->only_answers)
+        query_header_write_answers(&header, &s->columns, s->shown, s->answers);
+    else
+        query_header_write(&header, &p->table, &s->columns, p->index, s->answers);
+    mw_output_write(p->out, header.bytes, header.size);
+    int end = header.failed ? fail_memory() : 0;
+    text_release(&header);
     return end;
 }
 
-/* A file without rows needs no columns, so they are looked for after the first block is read. */
 static int pipeline_run_blocks(query_pipeline *p)
 {
     size_t count;
     int end = pipeline_read_block(p, &count);
-    if (end == 0 && count > 0) end = pipeline_find_columns(p);
-    if (end == 0) mw_output_write(p->out, p->stream->header, strlen(p->stream->header));
+    if (end == 0) end = pipeline_write_header(p);
     /* If the output fails, closing it reports the error. */
     while (end == 0 && count > 0 && !mw_output_failed(p->out)) {
         end = pipeline_answer_block(p, count);
@@ -135,12 +166,21 @@ static int pipeline_run_blocks(query_pipeline *p)
     return end;
 }
 
+static int pipeline_find_columns(query_pipeline *p)
+{
+    const query_stream *s = p->stream;
+    mw_error error;
+    int end = query_columns_find(&s->columns, p->path, p->reader, s->settings->columns, p->index);
+    if (end) return end;
+    p->width = mw_point_reader_width(p->reader);
+    return mw_point_reader_table(p->reader, &p->table, &error) == MW_OK ? 0 : fail_reading(&error);
+}
+
 /* The queries and the output are open. */
 static int pipeline_run(query_pipeline *p)
 {
     mw_error error;
     const query_stream *s = p->stream;
-    p->width = mw_point_reader_width(p->reader);
     signals_set_temporary(mw_output_temporary(p->out));
     p->values = malloc(QUERY_BLOCK_SIZE * p->width * sizeof *p->values);
     p->answers = malloc(QUERY_BLOCK_SIZE * s->answer_size);
@@ -170,7 +210,7 @@ int query_stream_run(const query_stream *s, const char *path)
     const query_stream_settings *settings = s->settings;
     const char *output = settings->common.output ? settings->common.output : "-";
     mw_error error;
-    mw_point_reader_options options = {.columns = settings->columns};
+    mw_point_reader_options options = {.columns = settings->columns, .table = 1};
     int end = 0;
     query_pipeline *p = calloc(1, sizeof *p);
     if (!p) return fail_memory();
@@ -178,8 +218,9 @@ int query_stream_run(const query_stream *s, const char *path)
     progress_phase(s->doing, path);
     if (mw_point_reader_open(path, &options, &p->reader, &error) != MW_OK)
         end = fail_reading(&error);
-    else if (mw_output_open(output, &p->out, &error) != MW_OK)
-        end = fail_writing(&error);
+    else
+        end = pipeline_find_columns(p);
+    if (end == 0 && mw_output_open(output, &p->out, &error) != MW_OK) end = fail_writing(&error);
     if (end == 0) end = pipeline_run(p);
     mw_point_reader_close(p->reader);
     if (end == 0 && settings->stats) end = pipeline_print_statistics(p);

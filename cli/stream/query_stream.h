@@ -1,5 +1,5 @@
-/* query_stream.h - reads a file of queries, has them answered, and writes a row of CSV for each, in
- * order. It works in blocks of a fixed size, so its memory does not depend on the number of
+/* query_stream.h - reads a file of queries, has them answered, and writes each row again with its
+ * answer behind it, in order. It works in blocks of a fixed size, so its memory does not depend on the number of
  * queries. */
 #ifndef MW_CLI_STREAM_QUERY_STREAM_H
 #define MW_CLI_STREAM_QUERY_STREAM_H
@@ -15,12 +15,12 @@
 typedef struct query_stream_settings {
     common_settings common;
     const char *columns;
-    bool strict, stats, json;
+    bool strict, stats, json, only_answers;
 } query_stream_settings;
 
 extern const option query_stream_options[];
 
-/* A block of queries. Query i begins at values[i * stride]; its columns have the wanted order. */
+/* A block of queries. Query i begins at values[i * stride]. */
 typedef struct query_block {
     const double *values;
     size_t stride, count;
@@ -29,7 +29,7 @@ typedef struct query_block {
 
 /* What a command does for its stream. `self` is the command's own data.
  *   _answer  answers a block; returns 0, or an exit code after a complaint
- *   _row     writes the row of one query, with its newline; returns false if it has no answer.
+ *   _row     writes the cells of one answer, each behind a comma; returns false if there is none.
  *            Several threads call it at the same time
  *   _report  adds to the report of --stats, which has the number of points and the times already */
 typedef int query_stream_answer(void *self, const query_block *block, void *answers);
@@ -40,16 +40,17 @@ typedef struct query_stream {
     const query_stream_settings *settings;
     double begin;      /* monotonic_seconds when the command began */
     const char *doing; /* for the progress: "locating" */
-    const char *header;
     query_columns columns;
-    size_t answer_size; /* bytes of the answer to one query */
+    size_t shown;               /* columns of the query that --only-answers writes */
+    const char *const *answers; /* names of the answers' columns; NULL ends them */
+    size_t answer_size;         /* bytes of the answer to one query */
     query_stream_answer *answer;
     query_stream_row *row;
     query_stream_report *report;
     void *self;
 } query_stream;
 
-/* Write the header, then the row of every query in the file. Returns the exit code. */
+/* Write the header, then every row of the file with its answer. Returns the exit code. */
 int query_stream_run(const query_stream *s, const char *path);
 
 #endif

@@ -120,19 +120,40 @@ MW_API const char *mw_mesh_format_name(size_t i);
 typedef struct mw_point_reader_options {
     const char *columns;  /* NULL = see mw_point_reader_open; else names or 1-based numbers, "x,y", "lon,lat,z" */
     uint8_t classes[256]; /* LAS: 1 = take points of this class; all zero = take all */
-    uint32_t reserved[4];
+    uint32_t table;       /* 1 = keep the text of every row; see mw_point_reader_table */
+    uint32_t reserved[3];
 } mw_point_reader_options;
+
+/** Names that files give to the coordinates of a point, as "lon", "lat" and "z". */
+typedef struct mw_axis_names {
+    const char *axis[3];
+    int lonlat; /* 1 = the first two are longitude and latitude */
+    uint32_t reserved;
+} mw_axis_names;
+
+/** Tell a set of names that columns of coordinates are known by.
+ * @param i  number of the set, from 0
+ * @return the set, a constant; NULL beyond the last. Thread-safe. */
+MW_API const mw_axis_names *mw_axis_names_at(size_t i);
+
+/** Decide whether a column's name means a coordinate: letters of any case, without regard to blanks, '_', '-', '.' and
+ * a unit in brackets behind it, as "Point X (m)" does mean "point_x".
+ * @param column  name of the column
+ * @param name    one of a set of mw_axis_names_at
+ * @return 1 or 0. Thread-safe. */
+MW_API int mw_axis_name_matches(const char *column, const char *name);
 
 /* A stream of points, read block by block in constant memory: text, or LAS 1.0-1.4 (LAZ is refused with a hint).
  *
  * Text: columns separated by semicolons, tabs, commas or blanks (what the first row has, in this order of preference).
- * The first row is a header if none of its fields is a number. Empty lines and lines that begin with # are skipped.
- * Rows all have the same number of columns. Fields may stand in double quotes. "nan" and "inf" are numbers; an empty
- * field is NaN. Decimal commas are taken where semicolons or tabs separate, and refused elsewhere, and beside decimal
+ * The first row is a header if none of its fields is a number, or if two of them name coordinates (mw_axis_names_at).
+ * Empty lines and lines that begin with # are skipped. Rows all have the same number of columns. A field that begins
+ * with a double quote ends with one, and may hold separators, line ends and "" for a quote. "inf" is a number; NaN, NA,
+ * N/A, NULL (in letters of any case), "-" and an empty field are missing values, NaN. Decimal commas are taken where semicolons or tabs separate, and refused elsewhere, and beside decimal
  * points. Triangle's .node is read too, without its numbers and markers.
  *
  * Columns: those selected, in the order given. With `columns` NULL: all columns that hold numbers in the first row;
- * where a header has x and y (or lon and lat, longitude and latitude, easting and northing), these, and z, come first.
+ * where a header names x and y as a set of mw_axis_names_at does, these, and z, come first.
  * LAS has x, y, z, intensity, return, returns, classification, scan_angle, user_data, point_source, time, red, green,
  * blue (time and colours NaN where the point format has none); with `columns` NULL x, y, z.
  *
@@ -147,7 +168,7 @@ MW_API size_t mw_point_reader_width(const mw_point_reader *reader);
 /* Name of a column: that of the header; else "x", "y", "z", "c4", ... Owned by the reader; NULL beyond the last. */
 MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t column);
 /* Read up to `capacity` points, mw_point_reader_width doubles each, into values. *count < capacity only at the end,
- * where it becomes 0. On failure *count points before the faulty one are valid, and the reader can only be closed. */
+ * where it becomes 0; a reader with `table` also ends a block early where its text is long. On failure *count points before the faulty one are valid, and the reader can only be closed. */
 MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
                                       mw_error *error);
 /**
@@ -156,6 +177,40 @@ MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, s
  */
 MW_API double mw_point_reader_fraction(const mw_point_reader *reader);
 MW_API void mw_point_reader_close(mw_point_reader *reader); /* NULL is allowed */
+
+/** The columns of a file, whether they are read as numbers or not. Texts belong to the reader. */
+typedef struct mw_point_table {
+    const char *const *names; /* of the columns, "" for one without a name; NULL = the file has no header */
+    const char *header;       /* the header as it stands in the file; NULL = it has none */
+    size_t column_count;
+    char separator; /* of the rows' texts: ',', ';' or a tab. White space in the file becomes commas */
+    char decimal;   /* '.', or ',' as soon as a number with a decimal comma was read */
+    uint32_t reserved[4];
+} mw_point_table;
+
+/** Describe the table that a reader reads. LAS is a table with commas of all the values that its points have.
+ * @param table  is filled in; its texts last until mw_point_reader_close
+ * @return MW_OK; MW_ERROR_ARGUMENT: NULL. Thread-safe on different readers. */
+MW_API mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table, mw_error *error);
+
+/** Choose the columns to read as numbers, in place of those chosen so far. A reader that was opened with `table` and
+ * without `columns` reads none before this call.
+ * @param columns  numbers of columns, from 0, at least two, each once
+ * @return MW_OK; MW_ERROR_ARGUMENT: NULL, no such column, one twice, a reader without `table`, or after the first
+ * mw_point_reader_read; MW_ERROR_MEMORY. Thread-safe on different readers. */
+MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error);
+
+/** Tell which column of the file a value comes from.
+ * @param column  number of the value within a point, from 0
+ * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value. Thread-safe. */
+MW_API size_t mw_point_reader_place(const mw_point_reader *reader, size_t column);
+
+/** Give the text of a row: as it stands in the file, without its line end, whatever its cells hold.
+ * @param row     number of the row in the block that mw_point_reader_read gave last, from 0
+ * @param length  bytes of the text, which no NUL ends; 0 on failure
+ * @return the text, until the next read or close; NULL = no such row, or a reader without `table`. Several threads may
+ * call this at a time. */
+MW_API const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length);
 
 /* What a line of a stream of edits asks for. */
 typedef enum mw_edit_line_kind {

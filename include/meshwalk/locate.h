@@ -128,8 +128,9 @@ MW_API const char *mw_locator_void_promise(const mw_locator *locator);
  * is queried. */
 typedef struct mw_index mw_index;
 
-/* At which vertex of a triangle of one layer to go down to the next. AUTO: the one with the largest orientation coordinate
- * for the walks that know it (barycentric, direct), the nearest for the others. */
+/* At which vertex of a triangle of one layer to go down to the next: the nearest, which AUTO is, for every walk; or the
+ * one with the largest orientation coordinate, as published for the direct walk. That one is farther off, and walks are
+ * longer by it; the barycentric and the direct walk know it without a test, others make two. */
 typedef enum mw_descent { MW_DESCENT_AUTO = 0, MW_DESCENT_NEAREST, MW_DESCENT_COORDINATE } mw_descent;
 
 /* All zero = choose. */
@@ -176,7 +177,7 @@ typedef struct mw_query_options {
                             MW_WALK_STOCHASTIC; 0 = remembering where a look at edges finds the mesh Delaunay            */
     uint64_t seed;         /* for everything random; answers do not depend on it                                  */
     uint32_t samples;      /* MW_START_SAMPLE: triangles looked at, at most all; or one of the rules below        */
-    uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: steps with one test, at most 4096 + 45
+    uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: its steps, one test each, at most 4096 + 45
                             sqrt(triangles); 0 = estimate by distance and density                       */
     uint32_t threads;      /* batches: 0: as many as processors                                                      */
     double tolerance;      /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
@@ -189,8 +190,10 @@ typedef struct mw_query_options {
 } mw_query_options;
 
 #define MW_MAX_LANES 64
-#define MW_SAMPLE_CUBE_ROOT 0u           /* cube root of the number of triangles [Devroye, Muecke, Zhu 1998]        */
-#define MW_SAMPLE_FOURTH_ROOT UINT32_MAX /* 2 times the fourth root of it                                         */
+/* Rules for the size of a sample, of the n vertices of the mesh, to the nearest whole number: the cube root of n, 17 for
+ * 4,897 [Devroye, Muecke, Zhu 1998; thesis App. D, sec. 5], and 2 times its fourth root [Muecke 1996; thesis App. F]. */
+#define MW_SAMPLE_CUBE_ROOT_OF_VERTICES 0u
+#define MW_SAMPLE_FOURTH_ROOT_OF_VERTICES UINT32_MAX
 
 /* What the walks did, summed over queries; filled where options.counters says so. A search has up to three stages:
  * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks; the border walk

@@ -148,7 +148,7 @@ void mw__locator_measure(mw_locator *locator, mw_job *job)
     locator->tiling.slots_are_numbers = tiling->tile_of && are_slots_numbers(tiling);
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
-    locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT) * height;
+    locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT_OF_VERTICES) * height;
     locator->cell2 = width / guide_cells(tiling) * height;
     locator->crossings_per_length = expected_crossings(tiling->tri_count, width, height);
 }

@@ -6,14 +6,16 @@
  * q of the tile found, walks in the layer below from a tile at that vertex, and so on to the mesh.
  * Every walk but the first is expected to be short, whatever the distribution of the vertices.
  *
- * The vertex to go down at is the nearest one. Where the walk has the orientation coordinates of q,
- * as the direct and the barycentric walk have, it is the one with the largest, which costs no
- * further test [thesis App. C, sec. 3]. */
+ * The vertex to go down at is the nearest one, which takes three distances; or, on request, that of
+ * the largest orientation coordinate of q, which the direct and the barycentric walk know already,
+ * and others compute [thesis App. C, sec. 3]. The nearest is nearer: walks by the other are longer
+ * (docs/published-tables.md, C2). */
 #include "start/layers.h"
 
 #include "base/random.h"
 #include "start/start.h"
 #include "triangulate/delaunay/delaunay.h"
+#include "walk/value.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -237,17 +239,17 @@ static uint32_t layer_nearest(const mw_walk *walk)
 }
 
 /* The vertex with the largest orientation coordinate: opposite to the edge that makes the largest
- * triangle with q. Two tests, which the walks that know the coordinates have made already. */
+ * triangle with q. The walks that know the coordinates hand it down; others make the tests, two, and
+ * one for the area where none is stored. */
 static uint32_t layer_heaviest(mw_walk *walk, const mw_layer_walk *how)
 {
     const uint32_t *v = walk->tri[walk->t].v;
+    if (walk_has_coordinates(how->walk)) return v[walk->heaviest];
     const mw_point *p = walk->point;
     double at0 = mw__orient2d_double(p[v[1]], p[v[2]], walk->q), at1 = mw__orient2d_double(p[v[2]], p[v[0]], walk->q);
     double all = walk->tiling->area ? walk->tiling->area[walk->t] : mw__orient2d_double(p[v[0]], p[v[1]], p[v[2]]);
-    double at2 = all - at0 - at1;
-    if (how->count && !walk_has_coordinates(how->walk)) walk->work->orient[MW_STAGE_WALK] += walk->tiling->area ? 2 : 3;
-    if (at0 >= at1 && at0 >= at2) return v[0];
-    return at1 >= at2 ? v[1] : v[2];
+    if (how->count) walk->work->orient[MW_STAGE_WALK] += walk->tiling->area ? 2 : 3;
+    return v[heaviest_corner(at0, at1, all - at0 - at1)];
 }
 
 /* The name of a tile to begin at in the layer `beneath`, by what the one above keeps of a
@@ -261,8 +263,7 @@ static uint32_t name_below(const mw_layers *layers, const mw_tiling *beneath, ui
 uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
                             mw_work *work, uint32_t *tile)
 {
-    bool by_weight = layers->descent == MW_DESCENT_COORDINATE ||
-                     (layers->descent == MW_DESCENT_AUTO && walk_has_coordinates(how->walk));
+    bool by_weight = layers->descent == MW_DESCENT_COORDINATE;
     mw_arithmetic arithmetic = how->exact ? MW_EXACT : MW_DOUBLE;
     uint32_t top = layers->count - 1;
     uint32_t t = mw__random_below(random, top ? layers->layer[top - 1].tiling.tri_count : layers->tiles);

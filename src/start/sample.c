@@ -18,9 +18,11 @@ uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, u
     return best;
 }
 
+/* At most the number of tiles: a query must end soon. */
 uint32_t mw__sample_count(const mw_tiling *tiling, uint32_t sample)
 {
-    if (sample == MW_SAMPLE_CUBE_ROOT) return (uint32_t)ceil(cbrt(tiling->tri_count));
-    if (sample == MW_SAMPLE_FOURTH_ROOT) return (uint32_t)ceil(2 * sqrt(sqrt(tiling->tri_count)));
-    return sample < tiling->tri_count ? sample : tiling->tri_count; /* a query must end soon */
+    const double vertices = tiling->point_count;
+    if (sample == MW_SAMPLE_CUBE_ROOT_OF_VERTICES) sample = (uint32_t)lround(cbrt(vertices));
+    if (sample == MW_SAMPLE_FOURTH_ROOT_OF_VERTICES) sample = (uint32_t)lround(2 * sqrt(sqrt(vertices)));
+    return sample < tiling->tri_count ? sample : tiling->tri_count;
 }

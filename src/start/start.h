@@ -15,8 +15,8 @@ uint32_t mw__start_random(const mw_tiling *tiling, uint64_t *random);
  * MW_NONE. */
 uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, uint32_t rival, uint64_t *random);
 
-/* How many to sample: `sample` itself, but no more than there are tiles, or by its rule. The cube
- * root of the number of tiles balances sampling and walking [Devroye, Muecke, Zhu 1998]. */
+/* How many to sample: `sample` itself, or by its rule, but no more than there are tiles. The cube
+ * root of the number of vertices balances sampling and walking [Devroye, Muecke, Zhu 1998]. */
 uint32_t mw__sample_count(const mw_tiling *tiling, uint32_t sample);
 
 /* The tile that holds the middle of the extent low..high; found by walking, so it is looked for

@@ -33,6 +33,15 @@ static MW_INLINE double direct_double_area(mw_walk *w, bool stored, double *off,
     return area;
 }
 
+/* The walk ends: keep the corner of the largest coordinate, of those of edge e, of the next and of
+ * the one before. The layers go down there [thesis App. C, sec. 3]. */
+static MW_INLINE mw_verdict direct_end(mw_walk *w, uint32_t e, const double at[3], mw_verdict verdict)
+{
+    uint32_t corner_of[3] = {mw__prev(e), e, mw__next(e)}; /* opposite to these edges */
+    w->heaviest = corner_of[heaviest_corner(at[0], at[1], at[2])];
+    return verdict;
+}
+
 static MW_INLINE mw_verdict direct_step_with(mw_walk *w, bool stored, mw_policy P)
 {
     double off = 0;
@@ -51,9 +60,11 @@ static MW_INLINE mw_verdict direct_step_with(mw_walk *w, bool stored, mw_policy 
         out = e;
     }
     least += off;
-    if (!(least < 0)) return MW_CLOSE;
+    if (!(least < 0)) return direct_end(w, e, (double[3]){known, tested, last}, MW_CLOSE);
     w->c = -least;
-    return cross(w, out, P);
+    mw_verdict verdict = cross(w, out, P);
+    if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
+    return direct_end(w, e, (double[3]){known, tested, last}, verdict);
 }
 
 static MW_INLINE mw_verdict direct_step(mw_walk *w, mw_policy P)

@@ -12,13 +12,11 @@
  * which need not be one at s: that runs from a vertex on the right to one on the left. p is the
  * centroid. The other directions are the same code in turned coordinates: axis.h.
  * Leaving the hull. In the horizontal leg: then the vertical leg from here, along the line through
- * the centroid of the tile, as the text of App. E has it. In the vertical leg: the exact walk. App.
- * B moves the line to the last vertex tested instead, and its Table II is of that: uniform points
- * in a 2:1 rectangle turned by pi/6, not enclosed, 10^4 vertices, 142.17 + 17.45 triangles.
- * Simulated there (means of 8 meshes), with the rectangle lying on its long side or standing on its
- * short one before it is turned, which the text leaves open:
- *     App. E lying 141.5 + 12.8, standing 145.5 + 9.3; App. B lying 138.9 + 18.6, standing 139.9 + 16.5
- *     (or 133.4 + 15.3 and 139.6 + 16.5, by the side on which the vertex tested last counts).
+ * the centroid of the tile, as the text of App. E has it; or, as that of App. B and its Fig. 1 have
+ * it, through the vertex tested last (a walk of its own). In the vertical leg: the exact walk. App.
+ * B does not say on which side of its line that vertex lies: here before it, as seen on the way
+ * there. So counted, its Table II comes out within the spread of seeds; with the vertex beyond its
+ * line the walk is 7 percent shorter, and the final location 12 to 16 (docs/published-tables.md).
  * Edge cases. q level with p, or above or below it: its leg ends where it begins. A vertex on the
  * line of a leg counts as right of it, but where the walk turns to the right, as left
  * (axis_turn_upright). Where rounding puts the centroid beside the tile, so that the line misses
@@ -40,12 +38,25 @@ static MW_INLINE mw_verdict improved_arrive(mw_walk *w, mw_policy P)
     return MW_GO;
 }
 
-static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
+/* Upright along the line through a vertex, which counts as lying before it. */
+static MW_INLINE void improved_turn_at(mw_walk *w, mw_point s, mw_policy P)
+{
+    double before = w->d.x;
+    axis_head_upright(w, s, P);
+    if (before == w->d.y) w->p.y = nextafter(w->p.y, -INFINITY);
+}
+
+/* Over edge e; where that is on the hull, upright: along the line through `tested`, the vertex tested
+ * last, or NULL, an inner point of the tile. */
+static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, const mw_point *tested, mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
     if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
     if (axis_is_vertical(w)) return MW_CLOSE;
-    axis_head_upright(w, tile_inner_point(w), P);
+    if (tested)
+        improved_turn_at(w, *tested, P);
+    else
+        axis_head_upright(w, tile_inner_point(w), P);
     w->phase = SET_OUT;
     return MW_GO;
 }
@@ -60,24 +71,37 @@ static MW_INLINE mw_point improved_farthest(mw_walk *w, mw_policy P)
 }
 
 /* In the first tile of a leg. */
-static MW_INLINE mw_verdict improved_set_out(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict improved_set_out(mw_walk *w, bool to_tested, mw_policy P)
 {
-    if (axis_is_past(w, improved_farthest(w, P), P)) return improved_arrive(w, P);
+    mw_point s = improved_farthest(w, P);
+    if (axis_is_past(w, s, P)) return improved_arrive(w, P);
     uint32_t e = axis_exit_edge(w, P);
     if (e == MW_NO_EDGE) return MW_CLOSE;
     w->phase = FOLLOW;
-    return improved_cross_or_detour(w, e, P);
+    return improved_cross_or_detour(w, e, to_tested ? &s : NULL, P);
 }
 
-static MW_INLINE mw_verdict improved_orthogonal_step(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict improved_step_with(mw_walk *w, bool to_tested, mw_policy P)
 {
     if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
         mw_point s = apex(w, w->e);
         if (MW_UNLIKELY(axis_is_past(w, s, P))) return improved_arrive(w, P);
-        return improved_cross_or_detour(w, axis_is_left(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
+        uint32_t e = axis_is_left(w, s, P) ? mw__next(w->e) : mw__prev(w->e);
+        return improved_cross_or_detour(w, e, to_tested ? &s : NULL, P);
     }
     if (w->phase == START) axis_head_across(w, tile_inner_point(w), P);
-    return improved_set_out(w, P);
+    return improved_set_out(w, to_tested, P);
+}
+
+static MW_INLINE mw_verdict improved_orthogonal_step(mw_walk *w, mw_policy P)
+{
+    return improved_step_with(w, false, P);
+}
+
+static MW_INLINE mw_verdict improved_orthogonal_vertex_step(mw_walk *w, mw_policy P)
+{
+    return improved_step_with(w, true, P);
 }
 
 MW_STAMP_WALK(improved_orthogonal, false)
+MW_STAMP_WALK(improved_orthogonal_vertex, false)

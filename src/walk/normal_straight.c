@@ -18,6 +18,9 @@
  * line, one position more a query. If not, the walk starts over lr, into the tile that the line
  * enters. Where d is zero (q = p), s of the first tile is past n, the line leaves the hull, or no
  * edge of the first tile will do (in tiles a few roundings wide), an exact walk goes on from there.
+ * Begun by a turn. The text of App. E has also tried the initialisation of the straight walk with
+ * it: p is then vertex 0 of the first tile, round which the walk turns by orientation tests to the
+ * tile that the line enters. That is a walk of its own, normal_straight_turn.
  * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that
  * rounding could do is lead it back to the edge it began with: docs/guarantees.md. */
 #include "walk/drive.h"
@@ -62,12 +65,67 @@ static MW_INLINE mw_verdict normal_aim(mw_walk *w, mw_policy P)
     return normal_is_past(w, s, P) ? MW_CLOSE : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
 }
 
-static MW_INLINE mw_verdict normal_straight_step(mw_walk *w, mw_policy P)
+static MW_INLINE mw_verdict normal_follow(mw_walk *w, mw_policy P)
 {
-    if (MW_UNLIKELY(w->e == MW_NO_EDGE)) return normal_aim(w, P);
     mw_point s = apex(w, w->e); /* entered over edge e = lr */
     if (normal_is_past(w, s, P)) return MW_CLOSE;
     return cross_unsure(w, normal_left_of_line(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
 }
 
+static MW_INLINE mw_verdict normal_straight_step(mw_walk *w, mw_policy P)
+{
+    return MW_UNLIKELY(w->e == MW_NO_EDGE) ? normal_aim(w, P) : normal_follow(w, P);
+}
+
 MW_STAMP_WALK(normal_straight, false)
+
+/* --- begun by turning round a vertex ---------------------------------------------------------- */
+
+enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */
+
+/* > 0: s lies to the left of the line from p to q. */
+static MW_INLINE double normal_turn_side(mw_walk *w, mw_point s, mw_policy P)
+{
+    return orient(w, w->p, w->q, s, P);
+}
+
+/* The turn ends: the line leaves this tile over edge e, off p. Its vertex s was the last one
+ * tested. The way that follows is determined forwards and backwards only if it begins at an edge
+ * that the rounded line parts, too. */
+static MW_INLINE mw_verdict normal_turned(mw_walk *w, uint32_t e, mw_point s, mw_policy P)
+{
+    w->phase = FOLLOW;
+    begin_stage(w, MW_STAGE_WALK, P);
+    bool parted = normal_left_of_line(w, corner(w, e + 1), P) && !normal_left_of_line(w, corner(w, e), P);
+    return !parted || normal_is_past(w, s, P) ? MW_CLOSE : cross_unsure(w, e, P);
+}
+
+/* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
+static MW_INLINE mw_verdict normal_turn_aim(mw_walk *w, mw_policy P)
+{
+    initialise(w, P);
+    w->p = corner(w, 0);
+    if (MW_UNLIKELY(!set_direction(w, w->q.x - w->p.x, w->q.y - w->p.y))) return MW_CLOSE;
+    if (normal_turn_side(w, corner(w, 1), P) > 0) {
+        w->phase = TURN_RIGHT;
+        return cross_unsure(w, 0, P);
+    }
+    if (normal_turn_side(w, corner(w, 2), P) < 0) {
+        w->phase = TURN_LEFT;
+        return cross_unsure(w, 2, P);
+    }
+    return normal_turned(w, 1, corner(w, 2), P);
+}
+
+static MW_INLINE mw_verdict normal_straight_turn_step(mw_walk *w, mw_policy P)
+{
+    if (MW_LIKELY(w->phase == FOLLOW)) return normal_follow(w, P);
+    if (w->phase == FIRST) return normal_turn_aim(w, P);
+    uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
+    mw_point s = apex(w, w->e);
+    if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is s */
+        return normal_turn_side(w, s, P) > 0 ? cross_unsure(w, next, P) : normal_turned(w, prev, s, P);
+    return normal_turn_side(w, s, P) < 0 ? cross_unsure(w, prev, P) : normal_turned(w, next, s, P); /* pr, l is s */
+}
+
+MW_STAMP_WALK(normal_straight_turn, false)

@@ -31,4 +31,11 @@ static MW_INLINE double sum_rounding(double a, double b, double c, mw_policy P)
     return P.exact ? 0x1p-49 * (fabs(a) + fabs(b) + fabs(c)) : 0;
 }
 
+/* The corner of the largest coordinate, where that opposite to corner k is at[k]. */
+static MW_INLINE uint32_t heaviest_corner(double at0, double at1, double at2)
+{
+    if (at0 >= at1 && at0 >= at2) return 0;
+    return at1 >= at2 ? 1 : 2;
+}
+
 #endif

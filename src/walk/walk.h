@@ -62,6 +62,7 @@ typedef struct mw_walk {
     union {
         uint32_t steps;    /* fast stochastic: with one test each, that are left                      */
         uint32_t farthest; /* border: where the line comes back last, of the edges met; see there    */
+        uint32_t heaviest; /* direct, barycentric: at the end, the corner with the largest coordinate */
     };
     uint32_t stage; /* that counts                                                            */
     mw_work *work;  /* of counting kernels                                                    */

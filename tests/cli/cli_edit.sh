@@ -39,7 +39,7 @@ exits 0; prints_line '^0.75,0.25,vertex,[0-9]+,[01],[01],[01],30$'; prints_line 
 # As a mesh of one's own: what locate says after an edit is what it says in the mesh written, where nothing is gone.
 run_on $'insert .3 .2\nlocate .9 .1\nlocate .1 .9\nlocate .5 .5\n' edit m.off - -o out.off; exits 0
 answer=$(<"$logs/out")
-run_on $'.9 .1\n.1 .9\n.5 .5\n' locate out.off -; prints "$answer"
+run_on $'0.9 0.1\n0.1 0.9\n0.5 0.5\n' locate out.off -; prints "$answer"
 for way in '--walk straight' '--walk border' '--start grid' '--start two-level-grid --cells 9' '--start layers --layers 2' \
     '--start curve' '--seed 7 --walk stochastic --start random' '--threads 1'; do
     # shellcheck disable=SC2086 # words
@@ -184,8 +184,8 @@ run info more.off; prints_line '^convex +yes$'
 printf '# attributes: z, wind speed\n4 2 2 0\n0 0 0 1 10\n1 1 0 2 20\n2 1 1 3 30\n3 0 1 2 20\n' >f.node
 printf '2 3 0\n0 0 1 2\n1 0 2 3\n' >f.ele
 run_on $'insert .5 .5 7 "wind speed"\nvalue 0 -5 "wind speed"\n' edit f.node - -o g.ply --log l.txt; exits 0
-run_on $'.5 .5\n0 0\n' sample --field wind_speed g.ply -; exits 0; prints_line '^0.5,0.5,7$'; prints_line '^0,0,-5$'
-run_on $'.5 .5\n' sample g.ply -; prints_line '^0.5,0.5,2$'
+run_on $'0.5 0.5\n0 0\n' sample --field wind_speed g.ply -; exits 0; prints_line '^0.5,0.5,7$'; prints_line '^0,0,-5$'
+run_on $'0.5 0.5\n' sample g.ply -; prints_line '^0.5,0.5,2$'
 run edit f.node l.txt -o h.ply; exits 0; holds "names of fields come back" cmp g.ply h.ply
 for format in off obj stl node ply-ascii vtk csv; do
     run_on $'insert .5 .5\n' edit f.node - -o - --format $format

@@ -153,7 +153,7 @@ listed() { # listed OPTION: the names that the help lists below an option
     sed -nE "/ --$1 NAME/,/^ {0,6}-/p" "$logs/out" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p' | sort
 }
 run locate --help
-for option in walk start; do
+for option in walk start descent; do
     holds "help and completion of --$option differ" \
         test "$(complete_words meshwalk locate --$option '')" == "$(listed $option)"
     holds "the help lists names of --$option" test -n "$(listed $option)"
@@ -173,7 +173,7 @@ done
 run edit --help
 holds "help and completion of edit --format differ" \
     test "$(complete_words meshwalk edit --format '')" == "$(row format)"
-for option in delaunay walk start; do
+for option in delaunay walk start descent; do
     holds "help and completion of edit --$option differ" \
         test "$(complete_words meshwalk edit --$option '')" == "$(listed $option)"
     holds "the help lists names of edit --$option" test -n "$(listed $option)"

@@ -55,50 +55,50 @@ names() { "$meshwalk" probe --help | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -n
 starts=$(names start)
 holds "there are starts" test "$(wc -w <<<"$starts")" -ge 4
 for certain in '' --certain; do
-    run_on "$queries" probe $certain cube.off -; exits 0; says_nothing; prints "$answers"
+    run_on "$queries" probe --only-answers $certain cube.off -; exits 0; says_nothing; prints "$answers"
     for start in $starts; do
-        run_on "$queries" probe $certain --start "$start" --seed 3 --threads 2 cube.off -; exits 0; prints "$answers"
+        run_on "$queries" probe --only-answers $certain --start "$start" --seed 3 --threads 2 cube.off -; exits 0; prints "$answers"
     done
     for options in '--samples 1' '--samples 100' '--iterations 50' '--race 2' '--weld' '--any' '--strict'; do
         # shellcheck disable=SC2086 # words
-        run_on "$queries" probe $certain $options cube.off -; exits 0; prints "$answers"
+        run_on "$queries" probe --only-answers $certain $options cube.off -; exits 0; prints "$answers"
     done
 done
-run_on "$(cat cube.off)" probe - <(printf '%s' "$queries"); exits 0; prints "$answers"
+run_on "$(cat cube.off)" probe --only-answers - <(printf '%s' "$queries"); exits 0; prints "$answers"
 
 # Nothing there: walks cannot know it. No motion, no number.
 away='2,2,2,0,0,1
 .75,.25,2,1,0,0
 '
-run_on "$away" probe --certain --strict cube.off -; exits 0
+run_on "$away" probe --only-answers --certain --strict cube.off -; exits 0
 prints "$header
 2,2,2,none,-1,,,,
 0.75,0.25,2,none,-1,,,,"
-run_on "$away" probe cube.off -; exits 0; says_nothing
+run_on "$away" probe --only-answers cube.off -; exits 0; says_nothing
 prints "$header
 2,2,2,limit,-1,,,,
 0.75,0.25,2,limit,-1,,,,"
-run_on "$away" probe --strict cube.off -; exits 1
+run_on "$away" probe --only-answers --strict cube.off -; exits 1
 bad='1,1,1,0,0,0
 nan,0,0,0,0,1
 0,0,0,0,inf,1
 '
 for certain in '' --certain; do
-    run_on "$bad" probe $certain cube.off -; exits 0; says_nothing
+    run_on "$bad" probe --only-answers $certain cube.off -; exits 0; says_nothing
     prints "$header
 1,1,1,bad,-1,,,,
 nan,0,0,bad,-1,,,,
 0,0,0,bad,-1,,,,"
-    run_on "$bad" probe $certain --strict cube.off -; exits 1
+    run_on "$bad" probe --only-answers $certain --strict cube.off -; exits 1
 done
 
 # The distance counts on either side, the limit included.
 for distance in 1 2 1e9; do
-    run_on $'.75,.25,2,0,0,-7\n' probe --max-distance $distance cube.off -; exits 0; prints_line ',hit,2,1,'
-    run_on $'.75,.25,0,0,0,-7\n' probe --certain --max-distance $distance cube.off -; exits 0; prints_line ',hit,2,-1,'
+    run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --max-distance $distance cube.off -; exits 0; prints_line ',hit,2,1,'
+    run_on $'.75,.25,0,0,0,-7\n' probe --only-answers --certain --max-distance $distance cube.off -; exits 0; prints_line ',hit,2,-1,'
 done
-run_on $'.75,.25,2,0,0,-7\n' probe --max-distance 0.999 cube.off -; exits 0; prints_line ',limit,-1,,,,$'
-run_on $'.75,.25,2,0,0,-7\n' probe --certain --max-distance 0.999 cube.off -; exits 0; prints_line ',none,-1,,,,$'
+run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --max-distance 0.999 cube.off -; exits 0; prints_line ',limit,-1,,,,$'
+run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --certain --max-distance 0.999 cube.off -; exits 0; prints_line ',none,-1,,,,$'
 
 # 0 leaves what is at the point, on the outermost facets and far from the origin too; without the option all is in reach.
 at='.75,.25,1,0,0,-1
@@ -111,15 +111,15 @@ at='.75,.25,1,0,0,-1
 '
 for certain in '' --certain; do
     for zero in 0 0.0 -0; do
-        run_on "$at" probe $certain --max-distance $zero cube.off -; exits 0; says_nothing
+        run_on "$at" probe --only-answers $certain --max-distance $zero cube.off -; exits 0; says_nothing
         states=$(sed 1d "$logs/out" | awk -F, '{ printf "%s %s ", $4, $6 }')
         none=limit; [[ $certain ]] && none=none
         holds "what is at the point is touched: $states" \
             test "$states" == "hit 0 $none  hit 0 hit 0 hit 0 hit 0 $none  "
     done
-    run_on "$at" probe $certain cube.off -; exits 0
+    run_on "$at" probe --only-answers $certain cube.off -; exits 0
     holds "without a limit all are touched" test "$(grep -c ',hit,' "$logs/out")" == 7
-    run_on "$at" probe $certain --max-distance 1e-319 cube.off -; exits 0; prints_line '^0.75,0.25,[0-9.]+e-[0-9]+,hit,'
+    run_on "$at" probe --only-answers $certain --max-distance 1e-319 cube.off -; exits 0; prints_line '^0.75,0.25,[0-9.]+e-[0-9]+,hit,'
 done
 
 # Fronts only: two plates whose fronts face up, at heights 0 and 3, and one that faces down at 1.
@@ -131,48 +131,51 @@ plates='1,1,5,0,0,-1
 1,1,2,0,0,1
 1,1,1.5,0,0,-1
 '
-run_on "$plates" probe --certain plates.off -; exits 0
+run_on "$plates" probe --only-answers --certain plates.off -; exits 0
 prints "$header
 1,1,5,hit,2,2,0.5,0.25,0.25
 1,1,1,hit,0,1,0.5,0.25,0.25
 1,1,2,hit,2,-1,0.5,0.25,0.25
 1,1,2,hit,1,-1,0.5,0.25,0.25
 1,1,1.5,hit,0,1.5,0.5,0.25,0.25"
-run_on "$plates" probe plates.off -; exits 0
+run_on "$plates" probe --only-answers plates.off -; exits 0
 for row in '1,1,5,hit,(0,5|2,2)' '1,1,2,hit,1,-1'; do prints_line "^$row,0\.5,0\.25,0\.25\$"; done
 
 # Columns: six, by a header or by --columns.
 touched="$header"$'\n'0.75,0.25,2,hit,2,1,0.25,0.5,0.25
 for input in $'mx,my,mz,x,y,z\n0,0,-1,.75,.25,2' $'id;X;Y;Z;MX;MY;MZ\n5;.75;.25;2;0;0;-1' \
-    $'.75 .25 2 0 0 -1 99' $'a,b,c,d,e,f\n.75,.25,2,0,0,-1' $'x,y,z,nx,ny,nz\n.75,.25,2,0,0,-1'; do
-    run_on "$input"$'\n' probe cube.off -; exits 0; prints "$touched"
+    $'.75 .25 2 0 0 -1' $'a,b,c,d,e,f\n.75,.25,2,0,0,-1' $'x,y,z,nx,ny,nz\n.75,.25,2,0,0,-1'; do
+    run_on "$input"$'\n' probe --only-answers cube.off -; exits 0; prints "$touched"
 done
+run_on $'.75 .25 2 0 0 -1 99\n' probe cube.off -; refused 2 'which of its 7 columns are x,y,z,mx,my,mz\?'
 table=$'t,x,y,z,u,v,w\n1,.75,.25,2,0,0,-1\n'
-run_on "$table" probe --columns x,y,z,u,v,w cube.off -; exits 0; prints "$touched"
-run_on "$table" probe --columns 2,3,4,5,6,7 cube.off -; exits 0; prints "$touched"
-run_on "$table" probe cube.off -; refused 2 'standard input: which of its 7 columns are x,y,z,mx,my,mz\? --columns'
-run_on "$table" probe --columns x,y,z cube.off -; refused 2 "'--columns' wants 6 columns, x,y,z,mx,my,mz, not 3"
+run_on "$table" probe --only-answers --columns x,y,z,u,v,w cube.off -; exits 0; prints "$touched"
+run_on "$table" probe --columns x,y,z,u,v,w cube.off -; exits 0
+prints $'t,x,y,z,u,v,w,status,triangle,distance,w0,w1,w2\n1,.75,.25,2,0,0,-1,hit,2,1,0.25,0.5,0.25'
+run_on "$table" probe --only-answers --columns 2,3,4,5,6,7 cube.off -; exits 0; prints "$touched"
+run_on "$table" probe --only-answers cube.off -; refused 2 'standard input: which of its 7 columns are x,y,z,mx,my,mz\? They are: '
+run_on "$table" probe --only-answers --columns x,y,z cube.off -; refused 2 "'--columns' wants 6 columns, x,y,z,mx,my,mz, not 3"
 printf '.75,.25,2,0,0\n' >five.csv
-run probe cube.off five.csv -o o.csv; refused 3 'five\.csv: has 5 columns of numbers, but a row is x,y,z,mx,my,mz'; absent o.csv
+run probe --only-answers cube.off five.csv -o o.csv; refused 3 'five\.csv: has 5 columns, but a row is x,y,z,mx,my,mz'; absent o.csv
 
 # Files that are none, or not of the kind wanted.
 printf '%s' "$queries" >q.csv
-run probe missing.off q.csv; refused 3 'missing\.off: .*No such file'
-run probe cube.off missing.csv; refused 3 'missing\.csv: .*No such file'
-run probe q.csv q.csv; refused 3 'q\.csv: holds points'
-run probe cube.off q.csv -o cube.off; refused 2 'is input and output'
+run probe --only-answers missing.off q.csv; refused 3 'missing\.off: .*No such file'
+run probe --only-answers cube.off missing.csv; refused 3 'missing\.csv: .*No such file'
+run probe --only-answers q.csv q.csv; refused 3 'q\.csv: holds points'
+run probe --only-answers cube.off q.csv -o cube.off; refused 2 'is input and output'
 printf '1,2,3,4,5,6\n1,2,3,4,x,6\n' >bad.csv
-run probe cube.off bad.csv -o o.csv; refused 3 'bad\.csv:2: '; absent o.csv
+run probe --only-answers cube.off bad.csv -o o.csv; refused 3 'bad\.csv:2: '; absent o.csv
 : >empty.csv
-run probe cube.off empty.csv; exits 0; prints "$header"
+run probe --only-answers cube.off empty.csv; exits 0; prints "$header"
 printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' >none.off
-run probe none.off q.csv; refused 3 'none\.off: '
+run probe --only-answers none.off q.csv; refused 3 'none\.off: '
 # Three triangles at one edge.
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >three.off
-run_on $'.25,.25,2,0,0,-1\n' probe three.off - -o o.csv
+run_on $'.25,.25,2,0,0,-1\n' probe --only-answers three.off - -o o.csv
 refused 3 "three\.off: "; says "'meshwalk check --as surface three\.off' lists every defect; --any"; absent o.csv
 for certain in '' --certain; do
-    run_on $'.25,.25,2,0,0,-1\n' probe $certain --any three.off -; exits 0; prints_line '^0.25,0.25,2,hit,0,2,0.5,0.25,0.25$'
+    run_on $'.25,.25,2,0,0,-1\n' probe --only-answers $certain --any three.off -; exits 0; prints_line '^0.25,0.25,2,hit,0,2,0.5,0.25,0.25$'
 done
 
 # Output that cannot be written.
@@ -181,29 +184,29 @@ last='meshwalk probe cube.off q.csv >&-'
 code=$? && : >"$logs/out"
 exits 4; says '^meshwalk: '
 if [[ -w /dev/full ]]; then
-    run probe cube.off q.csv -o /dev/full; exits 4; says 'No space left on device'
+    run probe --only-answers cube.off q.csv -o /dev/full; exits 4; says 'No space left on device'
 fi
 
 # Statistics.
-run_on "$queries$away$bad" probe --stats cube.off -; exits 0
+run_on "$queries$away$bad" probe --only-answers --stats cube.off -; exits 0
 says '^points +15$'; says '^hit +10$'; says '^limit +2$'; says '^none +0$'; says '^bad +3$'; says '^certain +no$'
 says '^samples +[1-9]'; says '^triangles per query +[0-9]'; says '^box bytes +0$'; says '^surface bytes +[1-9]'
-run_on "$queries$away$bad" probe --stats --json --certain --start random cube.off -; exits 0
+run_on "$queries$away$bad" probe --only-answers --stats --json --certain --start random cube.off -; exits 0
 holds "the statistics are JSON" is_json "$logs/err"
 says '"none": 2'; says '"certain": true'; says '"box_bytes": [1-9]'; says '"start": "random"'
 
 # More probes than one block holds: in order, and the same for any number of threads.
 awk 'BEGIN { for (i = 0; i < 300000; i++)
     printf "%.3f,%.3f,%d,%.2f,%.2f,-1\n", i % 1009 / 800 - .1, i % 503 / 400 - .1, i % 5, i % 7 / 9, i % 3 / 9 }' >many.csv
-run probe --threads 1 cube.off many.csv -o one.csv; exits 0
-run probe --threads 2 cube.off many.csv -o two.csv; exits 0
+run probe --only-answers --threads 1 cube.off many.csv -o one.csv; exits 0
+run probe --only-answers --threads 2 cube.off many.csv -o two.csv; exits 0
 holds "one thread and two print the same" same_text one.csv two.csv
 paste -d, many.csv <(tail -n +2 two.csv) |
     awk -F, '$1 != $7 || $2 != $8 || $3 != $9 { exit 1 } END { if (NR != 300000) exit 1 }'
 holds "there is a row for each, in order" test "${PIPESTATUS[*]}" == "0 0"
 head -n 20000 many.csv >some.csv
 for threads in 1 2; do
-    run probe --certain --threads $threads cube.off some.csv -o $threads.csv; exits 0
+    run probe --only-answers --certain --threads $threads cube.off some.csv -o $threads.csv; exits 0
 done
 holds "one thread and two print the same" same_text 1.csv 2.csv
 
@@ -215,8 +218,8 @@ for file in bunny_closed.off.gz pawn.obj knot2.off.gz shark_holes.off.gz plate_h
     perl -MJSON::PP -e 'local $/; my $f = decode_json(<STDIN>); my ($l, $h) = @{$f}{qw(low high)}; srand 5;
         for (1 .. 1000) { print join(",", (map { $l->[$_] + rand() * ($h->[$_] - $l->[$_]) } 0 .. 2), map { rand() - .5 } 0 .. 2), "\n" }' \
         <"$logs/out" >lines.csv
-    run probe --any --certain --strict "$data/$file" lines.csv -o certain.csv; exits 0
-    run probe --any "$data/$file" lines.csv -o walks.csv; exits 0
+    run probe --only-answers --any --certain --strict "$data/$file" lines.csv -o certain.csv; exits 0
+    run probe --only-answers --any "$data/$file" lines.csv -o walks.csv; exits 0
     holds "$file: some are touched" grep -q ',hit,' walks.csv
     paste -d, walks.csv certain.csv | awk -F, 'NR > 1 && $4 == "hit" {
             a = $6 < 0 ? -$6 : $6; b = $15 < 0 ? -$15 : $15; if ($13 != "hit" || b > a) { print; exit 1 } }

@@ -57,7 +57,7 @@ answers="$header
 0,0,0,bad,-1,,,
 nan,1,1,bad,-1,,,
 1,0,-inf,bad,-1,,,
-1e+300,1e+300,0,edge,0,0.5,0.5,0
+1e300,1e300,0,edge,0,0.5,0.5,0
 1e-300,0,0,vertex,0,1,0,0"
 run_on "$points" star octahedron.off -; exits 0; says_nothing
 prints "$answers"
@@ -128,18 +128,21 @@ prints_line '^180,45,edge,1,0,0\.5[0-9]*,0\.(5|4999)[0-9]*$'; prints_line '^-180
 prints_line '^45,0,edge,0,0\.(5|4999)[0-9]*,0\.(5|4999)[0-9]*,0$'
 prints_line '^45,10,inside,0,'; prints_line '^-135,-10,inside,6,'
 # Columns: what a header calls so, in any order; by name and by number.
-for input in $'lon,lat\n10,90' $'lat,lon\n90,10' $'id;latitude;longitude\n7;90;10' $'10 90 5'; do
-    run_on "$input"$'\n' star --lonlat octahedron.off -; exits 0; prints "$sphere_header"$'\n'10,90,vertex,0,0,0,1
+for input in $'lon,lat\n10,90' $'lat,lon\n90,10' $'id;latitude;longitude\n7;90;10' $'Lat (deg),LNG\n90,10'; do
+    run_on "$input"$'\n' star --lonlat --only-answers octahedron.off -; exits 0; prints "$sphere_header"$'\n'10,90,vertex,0,0,0,1
 done
-run_on $'a,b,c\n90,0,10\n' star --lonlat --columns c,a octahedron.off -; exits 0; prints_line '^10,90,vertex,0,'
-for input in $'z,y,x\n2,1,-1' $'id,X,Y,Z\n9,-1,1,2' $'-1 1 2 77' $'x,y,z,lon,lat\n-1,1,2,0,0' $'u,v,w\n-1,1,2'; do
-    run_on "$input"$'\n' star octahedron.off -; exits 0; prints "$header"$'\n'-1,1,2,inside,1,0.25,0.25,0.5
+run_on $'a,b,c\n90,0,10\n' star --lonlat --columns c,a octahedron.off -; exits 0
+prints $'a,b,c,status,triangle,w0,w1,w2\n90,0,10,vertex,0,0,0,1'
+for input in $'z,y,x\n2,1,-1' $'id,X,Y,Z\n9,-1,1,2' $'-1 1 2' $'x,y,z,lon,lat\n-1,1,2,0,0' $'u,v,w\n-1,1,2'; do
+    run_on "$input"$'\n' star --only-answers octahedron.off -; exits 0; prints "$header"$'\n'-1,1,2,inside,1,0.25,0.25,0.5
 done
-run_on $'a,b,c,d\n5,-1,1,2\n' star --columns b,c,d octahedron.off -; exits 0; prints_line '^-1,1,2,inside,1,'
-run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 2,3,4 octahedron.off -; exits 0; prints_line '^-1,1,2,inside,1,'
+run_on $'a,b,c,d\n5,-1,1,2\n' star --columns b,c,d octahedron.off -; exits 0; prints_line '^5,-1,1,2,inside,1,'
+run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 2,3,4 octahedron.off -; exits 0; prints_line '^5,-1,1,2,inside,1,'
 run_on $'a,b,c,d\n5,-1,1,2\n' star octahedron.off - -o o.csv; exits 2; says 'standard input: which of its 4 columns are x,y,z\?'
+run_on $'-1 1 2 77\n' star octahedron.off - -o o.csv; refused 2 'which of its 4 columns are x,y,z\? They have no names'
+run_on $'10 90 5\n' star --lonlat octahedron.off - -o o.csv; refused 2 'which of its 3 columns are lon,lat\?'
 run_on $'lon,lat,height\n5,1,2\n' star octahedron.off - -o o.csv; refused 2 '; --lonlat reads longitude and latitude'
-run_on $'5,1\n' star octahedron.off - -o o.csv; exits 3; says 'has 2 columns of numbers, but a row is x,y,z; --lonlat'
+run_on $'5,1\n' star octahedron.off - -o o.csv; exits 3; says 'has 2 columns, but a row is x,y,z; --lonlat'
 run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b octahedron.off -; refused 2 "'--columns' wants 3 columns, x,y,z, not 2"
 for list in 1,2,3 c,a,b; do
     run_on $'a,b,c,d\n90,0,10,2\n' star --lonlat --columns $list octahedron.off -

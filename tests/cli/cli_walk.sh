@@ -28,7 +28,6 @@ run walk --help
 walks=$(sed -nE '/ --walk NAME/,/^ {0,6}-/p' "$logs/out" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p')
 holds "there are walks" test "$(wc -w <<<"$walks")" -ge 15
 for walk in $walks; do
-    [[ $walk == forgetful ]] && continue
     run walk --from 0.1,0.2 --to 3.9,0.8 --walk "$walk" row.off; exits 0; says_nothing
     prints_line '^0,0,0$'; prints_line '^[0-9]+,7,0$'
     holds "$walk: the last line is the last triangle" test "$(tail -n 1 "$logs/out" | cut -d, -f2)" == 7
@@ -89,7 +88,6 @@ for value in '' x 1 '1,' 1,x 1,2,3,4 1,inf ' 1,2' '1;2'; do
     run walk --from "$value" --to 1,2 row.off; refused 2 "'--from' wants coordinates X,Y or X,Y,Z, not"
 done
 run walk --from 1,2 --to 3,4 --walk lawsn row.off; refused 2 "did you mean 'lawson'\?"
-run walk --from 1,2 --to 3,4 --walk forgetful row.off; refused 2 "no walk 'forgetful' with --as plane"
 run walk --as star --from 1,2,3 --to 3,4,5 --walk lawson row.off; refused 2 "no walk 'lawson' with --as star"
 run walk --as surface --from 1,2,3 --to 3,4,5 --walk straight row.off; refused 2 "'--walk' wants --as"
 for option in max-distance samples iterations; do

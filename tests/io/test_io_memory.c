@@ -118,6 +118,21 @@ static mw_status read_points(const char *path, mw_error *error)
     return status;
 }
 
+/* The same as a table, whose columns are chosen after it was opened. */
+static mw_status read_table(const char *path, mw_error *error)
+{
+    mw_point_reader *reader;
+    mw_point_reader_options options = {.table = 1};
+    const size_t columns[] = {1, 0};
+    mw_status status = mw_point_reader_open(path, &options, &reader, error);
+    double values[64];
+    size_t count = 1;
+    if (!status) status = mw_point_reader_select(reader, columns, 2, error);
+    while (!status && count > 0) status = mw_point_reader_read(reader, values, 8, &count, error);
+    mw_point_reader_close(reader);
+    return status;
+}
+
 static mw_status read_edits(const char *path, mw_error *error)
 {
     mw_edit_reader *reader;
@@ -181,7 +196,10 @@ static void test_read_points(void **state)
     files_write_text("named.csv", "x,y\n1,2\n3,4\n");
     files_write_text("a.node", "2 2 1 1\n1 0 0 5 1\n2 1 1 5 0\n");
     static const char *const paths[] = {"plain.xyz", "named.csv", "a.node"};
-    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) fail_each(read_points, paths[i]);
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        fail_each(read_points, paths[i]);
+        fail_each(read_table, paths[i]);
+    }
     unsigned char las[227 + 20] = "LASF";
     las[24] = 1;
     las[25] = 2;
@@ -190,6 +208,7 @@ static void test_read_points(void **state)
     las[107] = 1;
     files_write("a.las", (bytes){(const char *)las, sizeof las});
     fail_each(read_points, "a.las");
+    fail_each(read_table, "a.las");
     files_clear();
 }
 

@@ -145,6 +145,121 @@ static void test_selection(void **state)
     expect_values("a 1 2 b\nc 3.5 -4 d\n", "2,3", "x y", 2, two);
 }
 
+static void test_missing(void **state)
+{
+    (void)state;
+    expect_values("1,2\nNA,3\n4,-\nnull,n/a\n\"\",\"NaN\"\n", NULL, "x y", 5,
+                  (const double[]){1, 2, NAN, 3, 4, NAN, NAN, NAN, NAN, NAN});
+    expect_values("1 2\nna -\n", NULL, "x y", 2, (const double[]){1, 2, NAN, NAN});
+    /* in the first row, where it tells that the column has numbers only if its name does */
+    expect_values("x,y,z,id\n1,2,NA,NA\n3,4,5,6\n", NULL, "x y z", 2, (const double[]){1, 2, NAN, 3, 4, 5});
+}
+
+static void test_quotes(void **state)
+{
+    (void)state;
+    expect_values("x,y,t\n1,2,\"a\nb,\"\n3.5,-4,\"say \"\"x\"\"\"\n", NULL, "x y", 2, two);
+    expect_values("x,y,t\n1,2,5\" pipe\n3.5,-4,a\"b\n", NULL, "x y", 2, two);
+    expect_values("\"a;b\",x,y\nu,1,2\n\"v\r\nw\",3.5,-4\r\n", NULL, "x y", 2, two);
+    expect_values("t\tx\ty\nq\t1\t2\n\"a\tb\"\t3.5\t-4\n", NULL, "x y", 2, two);
+}
+
+/* A row's text without its line end. */
+static void expect_row(const mw_point_reader *reader, size_t row, const char *text)
+{
+    size_t length;
+    const char *found = mw_point_reader_row(reader, row, &length);
+    if (!text) {
+        assert_null(found);
+        return;
+    }
+    assert_non_null(found);
+    assert_int_equal(length, strlen(text));
+    assert_memory_equal(found, text, length);
+}
+
+static void test_table(void **state)
+{
+    (void)state;
+    mw_point_reader_options options = {.table = 1};
+    mw_point_reader *reader;
+    mw_point_table table;
+    mw_error error;
+    double values[20];
+    size_t count;
+    files_write_text("p.txt", "id; name ;X;Y\r\nB1; \"a;b\" ;1,5;2\r\n\r\n;;NA; 3 \r\n");
+    assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_OK);
+    assert_int_equal(mw_point_reader_width(reader), 0);
+    assert_int_equal(mw_point_reader_table(reader, &table, &error), MW_OK);
+    assert_int_equal(table.column_count, 4);
+    assert_string_equal(table.header, "id; name ;X;Y");
+    assert_string_equal(table.names[1], "name");
+    assert_int_equal(table.separator, ';');
+    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){3, 2}, 2, &error), MW_OK);
+    assert_int_equal(mw_point_reader_width(reader), 2);
+    assert_string_equal(mw_point_reader_column(reader, 0), "Y");
+    assert_int_equal(mw_point_reader_place(reader, 1), 2);
+    assert_int_equal(mw_point_reader_place(reader, 2), SIZE_MAX);
+    expect_row(reader, 0, NULL);
+    assert_int_equal(mw_point_reader_read(reader, values, 10, &count, &error), MW_OK);
+    assert_int_equal(count, 2);
+    assert_true(values[0] == 2 && values[1] == 1.5 && values[2] == 3 && isnan(values[3]));
+    expect_row(reader, 0, "B1; \"a;b\" ;1,5;2");
+    expect_row(reader, 1, ";;NA; 3 ");
+    expect_row(reader, 2, NULL);
+    assert_int_equal(mw_point_reader_table(reader, &table, &error), MW_OK);
+    assert_int_equal(table.decimal, ',');
+    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){0, 1}, 2, &error), MW_ERROR_ARGUMENT);
+    mw_point_reader_close(reader);
+
+    /* without names, between blanks */
+    files_write_text("p.txt", "q 0 0\n a,b  1 \t2 \n");
+    assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_OK);
+    static const size_t wrong[][2] = {{0, 3}, {1, 1}};
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(mw_point_reader_select(reader, wrong[i], 2, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_select(reader, wrong[1], 1, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_select(reader, NULL, 2, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_table(reader, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){1, 2}, 2, &error), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, 10, &count, &error), MW_OK);
+    assert_int_equal(count, 2);
+    expect_row(reader, 0, "q,0,0");
+    expect_row(reader, 1, "\"a,b\",1,2");
+    assert_int_equal(mw_point_reader_table(reader, &table, &error), MW_OK);
+    assert_true(!table.names && !table.header && table.separator == ',' && table.decimal == '.');
+    mw_point_reader_close(reader);
+
+    /* a reader that keeps no table */
+    assert_int_equal(mw_point_reader_open("p.txt", NULL, &reader, &error), MW_OK);
+    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){1, 2}, 2, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_read(reader, values, 10, &count, &error), MW_OK);
+    expect_row(reader, 0, NULL);
+    mw_point_reader_close(reader);
+    files_clear();
+}
+
+static void test_axis_names(void **state)
+{
+    (void)state;
+    const mw_axis_names *set;
+    size_t lonlat = 0;
+    for (size_t i = 0; (set = mw_axis_names_at(i)); i++) {
+        for (int k = 0; k < 3; k++) assert_true(mw_axis_name_matches(set->axis[k], set->axis[k]));
+        assert_false(mw_axis_name_matches(set->axis[0], set->axis[1]));
+        lonlat += set->lonlat != 0;
+    }
+    assert_true(lonlat >= 3);
+    static const char *const same[][2] = {{"POINT_X", "point_x"}, {"Point X", "point_x"}, {"pointx", "point_x"},
+                                          {"x [m]", "x"},         {"X(ft)", "x"},         {" x ", "x"}};
+    static const char *const other[][2] = {{"xx", "x"},    {"", "x"},    {"x", "point_x"},
+                                           {"m (x)", "x"}, {"x m", "x"}, {"lone", "lon"}};
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++)
+        if (!mw_axis_name_matches(same[i][0], same[i][1])) fail_msg("'%s' is no '%s'", same[i][0], same[i][1]);
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        if (mw_axis_name_matches(other[i][0], other[i][1])) fail_msg("'%s' is '%s'", other[i][0], other[i][1]);
+}
+
 static void test_nothing(void **state)
 {
     (void)state;
@@ -208,7 +323,10 @@ static const bad_points bads[] = {
     {"1 2\n3 four\n", NULL, 2, 1, "column 2: 'four' is not a number"},
     {"1,2\n3,4x\n", NULL, 2, 1, "column 2: '4x' is not a number"},
     {"1,2\n3 5,4\n", NULL, 2, 1, "column 1: '3 5' is not a number"},
-    {"1,2\n\"3,4\n", NULL, 2, 1, "1 column where"},
+    {"1,2\n\"3,4\n", NULL, 2, 1, "a quoted cell begins in this row and does not end"},
+    {"1,2\n\"3\n\",4\n", NULL, 3, 1, "column 1: '3?' is not a number"},
+    {"1,2\n--,4\n", NULL, 2, 1, "column 1: '--' is not a number"},
+    {"x,y,X\n1,2,3\n", "x,y", 1, 0, "columns 1 and 3 are both called 'x': use a number"},
     {"1,2\n0x10,4\n", NULL, 2, 1, "'0x10' is not a number"},
     {"1\t2\n1.2.3\t4\n", NULL, 2, 1, "'1.2.3' is not a number"},
     {"1 2\n3\n4\n", NULL, 2, 1, "1 column where"},
@@ -269,6 +387,8 @@ static void test_arguments(void **state)
     mw_point_reader *reader;
     mw_error error;
     files_write_text("p.txt", "x,y\n1,2\n");
+    assert_int_equal(mw_point_reader_select(NULL, NULL, 2, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_table(NULL, NULL, &error), MW_ERROR_ARGUMENT);
     for (size_t i = 0; i < sizeof selections / sizeof *selections; i++) {
         mw_point_reader_options options = {.columns = selections[i]};
         assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_ERROR_ARGUMENT);
@@ -348,10 +468,11 @@ static void test_many(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_separators),  cmocka_unit_test(test_decimal_commas), cmocka_unit_test(test_odd_numbers),
-        cmocka_unit_test(test_headers),     cmocka_unit_test(test_selection),      cmocka_unit_test(test_nothing),
-        cmocka_unit_test(test_node),        cmocka_unit_test(test_malformed),      cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_other_kinds), cmocka_unit_test(test_many),
+        cmocka_unit_test(test_separators), cmocka_unit_test(test_decimal_commas), cmocka_unit_test(test_odd_numbers),
+        cmocka_unit_test(test_headers),    cmocka_unit_test(test_selection),      cmocka_unit_test(test_nothing),
+        cmocka_unit_test(test_node),       cmocka_unit_test(test_missing),        cmocka_unit_test(test_quotes),
+        cmocka_unit_test(test_table),      cmocka_unit_test(test_axis_names),     cmocka_unit_test(test_malformed),
+        cmocka_unit_test(test_arguments),  cmocka_unit_test(test_other_kinds),    cmocka_unit_test(test_many),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -67,6 +67,52 @@ static void test_lines(void **state)
     free(lines);
 }
 
+/* Lines of this text, joined to as many as `wanted`, hold the bytes between their beginnings and ends. */
+static void expect_joined(mw_source *source, const char *text, size_t wanted)
+{
+    char *line;
+    size_t begin = source->offset;
+    int64_t first = source->line;
+    assert_int_equal(mw__source_line(source, &line, NULL), MW_OK);
+    for (size_t joined = 1; joined < wanted; joined++) {
+        assert_int_equal(mw__source_join_line(source, &line, NULL), MW_OK);
+        assert_non_null(line);
+    }
+    assert_int_equal(source->line, first + (int64_t)wanted);
+    assert_int_equal(strlen(line), source->line_length);
+    assert_memory_equal(line, text + begin, source->line_length);
+    assert_true(strchr("\r\n", text[begin + source->line_length]));
+}
+
+static void test_joined_lines(void **state)
+{
+    (void)state;
+    enum { LINES = 2000 };
+    char *text = malloc(LINES * 16);
+    size_t size = 0, wanted = 1;
+    assert_non_null(text);
+    for (int i = 0; i < LINES; i++)
+        size += (size_t)sprintf(text + size, "%0*d%s", 1 + i * 7 % 11, i,
+                                i % 3 == 0   ? "\n"
+                                : i % 3 == 1 ? "\r\n"
+                                             : "\r");
+    mw_source source = memory_source(text, size);
+    for (int64_t line = 0; line + 5 < LINES; line += (int64_t)wanted, wanted = wanted % 5 + 1) {
+        size_t before = source.offset;
+        expect_joined(&source, text, wanted);
+        mw__source_unread_line(&source);
+        assert_int_equal(source.line, line);
+        assert_int_equal(source.offset, before);
+        expect_joined(&source, text, wanted);
+    }
+    char *line;
+    while (source.line < LINES) mw__source_line(&source, &line, NULL);
+    assert_int_equal(mw__source_join_line(&source, &line, NULL), MW_OK);
+    assert_null(line);
+    mw__source_close(&source);
+    free(text);
+}
+
 static void test_bytes(void **state)
 {
     (void)state;
@@ -174,8 +220,8 @@ static void test_arrays(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lines), cmocka_unit_test(test_bytes),
-                                       cmocka_unit_test(test_limits), cmocka_unit_test(test_many_columns),
-                                       cmocka_unit_test(test_arrays)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lines),        cmocka_unit_test(test_joined_lines),
+                                       cmocka_unit_test(test_bytes),        cmocka_unit_test(test_limits),
+                                       cmocka_unit_test(test_many_columns), cmocka_unit_test(test_arrays)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -362,7 +362,7 @@ static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_poin
     if (verdict == MW_CLOSE && !has_coordinates(walk))
         mw__walk_finish(&w, MW_WALK_REMEMBERING, 100000, top, true, true);
     if (descent == MW_DESCENT_COORDINATE && !has_coordinates(walk)) expected.orient[MW_STAGE_WALK] += 2;
-    bool heavy = descent == MW_DESCENT_COORDINATE || (descent == MW_DESCENT_AUTO && has_coordinates(walk));
+    bool heavy = descent == MW_DESCENT_COORDINATE;
 
     mw_work work = {.comparisons = 7};
     mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, true, true, NULL};

@@ -1,4 +1,4 @@
-/* test_line_walks.c - the cheap walks along a line, normal-straight and hybrid: what they count, where they start, and
+/* test_line_walks.c - the cheap walks along a line, normal-straight, also begun by a turn, and hybrid: what they count, where they start, and
  * where doubles are not enough. */
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 #include "oracle/location_oracle.h"
 #include "support/meshes.h"
 
-static const mw_walk_kind line_walks[] = {MW_WALK_NORMAL_STRAIGHT, MW_WALK_HYBRID};
+static const mw_walk_kind line_walks[] = {MW_WALK_NORMAL_STRAIGHT, MW_WALK_NORMAL_STRAIGHT_TURN, MW_WALK_HYBRID};
 enum { WALKS = sizeof line_walks / sizeof *line_walks };
 
 typedef struct line_field {
@@ -84,6 +84,16 @@ static void test_tests_per_triangle(void **state)
         assert_int_equal(normal.comparisons + normal.orient_init + normal.orient + normal.triangles_init, 0);
         assert_int_equal(normal.triangles_visited, n + normal.triangles_final - 1);
         assert_true(normal.orient_final >= 3);
+
+        options.walk = MW_WALK_NORMAL_STRAIGHT_TURN;
+        mw_counters turn = count_from(&f, &options, first.triangle, q, &at);
+        assert_int_equal(turn.triangles_init, straight.triangles_init);
+        assert_int_equal(turn.orient_init, straight.orient_init);
+        assert_int_equal(turn.implicit, turn.triangles > 1 ? 2 * turn.triangles : 3);
+        assert_int_equal(turn.comparisons + turn.orient, 0);
+        assert_int_equal(turn.triangles_visited, turn.triangles_init + turn.triangles + turn.triangles_final - 2);
+        assert_int_equal(turn.handovers, 0);
+        triangles[MW_WALK_NORMAL_STRAIGHT_TURN] += turn.triangles_init + turn.triangles - 1;
 
         options.walk = MW_WALK_HYBRID;
         mw_counters hybrid = count_from(&f, &options, first.triangle, q, &at);

@@ -11,6 +11,7 @@
 
 #include <meshwalk/meshwalk.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A plane mesh, and a star-shaped polyhedron, with everything that can be made of them. */
@@ -312,6 +313,35 @@ static void test_zeroed_cursor_in_space(void **state)
     things_release(&all);
 }
 
+/* --- sizes of samples ------------------------------------------------------------------------- */
+
+/* The printed sizes of Appendix D, Table 1, and twice the fourth root; never more than triangles. */
+static void test_sample_sizes(void **state)
+{
+    (void)state;
+    static const uint32_t printed[][3] = {{4897, 17, 17},  {13829, 24, 22}, {15819, 25, 22},
+                                          {19993, 27, 24}, {41851, 35, 29}, {3, 1, 1}};
+    uint64_t random = 61;
+    for (size_t i = 0; i < sizeof printed / sizeof *printed; i++) {
+        double *points = malloc(2 * printed[i][0] * sizeof *points);
+        mw_mesh *mesh;
+        mw_error error;
+        mw_cursor cursor;
+        for (uint32_t k = 0; k < 2 * printed[i][0]; k++) points[k] = random_unit(&random);
+        assert_int_equal(mw_delaunay(points, printed[i][0], 2, NULL, NULL, NULL, &mesh, &error), MW_OK);
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        mw_query_options options = {.start = MW_START_SAMPLE, .samples = MW_SAMPLE_CUBE_ROOT_OF_VERTICES};
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), MW_OK);
+        assert_int_equal(cursor.sample, printed[i][1]);
+        options.samples = MW_SAMPLE_FOURTH_ROOT_OF_VERTICES;
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), MW_OK);
+        assert_int_equal(cursor.sample, printed[i][2]);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        free(points);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -319,6 +349,7 @@ int main(void)
         cmocka_unit_test(test_cells_are_bounded),
         cmocka_unit_test(test_zeroed_cursor_in_the_plane),
         cmocka_unit_test(test_zeroed_cursor_in_space),
+        cmocka_unit_test(test_sample_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

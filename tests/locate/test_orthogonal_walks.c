@@ -14,7 +14,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-static const mw_walk_kind walks[] = {MW_WALK_ORTHOGONAL, MW_WALK_IMPROVED_ORTHOGONAL};
+static const mw_walk_kind walks[] = {MW_WALK_ORTHOGONAL, MW_WALK_IMPROVED_ORTHOGONAL,
+                                     MW_WALK_IMPROVED_ORTHOGONAL_VERTEX};
 enum { WALKS = sizeof walks / sizeof *walks };
 
 typedef struct axis_field {
@@ -84,7 +85,7 @@ static void compare(const mw_location *got, const location_answer *want, const d
              q[1], got->triangle, got->where, got->local, want->triangle, want->where, want->local);
 }
 
-/* Both walks in both arithmetics from triangle t against brute force; true if each ended its walk without handing
+/* All walks in both arithmetics from triangle t against brute force; true if each ended its walk without handing
  * over. */
 static bool agree_from(const axis_field *f, uint32_t t, const double q[2], const location_answer *want)
 {
@@ -257,8 +258,8 @@ static void test_counts(void **state)
     for (int i = 0; i < 2 * N; i++) points[i] = i < 8 ? (double)((0xb4 >> i) & 1) : random_unit(&random);
     for (int i = 0; i < 2 * QUERIES; i++) q[i] = random_unit(&random);
     axis_field f = delaunay_field(points, N);
-    double triangles[3];
-    for (int i = 0; i < 3; i++) {
+    double triangles[WALKS + 1];
+    for (int i = 0; i <= WALKS; i++) {
         mw_counters c;
         mw_query_options options = {.walk = i < WALKS ? walks[i] : MW_WALK_STRAIGHT,
                                     .start = MW_START_RANDOM,
@@ -272,7 +273,7 @@ static void test_counts(void **state)
         if (i == 0) {
             assert_true(fabs(comparisons - 3) < 0.05 && tests > 3 && tests < 4);
             assert_int_equal(c.triangles_final, 0);
-        } else if (i == 1) {
+        } else if (i < WALKS) {
             assert_true(fabs(comparisons - 2) < 0.1);
             assert_int_equal(c.triangles_init + c.orient_init + c.orient, 0);
             assert_true((double)c.triangles_final / QUERIES < 2 && (double)c.orient_final / QUERIES < 4.1);
@@ -282,7 +283,8 @@ static void test_counts(void **state)
         assert_in_range(again, 0, i == 0 ? QUERIES / 500 : 0);
     }
     for (int i = 0; i < WALKS; i++)
-        if (!(fabs(triangles[i] / triangles[2] - 1.26) < 0.04)) fail_msg("ratio %g", triangles[i] / triangles[2]);
+        if (!(fabs(triangles[i] / triangles[WALKS] - 1.26) < 0.04))
+            fail_msg("ratio %g", triangles[i] / triangles[WALKS]);
     free(points);
     free(q);
     free(at);
@@ -313,13 +315,49 @@ static void test_improved_walk_is_not_rounded(void **state)
     field_free(&f);
 }
 
+/* In a turned rectangle, whose sides the horizontal leg often meets, the two ways to go on from there take other ways,
+ * and both find the point. */
+static void test_leaves_at_vertex(void **state)
+{
+    (void)state;
+    uint64_t random = 9;
+    enum { N = 3000, QUERIES = 4000 };
+    double *points = malloc(2 * N * sizeof *points), *q = malloc(2 * QUERIES * sizeof *q);
+    mw_location *at = malloc(QUERIES * sizeof *at);
+    for (int i = 0; i < N; i++) {
+        double u = 2 * random_unit(&random), v = random_unit(&random), c = cos(0.5235987755982988), s = 0.5;
+        points[2 * i] = c * u - s * v;
+        points[2 * i + 1] = s * u + c * v;
+    }
+    for (int i = 0; i < QUERIES; i++) /* the middle of some of them */
+        for (int k = 0; k < 2; k++) q[2 * i + k] = points[2 * (i % N) + k] / 2 + points[2 * (i * 7 % N) + k] / 2;
+    axis_field f = delaunay_field(points, N);
+    mw_counters to_centroid, to_vertex;
+    mw_query_options options = {.walk = MW_WALK_IMPROVED_ORTHOGONAL, .start = MW_START_RANDOM, .counters = 1};
+    assert_int_equal(mw_locate_batch(f.locator, q, QUERIES, 2, &options, at, &to_centroid, NULL), MW_OK);
+    options.walk = MW_WALK_IMPROVED_ORTHOGONAL_VERTEX;
+    assert_int_equal(mw_locate_batch(f.locator, q, QUERIES, 2, &options, at, &to_vertex, NULL), MW_OK);
+    assert_int_equal(to_vertex.orient + to_vertex.handovers, 0);
+    assert_true(to_vertex.triangles != to_centroid.triangles);
+    assert_true(to_vertex.triangles_final > 3 * QUERIES); /* long, for the legs end far from q */
+    for (int i = 0; i < QUERIES; i += 40) {
+        location_answer want = truth(&f, q + 2 * i);
+        compare(&at[i], &want, q + 2 * i, options.walk, 0);
+    }
+    free(points);
+    free(q);
+    free(at);
+    field_free(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_directions),      cmocka_unit_test(test_vertices_on_the_lines),
-        cmocka_unit_test(test_outside),         cmocka_unit_test(test_askew_hulls),
-        cmocka_unit_test(test_wild_magnitudes), cmocka_unit_test(test_smallest_doubles),
-        cmocka_unit_test(test_counts),          cmocka_unit_test(test_improved_walk_is_not_rounded),
+        cmocka_unit_test(test_directions),       cmocka_unit_test(test_vertices_on_the_lines),
+        cmocka_unit_test(test_outside),          cmocka_unit_test(test_askew_hulls),
+        cmocka_unit_test(test_wild_magnitudes),  cmocka_unit_test(test_smallest_doubles),
+        cmocka_unit_test(test_counts),           cmocka_unit_test(test_improved_walk_is_not_rounded),
+        cmocka_unit_test(test_leaves_at_vertex),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

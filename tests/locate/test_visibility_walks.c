@@ -1,4 +1,4 @@
-/* test_visibility_walks.c - what is special about the fast stochastic, barycentric and direct walks: what they count,
+/* test_visibility_walks.c - what is special about the fast stochastic, forgetful, barycentric and direct walks: what they count,
  * the way they take, and that rounding leads none of them round in a cycle. */
 #include <stdarg.h>
 #include <stddef.h>
@@ -113,17 +113,59 @@ static void test_fast_saves_tests(void **state)
     mw_query_options options = {.walk = MW_WALK_STOCHASTIC, .start = MW_START_RANDOM, .seed = 4};
     mw_counters slow = count(locator, options, q, QUERIES);
     options.walk = MW_WALK_FAST_STOCHASTIC;
+    options.finish = MW_WALK_STOCHASTIC;
     mw_counters fast = count(locator, options, q, QUERIES);
     options.steps = 5;
     mw_counters five = count(locator, options, q, QUERIES);
-    double per_slow = (double)slow.orient / (double)slow.triangles,
-           per_fast = (double)fast.orient / (double)fast.triangles;
+    uint64_t slow_tests = slow.orient, fast_tests = fast.orient + fast.orient_final;
+    double per_slow = (double)slow_tests / (double)slow.triangles_visited,
+           per_fast = (double)fast_tests / (double)fast.triangles_visited;
     assert_true(per_slow > 1.2 && per_fast < 1.1);
-    assert_true(fast.orient < five.orient && five.orient < slow.orient);
-    assert_true((double)fast.triangles < 1.05 * (double)slow.triangles);
+    assert_true(fast_tests < five.orient + five.orient_final && five.orient + five.orient_final < slow_tests);
+    assert_true((double)fast.triangles_visited < 1.05 * (double)slow.triangles_visited);
+    assert_in_range(five.orient, 5 * QUERIES * 99 / 100, 5 * QUERIES); /* one test a step, but where the hull ends it */
     assert_int_equal(fast.cycles + fast.handovers, 0);
+    options.steps = 0;
+    options.finish = MW_WALK_REMEMBERING;
+    mw_counters remembering = count(locator, options, q, QUERIES);
+    assert_true(remembering.orient == fast.orient && remembering.orient_final != fast.orient_final);
+    options.finish = MW_WALK_AUTO; /* on a Delaunay mesh that one [thesis App. E, sec. 5.3] */
+    mw_counters by_itself = count(locator, options, q, QUERIES);
+    assert_memory_equal(&by_itself, &remembering, sizeof remembering);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
+}
+
+/* The walk without memory goes about as far as the one that remembers, and tests more; on a mesh that traps walks
+ * without coins both end by themselves. */
+static void test_forgetful(void **state)
+{
+    (void)state;
+    enum { N = 60, QUERIES = 2000 };
+    uint64_t random = 3;
+    mw_mesh *mesh = jittered(N, &random);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+    double q[2 * QUERIES];
+    for (int i = 0; i < 2 * QUERIES; i++) q[i] = 1 + (N - 2) * random_unit(&random);
+    mw_query_options options = {.walk = MW_WALK_STOCHASTIC, .start = MW_START_RANDOM, .seed = 4};
+    mw_counters remembering = count(locator, options, q, QUERIES);
+    options.walk = MW_WALK_FORGETFUL;
+    mw_counters forgetful = count(locator, options, q, QUERIES);
+    double longer = (double)forgetful.triangles / (double)remembering.triangles;
+    assert_true(longer > 0.97 && longer < 1.03);
+    assert_true((double)forgetful.orient > 1.2 * (double)remembering.orient);
+    assert_int_equal(forgetful.cycles + forgetful.handovers + forgetful.triangles_final, 0);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays trap = arrays_trap();
+    mesh = arrays_mesh(&trap, (mw_mesh_options){0});
+    locator = mesh_locator(mesh, (mw_locator_options){0});
+    const double inside[2] = {.551665, .106155};
+    for (options.seed = 0; options.seed < 200; options.seed++)
+        assert_int_equal(count(locator, options, inside, 1).cycles, 0);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&trap);
 }
 
 /* One step, so many that the walk goes round q for long, and the estimate: the same answers, outside too. */
@@ -429,7 +471,7 @@ int main(void)
         cmocka_unit_test(test_steps_and_fuel),     cmocka_unit_test(test_no_cycles_by_rounding),
         cmocka_unit_test(test_sure_in_needles),    cmocka_unit_test(test_sure_by_stored_areas),
         cmocka_unit_test(test_sure_in_sums),       cmocka_unit_test(test_stored_areas),
-        cmocka_unit_test(test_any_mesh),
+        cmocka_unit_test(test_any_mesh),           cmocka_unit_test(test_forgetful),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

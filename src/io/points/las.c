@@ -89,11 +89,33 @@ static double las_value(const las_reader *l, const unsigned char *record, las_co
     return NAN;
 }
 
+/* Whether the points of the file have the value. */
+static bool las_has_column(const las_reader *l, las_column which)
+{
+    const las_layout *at = &layouts[l->format];
+    return which < TIME || (which == TIME ? at->time > 0 : at->colour > 0);
+}
+
+/* Keep all values of a point as the row of a table. */
+static mw_status las_keep_row(mw_point_reader *reader, const unsigned char *record, mw_error *error)
+{
+    const las_reader *l = reader->state;
+    char row[32 * COLUMN_COUNT];
+    size_t size = 0;
+    if (!reader->table) return MW_OK;
+    for (las_column c = X; c < COLUMN_COUNT; c++) {
+        if (!las_has_column(l, c)) continue;
+        if (size > 0) row[size++] = ',';
+        size += mw_format_double(las_value(l, record, c), row + size);
+    }
+    return mw__row_texts_add(&reader->rows, row, size, ',', error);
+}
+
 static mw_status las_read_points(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
                                  mw_error *error)
 {
     las_reader *l = reader->state;
-    while (*count < capacity && l->done < l->count) {
+    while (*count < capacity && l->done < l->count && reader->rows.size < MW_ROW_TEXTS_LIMIT) {
         const char *next;
         const unsigned char *record;
         size_t have;
@@ -106,6 +128,8 @@ static mw_status las_read_points(mw_point_reader *reader, double *values, size_t
         if (status) return status;
         l->done++;
         if (l->filtered && !l->classes[(unsigned)las_value(l, record, CLASSIFICATION)]) continue;
+        status = las_keep_row(reader, record, error);
+        if (status) return status;
         double *point = values + *count * reader->width;
         for (size_t i = 0; i < reader->width; i++) point[i] = las_value(l, record, (las_column)l->columns[i]);
         ++*count;
@@ -207,7 +231,34 @@ static mw_status las_select_columns(mw_point_reader *reader, las_reader *l, cons
                             item);
         taken[found] = true;
         l->columns[reader->width] = (uint8_t)found;
-        mw_status status = mw__point_reader_add(reader, column_names[found], error);
+        size_t place = mw__table_header_find(&reader->header, item, length);
+        mw_status status = mw__point_reader_add(reader, column_names[found], place, error);
+        if (status) return status;
+    }
+    return MW_OK;
+}
+
+/* The columns of the table: those that the point format has. */
+static mw_status las_name_table(mw_point_reader *reader, const las_reader *l, mw_error *error)
+{
+    mw_table_header *header = &reader->header;
+    header->names = mw__calloc(COLUMN_COUNT, sizeof *header->names);
+    if (!header->names) return mw__fail_memory(error);
+    for (las_column c = X; c < COLUMN_COUNT; c++) {
+        if (!las_has_column(l, c)) continue;
+        header->names[header->count] = strdup(column_names[c]);
+        if (!header->names[header->count++]) return mw__fail_memory(error);
+    }
+    return mw__table_header_commas(header, ' ', error);
+}
+
+static mw_status las_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error)
+{
+    las_reader *l = reader->state;
+    for (size_t k = 0; k < count; k++) {
+        const char *name = reader->header.names[columns[k]];
+        l->columns[k] = (uint8_t)las_find_column(name, strlen(name));
+        mw_status status = mw__point_reader_add(reader, name, columns[k], error);
         if (status) return status;
     }
     return MW_OK;
@@ -220,8 +271,11 @@ mw_status mw__las_start(mw_point_reader *reader, const mw_point_reader_options *
     if (!l) return mw__fail_memory(error);
     reader->state = l;
     reader->read = las_read_points;
+    reader->select = las_select;
     memcpy(l->classes, options->classes, sizeof l->classes);
     for (size_t c = 0; c < sizeof l->classes; c++) l->filtered |= l->classes[c] != 0;
     mw_status status = las_read_header(&reader->source, l, error);
-    return status ? status : las_select_columns(reader, l, options->columns, error);
+    if (!status) status = las_name_table(reader, l, error);
+    if (status || (reader->table && !options->columns)) return status;
+    return las_select_columns(reader, l, options->columns, error);
 }

@@ -45,6 +45,9 @@ mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options
         return mw__fail_memory(error);
     }
     reader->source = source;
+    reader->table = options && options->table;
+    reader->separator = ',';
+    reader->decimal = '.';
     mw_status status = point_reader_start(reader, options ? options : &none, error);
     if (status)
         mw_point_reader_close(reader);
@@ -74,9 +77,16 @@ const char *mw_point_reader_column(const mw_point_reader *reader, size_t column)
     return column < reader->width ? reader->names[column] : NULL;
 }
 
+size_t mw_point_reader_place(const mw_point_reader *reader, size_t column)
+{
+    return column < reader->width ? reader->places[column] : SIZE_MAX;
+}
+
 mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error)
 {
     *count = 0;
+    reader->begun = true;
+    mw__row_texts_clear(&reader->rows);
     return reader->read(reader, values, capacity, count, error);
 }
 
@@ -85,12 +95,50 @@ double mw_point_reader_fraction(const mw_point_reader *reader)
     return mw__source_fraction(&reader->source);
 }
 
+mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table, mw_error *error)
+{
+    if (!reader || !table) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_table: NULL");
+    const mw_table_header *header = &reader->header;
+    *table = (mw_point_table){.names = (const char *const *)header->names,
+                              .header = header->text,
+                              .column_count = header->count,
+                              .separator = reader->separator,
+                              .decimal = reader->decimal};
+    return MW_OK;
+}
+
+mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error)
+{
+    if (!reader || !columns) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: NULL");
+    if (!reader->table || reader->begun || count < 2)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: %s",
+                        !reader->table  ? "the reader does not keep its table"
+                        : reader->begun ? "reading has begun"
+                                        : "two columns are needed at least");
+    for (size_t k = 0; k < count; k++) {
+        if (columns[k] >= reader->header.count)
+            return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: no column %zu", columns[k]);
+        for (size_t i = 0; i < k; i++)
+            if (columns[i] == columns[k])
+                return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: column %zu twice", columns[k]);
+    }
+    mw__point_reader_clear(reader);
+    return reader->select(reader, columns, count, error);
+}
+
+const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length)
+{
+    *length = 0;
+    return reader->table && row < reader->rows.count ? mw__row_texts_at(&reader->rows, row, length) : NULL;
+}
+
 void mw_point_reader_close(mw_point_reader *reader)
 {
     if (!reader) return;
     mw__source_close(&reader->source);
-    for (size_t i = 0; i < reader->width; i++) free(reader->names[i]);
-    free(reader->names);
+    mw__point_reader_clear(reader);
+    mw__table_header_release(&reader->header);
+    mw__row_texts_release(&reader->rows);
     free(reader->state);
     free(reader);
 }

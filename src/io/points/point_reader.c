@@ -1,10 +1,15 @@
 /* What the readers of points share. */
 #include "io/points/point_reader.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, mw_error *error)
+mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place, mw_error *error)
 {
+    size_t *places = mw__realloc(reader->places, reader->width + 1, sizeof *places);
+    if (!places) return mw__fail_memory(error);
+    reader->places = places;
+    places[reader->width] = place;
     char **names = mw__realloc(reader->names, reader->width + 1, sizeof *names);
     if (!names) return mw__fail_memory(error);
     reader->names = names;
@@ -12,6 +17,16 @@ mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, mw_err
     if (!names[reader->width]) return mw__fail_memory(error);
     reader->width++;
     return MW_OK;
+}
+
+void mw__point_reader_clear(mw_point_reader *reader)
+{
+    for (size_t i = 0; i < reader->width; i++) free(reader->names[i]);
+    free(reader->names);
+    free(reader->places);
+    reader->names = NULL;
+    reader->places = NULL;
+    reader->width = 0;
 }
 
 const char *mw__selection_item(const char **rest, size_t *length)

@@ -2,6 +2,8 @@
 #ifndef MW_SRC_IO_POINTS_POINT_READER_H
 #define MW_SRC_IO_POINTS_POINT_READER_H
 
+#include "io/points/row_texts.h"
+#include "io/points/table_header.h"
 #include "io/text/byte_source.h"
 
 #include <meshwalk/io.h>
@@ -9,13 +11,24 @@
 struct mw_point_reader {
     mw_source source;
     size_t width;
-    char **names; /* one per value */
+    char **names;   /* one per value */
+    size_t *places; /* of each value: the column of the file */
     mw_status (*read)(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error);
-    void *state; /* of that reader; released with free */
+    /* Choose the columns to read. They exist, each once; no column is chosen yet. */
+    mw_status (*select)(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error);
+    void *state;            /* of that reader; released with free */
+    mw_table_header header; /* all columns of the file */
+    char separator;         /* of the rows' texts */
+    char decimal;           /* '.' or ',' */
+    bool table, begun;      /* keeps the rows' texts; has read something */
+    mw_row_texts rows;      /* of the block read last */
 };
 
-/* Add a column to the reader. */
-mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, mw_error *error);
+/* Add a column to the reader: its name, and which column of the file it is. */
+mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place, mw_error *error);
+
+/* Remove all columns from the reader. */
+void mw__point_reader_clear(mw_point_reader *reader);
 
 /* The next item of a selection "x,y,3", without blanks around it, its length in *length; NULL
  * after the last. *rest begins as the selection. */

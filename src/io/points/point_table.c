@@ -23,21 +23,22 @@ typedef struct point_table {
     uint16_t slot[];         /* for each column: its position among the values, or UNUSED */
 } point_table;
 
-static mw_status table_take_column(mw_point_reader *reader, point_table *t, const mw_table_header *c, size_t column,
-                                   mw_error *error)
+static mw_status table_take_column(mw_point_reader *reader, size_t column, mw_error *error)
 {
     static const char *const letters[] = {"x", "y", "z"};
+    point_table *t = reader->state;
+    const mw_table_header *c = &reader->header;
     char number[32];
     snprintf(number, sizeof number, "c%zu", reader->width + 1);
     const char *name = c->names && *c->names[column] ? c->names[column] : NULL;
     if (!name) name = !c->names && reader->width < 3 ? letters[reader->width] : number;
     t->slot[column] = (uint16_t)reader->width;
-    return mw__point_reader_add(reader, name, error);
+    return mw__point_reader_add(reader, name, column, error);
 }
 
-static mw_status table_no_such_column(mw_point_reader *reader, const mw_table_header *c, const char *item,
-                                      size_t length, mw_error *error)
+static mw_status table_no_such_column(mw_point_reader *reader, const char *item, size_t length, mw_error *error)
 {
+    const mw_table_header *c = &reader->header;
     char known[160] = "";
     size_t used = 0;
     for (size_t i = 0; c->names && i < c->count && used < sizeof known; i++)
@@ -46,48 +47,72 @@ static mw_status table_no_such_column(mw_point_reader *reader, const mw_table_he
                            item, c->count, known);
 }
 
-/* The columns that the caller names, by name or by number. */
-static mw_status table_select_named(mw_point_reader *reader, point_table *t, const mw_table_header *c,
-                                    const char *selection, mw_error *error)
+/* The column that the caller names, by name or by number. */
+static mw_status table_find_column(mw_point_reader *reader, const char *item, size_t length, size_t *column,
+                                   mw_error *error)
 {
-    size_t length;
+    const mw_table_header *c = &reader->header;
+    *column = mw__table_header_find(c, item, length);
+    for (size_t i = *column + 1; c->names && i < c->count; i++)
+        if (strlen(c->names[i]) == length && strncasecmp(c->names[i], item, length) == 0)
+            return mw__source_fail(&reader->source, error, "columns %zu and %zu are both called '%.*s': use a number",
+                                   *column + 1, i + 1, length < 60 ? (int)length : 60, item);
+    if (*column < c->count) return MW_OK;
+    int64_t number;
+    const char *end = mw__read_integer(item, &number);
+    if (end != item + length || number < 1 || (uint64_t)number > c->count)
+        return table_no_such_column(reader, item, length, error);
+    *column = (size_t)number - 1;
+    return MW_OK;
+}
+
+static mw_status table_select_named(mw_point_reader *reader, const char *selection, mw_error *error)
+{
+    const point_table *t = reader->state;
+    size_t length, column;
     const char *rest = selection;
     for (const char *item; (item = mw__selection_item(&rest, &length));) {
-        size_t column = mw__table_header_find(c, item, length);
-        if (column == c->count) {
-            int64_t number;
-            const char *end = mw__read_integer(item, &number);
-            if (end != item + length || number < 1 || (uint64_t)number > c->count)
-                return table_no_such_column(reader, c, item, length, error);
-            column = (size_t)number - 1;
-        }
+        mw_status status = table_find_column(reader, item, length, &column, error);
+        if (status) return status;
         if (t->slot[column] != UNUSED)
             return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': '%.*s' is selected twice", selection,
                             length < 60 ? (int)length : 60, item);
-        mw_status status = table_take_column(reader, t, c, column, error);
+        status = table_take_column(reader, column, error);
         if (status) return status;
     }
     return MW_OK;
 }
 
 /* All columns with numbers, those that the header calls x, y, z first. */
-static mw_status table_select_numbers(mw_point_reader *reader, point_table *t, const mw_table_header *c,
-                                      mw_error *error)
+static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
 {
+    const mw_table_header *c = &reader->header;
+    const point_table *t = reader->state;
     size_t found[3];
     if (mw__table_header_coordinates(c, found))
         for (int k = 0; k < 3; k++) {
-            mw_status status = found[k] < c->count ? table_take_column(reader, t, c, found[k], error) : MW_OK;
+            mw_status status = found[k] < c->count ? table_take_column(reader, found[k], error) : MW_OK;
             if (status) return status;
         }
     for (size_t i = 0; i < c->count; i++) {
-        mw_status status = c->numbers[i] && t->slot[i] == UNUSED ? table_take_column(reader, t, c, i, error) : MW_OK;
+        mw_status status = c->numbers[i] && t->slot[i] == UNUSED ? table_take_column(reader, i, error) : MW_OK;
         if (status) return status;
     }
     if (reader->width >= 2) return MW_OK;
     return mw__source_fail_at(&reader->source, (uint64_t)reader->source.line + 1, error,
                               "%zu column%s of numbers; a point needs two", reader->width,
                               reader->width == 1 ? "" : "s");
+}
+
+static mw_status table_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error)
+{
+    point_table *t = reader->state;
+    for (size_t i = 0; i < t->columns; i++) t->slot[i] = UNUSED;
+    for (size_t k = 0; k < count; k++) {
+        mw_status status = table_take_column(reader, columns[k], error);
+        if (status) return status;
+    }
+    return MW_OK;
 }
 
 /* A row that was refused: say why. `row` may have got points for its decimal commas. */
@@ -105,23 +130,13 @@ static mw_status table_explain_row(mw_point_reader *reader, const char *row, mw_
     bool more = true;
     for (size_t i = 0; mw__delimited_cell(&row, t->separator, &more, &cell); i++) {
         if (t->slot[i] == UNUSED || mw__cell_is_number(cell, t->separator)) continue;
-        if (cell.length == 0 && t->separator != ' ') continue;
+        if (mw__cell_is_missing(cell) && (cell.length > 0 || t->separator != ' ')) continue;
         bool comma = mw__cell_is_number(cell, ';');
         return mw__source_fail(&reader->source, error, "column %zu: '%s' is not a number%s", i + 1,
                                mw__excerpt_of(cell.text, cell.length).text,
                                comma ? " (for decimal commas separate the columns by semicolons or tabs)" : "");
     }
     return mw__source_fail(&reader->source, error, "this is no row of numbers");
-}
-
-/* The end of a cell that is not read. */
-static char *table_skip_cell(char *p, char separator)
-{
-    const char *rest = p;
-    bool more = true;
-    mw_text_cell cell;
-    mw__delimited_cell(&rest, separator, &more, &cell);
-    return p + (rest - p) - (more ? 1 : 0);
 }
 
 static MW_INLINE char *table_skip_gap(char *p, char separator)
@@ -150,27 +165,39 @@ static MW_INLINE char *table_read_value(point_table *t, char *p, double *value)
     return end ? p + (end - p) : NULL;
 }
 
-/* Read the values of a row; false if something is wrong with it. An empty cell is a missing
- * value, NaN. */
+/* A cell that holds no number, but says that the value is missing. Returns its end; NULL if it says
+ * something else. */
+static char *table_read_missing(const point_table *t, char *p, double *value)
+{
+    mw_text_cell cell;
+    const char *row = p, *end = mw__delimited_skip(p, t->separator);
+    bool more = true;
+    if (!mw__delimited_cell(&row, t->separator, &more, &cell) || !mw__cell_is_missing(cell)) return NULL;
+    if (cell.length == 0 && t->separator == ' ') return NULL;
+    *value = NAN;
+    return p + (end - p);
+}
+
+/* Read the cell that begins at p, behind the gap. Returns its end, or NULL if it is no number. */
+static MW_INLINE char *table_read_cell(point_table *t, char *p, double *value)
+{
+    bool quoted = *p == '"';
+    char *end = table_read_value(t, p + quoted, value);
+    if (MW_UNLIKELY(!end)) return t->point && t->comma ? NULL : table_read_missing(t, p, value);
+    if (!quoted) return end;
+    return *end == '"' ? end + 1 : NULL;
+}
+
+/* Read the values of a row; false if something is wrong with it. */
 static bool table_parse_row(point_table *t, char *p, double *values)
 {
     for (size_t i = 0; i < t->columns; i++) {
         p = table_skip_gap(p, t->separator);
-        if (t->slot[i] != UNUSED) {
-            bool quoted = *p == '"';
-            if (quoted && p[1] == '"') p += 2, quoted = false;
-            char *end = table_read_value(t, p + quoted, &values[t->slot[i]]);
-            if (end) {
-                if (quoted && *end++ != '"') return false;
-                p = end;
-            } else {
-                if (t->separator == ' ' || (*p && *p != t->separator)) return false;
-                values[t->slot[i]] = NAN;
-            }
-        } else {
-            if (t->separator == ' ' && !*p) return false;
-            p = table_skip_cell(p, t->separator);
-        }
+        if (t->separator == ' ' && !*p) return false;
+        if (t->slot[i] == UNUSED)
+            p += mw__delimited_skip(p, t->separator) - p;
+        else if (!(p = table_read_cell(t, p, &values[t->slot[i]])))
+            return false;
         char *after = table_skip_gap(p, t->separator);
         if (i + 1 < t->columns) {
             if (t->separator == ' ' ? after == p : *after != t->separator) return false;
@@ -179,6 +206,14 @@ static bool table_parse_row(point_table *t, char *p, double *values)
         p = after;
     }
     return *p == 0;
+}
+
+/* Keep the text of a row before it is read: reading may change its decimal commas. */
+static mw_status table_keep_row(mw_point_reader *reader, const char *row, mw_error *error)
+{
+    if (!reader->table) return MW_OK;
+    const point_table *t = reader->state;
+    return mw__row_texts_add(&reader->rows, row, reader->source.line_length, t->separator, error);
 }
 
 static mw_status table_check_count(const mw_point_reader *reader, const point_table *t, mw_error *error)
@@ -192,16 +227,19 @@ static mw_status table_read_rows(mw_point_reader *reader, double *values, size_t
                                  mw_error *error)
 {
     point_table *t = reader->state;
-    while (*count < capacity) {
+    while (*count < capacity && reader->rows.size < MW_ROW_TEXTS_LIMIT) {
         char *row;
-        mw_status status = mw__table_row(&reader->source, &row, error);
+        mw_status status = mw__table_row(&reader->source, t->separator, &row, error);
         if (status) return status;
-        if (!row) return table_check_count(reader, t, error);
+        if (!row) break;
+        status = table_keep_row(reader, row, error);
+        if (status) return status;
         t->done++;
         if (!table_parse_row(t, row, values + *count * reader->width)) return table_explain_row(reader, row, error);
         ++*count;
     }
-    return MW_OK;
+    if (t->comma) reader->decimal = ',';
+    return *count < capacity && reader->rows.size < MW_ROW_TEXTS_LIMIT ? table_check_count(reader, t, error) : MW_OK;
 }
 
 /* Nothing to read: the columns are those selected, or x and y. */
@@ -212,38 +250,45 @@ static mw_status table_name_empty(mw_point_reader *reader, const char *selection
     for (const char *item; (item = mw__selection_item(&rest, &length));) {
         char name[64];
         snprintf(name, sizeof name, "%.*s", length < 63 ? (int)length : 63, item);
-        mw_status status = mw__point_reader_add(reader, name, error);
+        mw_status status = mw__point_reader_add(reader, name, reader->width, error);
         if (status) return status;
     }
     return MW_OK;
 }
 
+/* Which columns are read from the beginning on. A table may leave it open. */
+static mw_status table_select_first(mw_point_reader *reader, const char *selection, mw_error *error)
+{
+    if (reader->header.count == 0) return table_name_empty(reader, selection, error);
+    if (selection) return table_select_named(reader, selection, error);
+    return reader->table ? MW_OK : table_select_numbers(reader, error);
+}
+
+static mw_status table_make(mw_point_reader *reader, char separator, mw_error *error)
+{
+    size_t columns = reader->header.count;
+    point_table *t = mw__alloc(1, sizeof *t + columns * sizeof *t->slot);
+    if (!t) return mw__fail_memory(error);
+    *t = (point_table){.separator = separator,
+                       .header = reader->header.names != NULL,
+                       .columns = columns,
+                       .expected = reader->header.expected};
+    for (size_t i = 0; i < columns; i++) t->slot[i] = UNUSED;
+    reader->state = t;
+    reader->read = table_read_rows;
+    reader->select = table_select;
+    reader->separator = separator == ' ' ? ',' : separator;
+    return MW_OK;
+}
+
 mw_status mw__point_table_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
 {
-    mw_table_header c = {.expected = UINT64_MAX};
     char separator = ' ';
+    reader->header = (mw_table_header){.expected = UINT64_MAX};
     bool node = mw__path_ends(reader->source.path, ".node");
-    mw_status status = node ? mw__table_header_of_node(&reader->source, &c, error)
-                            : mw__table_header_detect(&reader->source, &c, &separator, error);
-    point_table *t = status ? NULL : mw__alloc(1, sizeof *t + c.count * sizeof *t->slot);
-    if (!status && !t) status = mw__fail_memory(error);
-    if (!status) {
-        t->separator = separator;
-        t->header = c.names != NULL;
-        t->columns = c.count;
-        t->point = t->comma = false;
-        t->expected = c.expected;
-        t->done = 0;
-        for (size_t i = 0; i < c.count; i++) t->slot[i] = UNUSED;
-        reader->state = t;
-        reader->read = table_read_rows;
-        if (c.count == 0)
-            status = table_name_empty(reader, options->columns, error);
-        else if (options->columns)
-            status = table_select_named(reader, t, &c, options->columns, error);
-        else
-            status = table_select_numbers(reader, t, &c, error);
-    }
-    mw__table_header_release(&c);
-    return status;
+    mw_status status = node ? mw__table_header_of_node(&reader->source, &reader->header, error)
+                            : mw__table_header_detect(&reader->source, &reader->header, &separator, error);
+    if (!status && reader->table) status = mw__table_header_commas(&reader->header, separator, error);
+    if (!status) status = table_make(reader, separator, error);
+    return status ? status : table_select_first(reader, options->columns, error);
 }

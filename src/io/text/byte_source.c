@@ -311,8 +311,10 @@ static char *source_find_line_end(mw_source *source, size_t from)
     return carriage ? carriage : newline;
 }
 
-/* Hand out the line that ends before `stop`; its end takes up `stop_bytes` bytes there. */
-static mw_status source_take_line(mw_source *source, char *stop, size_t stop_bytes, char **line, mw_error *error)
+/* Hand out the line that ends before `stop`; its end takes up `stop_bytes` bytes there. The first
+ * `checked` bytes hold no NUL. */
+static mw_status source_take_line(mw_source *source, char *stop, size_t stop_bytes, size_t checked, char **line,
+                                  mw_error *error)
 {
     char *begin = source->buffer + source->begin;
     source->line_begin = source->begin;
@@ -321,8 +323,9 @@ static mw_status source_take_line(mw_source *source, char *stop, size_t stop_byt
     source->line_stop = *stop;
     *stop = 0;
     source->line++;
+    source->line_count = 1;
     source_advance(source, source->line_bytes);
-    if (memchr(begin, 0, source->line_length))
+    if (memchr(begin + checked, 0, source->line_length - checked))
         return mw__source_fail(source, error, "a NUL byte: this is no text file, or not the kind it was taken for");
     *line = begin;
     return MW_OK;
@@ -340,11 +343,12 @@ static mw_status source_skip_byte_order_mark(mw_source *source, mw_error *error)
     return MW_OK;
 }
 
-mw_status mw__source_line(mw_source *source, char **line, mw_error *error)
+/* Hand out the line that begins at source->begin and ends behind its first `kept` bytes; NULL if
+ * no more than those is left. */
+static mw_status source_read_line(mw_source *source, size_t kept, char **line, mw_error *error)
 {
-    *line = NULL;
-    mw_status status = source->line == 0 ? source_skip_byte_order_mark(source, error) : MW_OK;
-    size_t searched = 0; /* bytes after begin that hold no line end */
+    size_t searched = kept; /* bytes after begin that hold no line end, or one that is passed over */
+    mw_status status = MW_OK;
     while (!status) {
         char *stop = source_find_line_end(source, source->begin + searched);
         size_t length = stop ? (size_t)(stop - source->buffer) - source->begin : source->end - source->begin;
@@ -354,25 +358,48 @@ mw_status mw__source_line(mw_source *source, char **line, mw_error *error)
         /* a CR at the end of the buffer may belong to an LF behind it */
         if (stop && (*stop == '\n' || stop + 1 < source->buffer + source->end || source->ended)) {
             bool pair = *stop == '\r' && stop + 1 < source->buffer + source->end && stop[1] == '\n';
-            return source_take_line(source, stop, pair ? 2 : 1, line, error);
+            return source_take_line(source, stop, pair ? 2 : 1, kept, line, error);
         }
         if (source->ended && source->damage)
             return mw__source_fail_at(source, (uint64_t)source->line + 1, error, "%s", source->damage);
-        if (source->ended && length == 0) return MW_OK;
-        if (source->ended) return source_take_line(source, source->buffer + source->end, 0, line, error);
+        if (source->ended && length <= kept) return MW_OK;
+        if (source->ended) return source_take_line(source, source->buffer + source->end, 0, kept, line, error);
         searched = length;
         status = source_fill(source, error);
     }
     return status;
 }
 
-void mw__source_unread_line(mw_source *source)
+mw_status mw__source_line(mw_source *source, char **line, mw_error *error)
+{
+    *line = NULL;
+    mw_status status = source->line == 0 ? source_skip_byte_order_mark(source, error) : MW_OK;
+    return status ? status : source_read_line(source, 0, line, error);
+}
+
+/* Put the bytes of the line read last back before those that are not read yet. */
+static void source_restore_line(mw_source *source)
 {
     source->buffer[source->line_begin + source->line_length] = source->line_stop;
     source->begin = source->line_begin;
     source->offset -= source->line_bytes;
-    source->line--;
     source->no_newline_below = 0;
+}
+
+mw_status mw__source_join_line(mw_source *source, char **line, mw_error *error)
+{
+    *line = NULL;
+    int64_t joined = source->line_count;
+    source_restore_line(source);
+    mw_status status = source_read_line(source, source->line_bytes, line, error);
+    source->line_count += joined;
+    return status;
+}
+
+void mw__source_unread_line(mw_source *source)
+{
+    source_restore_line(source);
+    source->line -= source->line_count;
 }
 
 mw_status mw__source_content_line(mw_source *source, char **line, mw_error *error)

@@ -25,8 +25,9 @@ typedef struct mw_source {
     size_t memory_left;
     char *buffer; /* capacity + 1 bytes, so that the last line can be ended too */
     size_t capacity, begin, end;
-    uint64_t offset; /* of buffer[begin] in the contents */
-    int64_t line;    /* number of the line handed out last; 0 before the first */
+    uint64_t offset;    /* of buffer[begin] in the contents */
+    int64_t line;       /* number of the line handed out last; 0 before the first */
+    int64_t line_count; /* lines that this one was joined from */
     /* Where that line stood in the buffer, its length with its end and without it, and the
      * character replaced by NUL. */
     size_t line_begin;
@@ -73,6 +74,10 @@ mw_status mw__source_check_end(mw_source *source, uint64_t count, const char *wh
  * end of the input. A UTF-8 byte order mark before the first line is skipped. Lines with NUL
  * bytes, lines longer than MW_LINE_LIMIT and UTF-16 are errors. The line may be written to. */
 mw_status mw__source_line(mw_source *source, char **line, mw_error *error);
+/* Join the next line to the one read last, which must not have been altered: *line is both, with the
+ * line end between them, and may have moved; NULL at the end of the input, where the line read last
+ * is lost. */
+mw_status mw__source_join_line(mw_source *source, char **line, mw_error *error);
 /* Give the line read last back, unchanged; nothing else may have been read since, and it must
  * not have been altered. */
 void mw__source_unread_line(mw_source *source);

@@ -2,6 +2,7 @@
 #include "io/text/number_text.h"
 
 #include <string.h>
+#include <strings.h>
 
 static bool char_is_gap(char c, char separator)
 {
@@ -14,18 +15,48 @@ static void cell_trim(mw_text_cell *cell, char separator)
     while (cell->length > 0 && char_is_gap(cell->text[cell->length - 1], separator)) cell->length--;
 }
 
+static bool char_separates(char c, char separator)
+{
+    return separator == ' ' ? char_is_gap(c, separator) : c == separator;
+}
+
+bool mw__delimited_is_open(const char *row, char separator, bool open)
+{
+    bool begins = !open;
+    for (const char *p = row; *p; p++) {
+        if (open && *p == '"' && p[1] == '"') {
+            p++;
+        } else if (open) {
+            open = *p != '"';
+        } else if (begins && *p == '"') {
+            open = true;
+            begins = false;
+        } else {
+            begins = char_separates(*p, separator) || (begins && char_is_gap(*p, separator));
+        }
+    }
+    return open;
+}
+
+const char *mw__delimited_quote_end(const char *quote)
+{
+    for (const char *p = quote + 1; *p; p++) {
+        if (*p != '"') continue;
+        if (p[1] != '"') return p + 1;
+        p++;
+    }
+    return quote + strlen(quote);
+}
+
 bool mw__delimited_cell(const char **row, char separator, bool *more, mw_text_cell *cell)
 {
     const char *p = *row;
     if (separator == ' ')
         while (char_is_gap(*p, separator)) p++;
     if (!*more || (separator == ' ' && !*p)) return false;
+    while (char_is_gap(*p, separator)) p++;
     const char *begin = p;
-    bool quoted = false;
-    for (; *p; p++) {
-        if (*p == '"') quoted = !quoted;
-        if (!quoted && (separator == ' ' ? char_is_gap(*p, separator) : *p == separator)) break;
-    }
+    p = mw__delimited_skip(p, separator);
     *cell = (mw_text_cell){begin, (size_t)(p - begin)};
     cell_trim(cell, separator);
     if (cell->length >= 2 && cell->text[0] == '"' && cell->text[cell->length - 1] == '"') {
@@ -69,6 +100,14 @@ bool mw__delimited_is_header(const char *row, char separator)
     return any;
 }
 
+bool mw__cell_is_missing(mw_text_cell cell)
+{
+    static const char *const words[] = {"", "-", "na", "n/a", "nan", "null"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == cell.length && strncasecmp(words[i], cell.text, cell.length) == 0) return true;
+    return false;
+}
+
 /* Are there two cells at least, parted by blanks, that all look like 1,5 (with a comma behind,
  * perhaps)? */
 static bool row_has_decimal_commas(const char *row)
@@ -103,12 +142,26 @@ static bool row_has_tab_separators(const char *row)
     return true;
 }
 
+/* Does the row have this character outside of quoted cells, whatever separates them? */
+static bool row_has_unquoted(const char *row, char wanted)
+{
+    char before = ',';
+    for (const char *p = row; *p; before = *p++) {
+        if (*p == '"' && strchr(";,\t ", before)) {
+            p = mw__delimited_quote_end(p);
+            if (!*p) return false;
+        }
+        if (*p == wanted) return true;
+    }
+    return false;
+}
+
 char mw__delimited_separator(const char *row, bool *decimal_comma)
 {
     *decimal_comma = false;
-    if (strchr(row, ';')) return ';';
-    if (strchr(row, '\t') && row_has_tab_separators(row)) return '\t';
-    if (strchr(row, ',')) {
+    if (row_has_unquoted(row, ';')) return ';';
+    if (row_has_unquoted(row, '\t') && row_has_tab_separators(row)) return '\t';
+    if (row_has_unquoted(row, ',')) {
         *decimal_comma = row_has_decimal_commas(row);
         return ',';
     }

@@ -1,0 +1,113 @@
+/* buffers.c - arrays of the caller, by the buffer protocol.
+ *
+ * Python has converted what users gave; here the layout is checked once more, so that no wrong call
+ * reaches the library. */
+#include "core.h"
+
+/* The letter of a native format, 0 for any other ("<i" is native on a little-endian machine, but
+ * NumPy says "i" there). */
+static char buffer_letter(const Py_buffer *view)
+{
+    const char *format = view->format ? view->format : "B";
+    return format[0] && !format[1] ? format[0] : 0;
+}
+
+int buffer_get_points(PyObject *object, size_t width, buffer_points *points)
+{
+    const Py_ssize_t size = (Py_ssize_t)sizeof(double);
+    Py_buffer *view = &points->view;
+    if (PyObject_GetBuffer(object, view, PyBUF_STRIDES | PyBUF_FORMAT)) return -1;
+    if (view->ndim != 2 || buffer_letter(view) != 'd' || view->shape[1] != (Py_ssize_t)width ||
+        (view->shape[0] > 0 && view->strides[1] != size) ||
+        (view->shape[0] > 1 &&
+         (view->strides[0] % size || view->strides[0] < size * view->shape[1]))) {
+        PyErr_Format(PyExc_ValueError, "expected rows of %zu doubles", width);
+        PyBuffer_Release(view);
+        return -1;
+    }
+    points->points = view->buf;
+    points->count = (size_t)view->shape[0];
+    points->stride = points->count > 1 ? (size_t)(view->strides[0] / size) : width;
+    return 0;
+}
+
+static int buffer_get_flat(PyObject *object, int flags, size_t size, Py_buffer *view, size_t *count)
+{
+    if (PyObject_GetBuffer(object, view, flags | PyBUF_C_CONTIGUOUS)) return -1;
+    if ((size_t)view->len % size) {
+        PyErr_Format(PyExc_ValueError, "expected members of %zu bytes", size);
+        PyBuffer_Release(view);
+        return -1;
+    }
+    *count = (size_t)view->len / size;
+    return 0;
+}
+
+int buffer_get_all(PyObject *object, size_t size, Py_buffer *view, size_t *count)
+{
+    return buffer_get_flat(object, 0, size, view, count);
+}
+
+static int buffer_get_counted(PyObject *object, int flags, size_t size, size_t count,
+                              Py_buffer *view)
+{
+    size_t there;
+    if (buffer_get_flat(object, flags, size, view, &there)) return -1;
+    if (there == count) return 0;
+    PyErr_Format(PyExc_ValueError, "expected %zu members of %zu bytes, got %zu", count, size,
+                 there);
+    PyBuffer_Release(view);
+    return -1;
+}
+
+int buffer_get_packed(PyObject *object, size_t size, size_t count, Py_buffer *view)
+{
+    return buffer_get_counted(object, 0, size, count, view);
+}
+
+int buffer_get_writable(PyObject *object, size_t size, size_t count, Py_buffer *view)
+{
+    return buffer_get_counted(object, PyBUF_WRITABLE, size, count, view);
+}
+
+/* The type of vertex numbers; -1 for none that the library takes. */
+static int buffer_integer_type(const Py_buffer *view)
+{
+    const char letter = buffer_letter(view);
+    if (view->itemsize == 4 && (letter == 'i' || letter == 'l')) return MW_INT32;
+    if (view->itemsize == 4 && (letter == 'I' || letter == 'L')) return MW_UINT32;
+    if (view->itemsize == 8 && (letter == 'l' || letter == 'q')) return MW_INT64;
+    return -1;
+}
+
+int buffer_get_mesh(PyObject *points, PyObject *triangles, size_t width, buffer_mesh *mesh)
+{
+    Py_buffer *view = &mesh->triangles;
+    int type;
+    if (buffer_get_points(points, width, &mesh->points)) return -1;
+    if (PyObject_GetBuffer(triangles, view, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT)) {
+        PyBuffer_Release(&mesh->points.view);
+        return -1;
+    }
+    type = buffer_integer_type(view);
+    if (view->ndim != 2 || view->shape[1] != 3 || type < 0) {
+        PyErr_SetString(PyExc_ValueError, "expected rows of three int32, uint32 or int64");
+        buffer_release_mesh(mesh);
+        return -1;
+    }
+    mesh->arrays = (mw_arrays){
+        .points = mesh->points.points,
+        .point_count = mesh->points.count,
+        .point_stride = mesh->points.stride,
+        .triangles = view->buf,
+        .triangle_count = (size_t)view->shape[0],
+        .integer_type = (mw_integer_type)type,
+    };
+    return 0;
+}
+
+void buffer_release_mesh(buffer_mesh *mesh)
+{
+    PyBuffer_Release(&mesh->points.view);
+    PyBuffer_Release(&mesh->triangles);
+}

@@ -1,0 +1,62 @@
+/* check.c - the defects of arrays, as tuples. */
+#include "core.h"
+
+/* A number of a defect; -1 for one that does not apply. */
+static long check_number(uint32_t number, uint32_t none)
+{
+    return number == none ? -1 : (long)number;
+}
+
+/* (kind, text, triangle, other, vertex, edge, other_edge) */
+static PyObject *check_defect_tuple(const mw_defect *defect)
+{
+    char text[256];
+    mw_defect_describe(defect, text, sizeof text);
+    return Py_BuildValue(
+        "(sslllll)", mw_defect_text(defect->kind), text, check_number(defect->triangle, MW_NONE),
+        check_number(defect->other, MW_NONE), check_number(defect->vertex, MW_NONE),
+        check_number(defect->edge, UINT8_MAX), check_number(defect->other_edge, UINT8_MAX));
+}
+
+static PyObject *check_defect_list(const mw_check *check)
+{
+    PyObject *list = PyList_New((Py_ssize_t)check->defect_count);
+    for (size_t i = 0; list && i < check->defect_count; i++) {
+        PyObject *defect = check_defect_tuple(&check->defects[i]);
+        if (!defect)
+            Py_CLEAR(list);
+        else
+            PyList_SetItem(list, (Py_ssize_t)i, defect);
+    }
+    return list;
+}
+
+/* check_arrays(points, triangles): is it an embedding, and a list of defects */
+static PyObject *check_arrays(PyObject *module, PyObject *args)
+{
+    PyObject *points, *triangles, *list;
+    buffer_mesh given;
+    mw_check check;
+    mw_error error;
+    mw_status status;
+    int valid;
+    if (!PyArg_ParseTuple(args, "OO", &points, &triangles)) return NULL;
+    if (buffer_get_mesh(points, triangles, 2, &given)) return NULL;
+    Py_BEGIN_ALLOW_THREADS status = mw_check_arrays(&given.arrays, NULL, &check, &error);
+    Py_END_ALLOW_THREADS buffer_release_mesh(&given);
+    if (status) return errors_raise(PyModule_GetState(module), &error);
+    list = check_defect_list(&check);
+    valid = check.valid;
+    mw_check_release(&check);
+    return list ? Py_BuildValue("NN", PyBool_FromLong(valid), list) : NULL;
+}
+
+static PyMethodDef check_functions[] = {
+    {"check_arrays", check_arrays, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+int check_init(PyObject *module)
+{
+    return PyModule_AddFunctions(module, check_functions);
+}

@@ -1,0 +1,100 @@
+/* core.h - what the files of the extension share: the state of the module, its objects, errors.
+ *
+ * The extension is the library as Python sees it, and nothing more: it checks that buffers have the
+ * layout that the library wants, releases the interpreter lock round each call that may take long,
+ * and turns errors into exceptions. What users see is made of it in python/meshwalk: there arrays
+ * are made and converted. So the arguments here are those of our own Python, but a wrong one never
+ * reads or writes outside of a buffer. */
+#ifndef CORE_H
+#define CORE_H
+
+#define Py_LIMITED_API 0x030B0000 /* 3.11, the first with buffers in the stable interface */
+#define PY_SSIZE_T_CLEAN
+#include <Python.h>
+
+#include <meshwalk/meshwalk.h>
+
+/* What the module owns; each object keeps a pointer to it, which its type keeps alive. */
+typedef struct core_state {
+    PyTypeObject *mesh_type, *locator_type, *location_type, *memory_type;
+    PyObject *input_error, *limit_error;
+    PyObject *where_members; /* a tuple: the members of meshwalk.Where, by their numbers */
+} core_state;
+
+typedef struct mesh_object {
+    PyObject_HEAD core_state *state;
+    mw_mesh *mesh;
+} mesh_object;
+
+/* --- errors.c: exceptions --- */
+
+/* Raise what the error says; returns NULL, for `return errors_raise(...)`. */
+PyObject *errors_raise(core_state *state, const mw_error *error);
+
+/* Find the classes of exceptions in meshwalk._errors; -1 with an exception on failure. */
+int errors_init(core_state *state);
+
+/* --- objects.c: memory of objects --- */
+
+/* A zeroed object of a class that is `type` or derived from it; NULL with an exception. */
+void *objects_new(PyObject *class, PyTypeObject *type);
+/* The end of tp_dealloc. */
+void objects_free(PyObject *object);
+/* Add a type to the module; a new reference, or NULL with an exception. */
+PyTypeObject *objects_add_type(PyObject *module, PyType_Spec *spec);
+
+/* --- buffers.c: arrays of the caller --- */
+
+/* A buffer in use: released by PyBuffer_Release. */
+typedef struct buffer_points {
+    Py_buffer view;
+    const double *points;
+    size_t count, stride; /* in doubles */
+} buffer_points;
+
+/* Rows of at least `width` doubles side by side: the buffer of a two-dimensional array. 0, or -1
+ * with an exception. */
+int buffer_get_points(PyObject *object, size_t width, buffer_points *points);
+/* `count` members of `size` bytes, without gaps. */
+int buffer_get_packed(PyObject *object, size_t size, size_t count, Py_buffer *view);
+int buffer_get_writable(PyObject *object, size_t size, size_t count, Py_buffer *view);
+/* Members in a buffer of members of `size` bytes without gaps; their number goes to *count. */
+int buffer_get_all(PyObject *object, size_t size, Py_buffer *view, size_t *count);
+
+/* Points and triangles as the library takes them. */
+typedef struct buffer_mesh {
+    buffer_points points;
+    Py_buffer triangles;
+    mw_arrays arrays;
+} buffer_mesh;
+
+/* Triangles are rows of three int32, uint32 or int64, without gaps. 0, or -1 with an exception;
+ * released by buffer_release_mesh. */
+int buffer_get_mesh(PyObject *points, PyObject *triangles, size_t width, buffer_mesh *mesh);
+void buffer_release_mesh(buffer_mesh *mesh);
+
+/* --- options.c: numbers, for "O&" --- */
+
+int option_uint32(PyObject *object, void *number);
+int option_uint64(PyObject *object, void *number);
+
+/* --- memory.c: memory of the library, as a buffer --- */
+
+/* A memoryview whose object frees the memory with free(); takes it over also on failure, which is
+ * NULL with an exception. */
+PyObject *memory_new(core_state *state, void *bytes, size_t size);
+int memory_init(PyObject *module, core_state *state);
+
+/* --- one file for each kind of object or function; init adds them to the module --- */
+
+int mesh_init(PyObject *module, core_state *state);
+/* A mesh object that takes the mesh over, also on failure. */
+PyObject *mesh_new(core_state *state, PyObject *class, mw_mesh *mesh);
+int location_init(PyObject *module, core_state *state);
+PyObject *location_new(core_state *state, const mw_location *location);
+int locator_init(PyObject *module, core_state *state);
+int check_init(PyObject *module);
+int triangulation_init(PyObject *module);
+int files_init(PyObject *module);
+
+#endif

@@ -1,0 +1,181 @@
+/* files.c - meshes in files, read and written. */
+#include "core.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* An array of the file as memory, which is no longer the file's. */
+static PyObject *file_take(core_state *state, void **array, size_t size)
+{
+    void *bytes = *array;
+    *array = NULL;
+    return memory_new(state, bytes, size);
+}
+
+/* {name: memory} */
+static PyObject *file_take_fields(core_state *state, mw_mesh_file *file)
+{
+    PyObject *fields = PyDict_New();
+    for (size_t i = 0; fields && i < file->field_count; i++) {
+        PyObject *name = PyUnicode_DecodeUTF8(
+            file->field_names[i], (Py_ssize_t)strlen(file->field_names[i]), "surrogateescape");
+        PyObject *values =
+            name ? file_take(state, (void **)&file->fields[i], file->point_count * sizeof(double))
+                 : NULL;
+        if (!values || PyDict_SetItem(fields, name, values)) Py_CLEAR(fields);
+        Py_XDECREF(values);
+        Py_XDECREF(name);
+    }
+    return fields;
+}
+
+/* (points, triangles, has_z, fields, welded) */
+static PyObject *file_take_all(core_state *state, mw_mesh_file *file)
+{
+    PyObject *fields = file_take_fields(state, file);
+    PyObject *points =
+        file_take(state, (void **)&file->points, 3 * file->point_count * sizeof(double));
+    PyObject *triangles =
+        file_take(state, (void **)&file->triangles, 3 * file->triangle_count * sizeof(uint32_t));
+    PyObject *result = fields && points && triangles
+                           ? Py_BuildValue("OOiOn", points, triangles, file->has_z, fields,
+                                           (Py_ssize_t)file->welded)
+                           : NULL;
+    Py_XDECREF(fields);
+    Py_XDECREF(points);
+    Py_XDECREF(triangles);
+    return result;
+}
+
+/* read_mesh(path): path as bytes */
+static PyObject *file_read_mesh(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    const char *path;
+    PyObject *result;
+    mw_mesh_file file;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
+    Py_BEGIN_ALLOW_THREADS status = mw_read_mesh(path, NULL, &file, &error);
+    Py_END_ALLOW_THREADS if (status) return errors_raise(state, &error);
+    result = file_take_all(state, &file);
+    mw_mesh_file_release(&file);
+    return result;
+}
+
+/* What is to be written: the buffers of a mesh, and those of its fields. */
+typedef struct file_fields {
+    Py_buffer *views;
+    char **names;
+    double **values;
+    size_t count;
+} file_fields;
+
+static void file_release_fields(file_fields *fields)
+{
+    for (size_t i = 0; i < fields->count; i++) PyBuffer_Release(&fields->views[i]);
+    free(fields->views);
+    free(fields->names);
+    free(fields->values);
+}
+
+/* Names and buffers of a list of (bytes, array). The names are the list's. */
+static int file_get_fields(PyObject *list, size_t point_count, file_fields *fields)
+{
+    const size_t count = (size_t)PyList_Size(list);
+    fields->views = calloc(count + 1, sizeof *fields->views);
+    fields->names = calloc(count + 1, sizeof *fields->names);
+    fields->values = calloc(count + 1, sizeof *fields->values);
+    if (!fields->views || !fields->names || !fields->values) {
+        PyErr_NoMemory();
+        return -1;
+    }
+    for (size_t i = 0; i < count; i++) {
+        PyObject *values;
+        if (!PyArg_ParseTuple(PyList_GetItem(list, (Py_ssize_t)i), "yO", &fields->names[i],
+                              &values) ||
+            buffer_get_packed(values, sizeof(double), point_count, &fields->views[i]))
+            return -1;
+        fields->values[i] = fields->views[i].buf;
+        fields->count++;
+    }
+    return 0;
+}
+
+static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z,
+                            const file_fields *fields, const char *format, mw_error *error)
+{
+    const mw_mesh_file file = {
+        .points = mesh->points.view.buf,
+        .triangles = mesh->triangles.buf,
+        .point_count = mesh->points.count,
+        .triangle_count = mesh->arrays.triangle_count,
+        .has_z = has_z,
+        .field_names = fields->names,
+        .fields = fields->values,
+        .field_count = fields->count,
+    };
+    return mw_write_mesh(path, &file, format, error);
+}
+
+/* write_mesh(path, format or None, points, has_z, triangles, [(name, values)]): three doubles a
+ * vertex, without gaps */
+static PyObject *file_write_mesh(PyObject *module, PyObject *args)
+{
+    const char *path, *format;
+    int has_z;
+    PyObject *points, *triangles, *list;
+    buffer_mesh mesh;
+    file_fields fields = {0};
+    mw_error error;
+    mw_status status = MW_OK;
+    int failed;
+    if (!PyArg_ParseTuple(args, "yzOpOO!", &path, &format, &points, &has_z, &triangles,
+                          &PyList_Type, &list) ||
+        buffer_get_mesh(points, triangles, 3, &mesh))
+        return NULL;
+    failed = file_get_fields(list, mesh.points.count, &fields);
+    if (!failed && (mesh.points.stride != 3 || mesh.arrays.integer_type == MW_INT64)) {
+        PyErr_SetString(PyExc_ValueError, "expected points without gaps and triangles of 32 bits");
+        failed = -1;
+    }
+    if (!failed) {
+        Py_BEGIN_ALLOW_THREADS status = file_write(path, &mesh, has_z, &fields, format, &error);
+        Py_END_ALLOW_THREADS
+    }
+    file_release_fields(&fields);
+    buffer_release_mesh(&mesh);
+    if (failed) return NULL;
+    if (status) return errors_raise(PyModule_GetState(module), &error);
+    Py_RETURN_NONE;
+}
+
+static PyMethodDef file_functions[] = {
+    {"read_mesh", file_read_mesh, METH_VARARGS, NULL},
+    {"write_mesh", file_write_mesh, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+/* (name, ...) of the formats that write_mesh takes */
+static PyObject *file_formats(void)
+{
+    PyObject *tuple, *list = PyList_New(0);
+    const char *name;
+    for (size_t i = 0; list && (name = mw_mesh_format_name(i)); i++) {
+        PyObject *text = PyUnicode_FromString(name);
+        if (!text || PyList_Append(list, text)) Py_CLEAR(list);
+        Py_XDECREF(text);
+    }
+    tuple = list ? PyList_AsTuple(list) : NULL;
+    Py_XDECREF(list);
+    return tuple;
+}
+
+int files_init(PyObject *module)
+{
+    PyObject *formats = file_formats();
+    int failed = !formats || PyModule_AddObjectRef(module, "MESH_FORMATS", formats);
+    Py_XDECREF(formats);
+    return failed ? -1 : PyModule_AddFunctions(module, file_functions);
+}

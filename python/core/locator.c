@@ -1,0 +1,216 @@
+/* locator.c - Locator: a mw_locator as an object, which keeps its mesh alive. */
+#include "core.h"
+
+typedef struct locator_object {
+    PyObject_HEAD core_state *state;
+    PyObject *mesh;
+    mw_locator *locator;
+    mw_cursor cursor; /* of single queries: used only under the interpreter lock */
+} locator_object;
+
+/* What a query of a batch is asked with; the strings are names of walks and starts. */
+typedef struct locator_query {
+    mw_query_options options;
+    const char *walk, *start;
+} locator_query;
+
+static PyObject *locator_raise_name(const char *what, const char *name)
+{
+    return PyErr_Format(PyExc_ValueError, "there is no %s '%s'", what, name);
+}
+
+static int locator_resolve_names(locator_query *query)
+{
+    mw_query_options *options = &query->options;
+    options->walk = mw_walk_by_name(query->walk);
+    options->start = mw_start_by_name(query->start);
+    if (options->walk == MW_WALK_COUNT)
+        locator_raise_name("walk", query->walk);
+    else if (options->start == MW_START_COUNT)
+        locator_raise_name("start", query->start);
+    else
+        return 0;
+    return -1;
+}
+
+static PyObject *locator_wrap(core_state *state, PyObject *class, PyObject *mesh,
+                              mw_locator *locator)
+{
+    locator_object *object = objects_new(class, state->locator_type);
+    if (!object) {
+        mw_locator_destroy(locator);
+        return NULL;
+    }
+    object->state = state;
+    object->mesh = Py_NewRef(mesh);
+    object->locator = locator;
+    return (PyObject *)object;
+}
+
+/* locator_from_mesh(cls, mesh, any, border, areas, fill, queries, threads) */
+static PyObject *locator_from_mesh(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    PyObject *class, *mesh;
+    mw_locator_options options = {0};
+    int fill;
+    mw_locator *locator;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OO!pppiO&O&", &class, state->mesh_type, &mesh, &options.any,
+                          &options.border, &options.areas, &fill, option_uint64, &options.queries,
+                          option_uint32, &options.threads))
+        return NULL;
+    options.fill = (mw_fill_mode)fill;
+    Py_BEGIN_ALLOW_THREADS status =
+        mw_locator_create(((mesh_object *)mesh)->mesh, &options, &locator, &error);
+    Py_END_ALLOW_THREADS return status ? errors_raise(state, &error)
+                                       : locator_wrap(state, class, mesh, locator);
+}
+
+static int locator_traverse(PyObject *self, visitproc visit, void *arg)
+{
+    Py_VISIT(Py_TYPE(self));
+    Py_VISIT(((locator_object *)self)->mesh);
+    return 0;
+}
+
+/* The mesh stays until the end: queries use it. Cycles are broken by the attributes of the mesh. */
+static void locator_dealloc(PyObject *self)
+{
+    locator_object *object = (locator_object *)self;
+    PyObject_GC_UnTrack(self);
+    mw_locator_destroy(object->locator);
+    Py_XDECREF(object->mesh);
+    objects_free(self);
+}
+
+/* _locate(points, out, walk, start, tolerance, lanes, threads) */
+static PyObject *locator_locate(PyObject *self, PyObject *args)
+{
+    locator_object *object = (locator_object *)self;
+    PyObject *points, *out;
+    locator_query query = {0};
+    mw_query_options *options = &query.options;
+    buffer_points given;
+    Py_buffer locations;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOssdO&O&", &points, &out, &query.walk, &query.start,
+                          &options->tolerance, option_uint32, &options->lanes, option_uint32,
+                          &options->threads) ||
+        locator_resolve_names(&query) || buffer_get_points(points, 2, &given))
+        return NULL;
+    if (buffer_get_writable(out, sizeof(mw_location), given.count, &locations)) {
+        PyBuffer_Release(&given.view);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS status =
+        mw_locate_batch(object->locator, given.points, given.count, given.stride, options,
+                        locations.buf, NULL, &error);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&locations);
+    PyBuffer_Release(&given.view);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
+PyDoc_STRVAR(locator_one_doc, "locate_one(x, y, /)\n--\n\n"
+                              "Locate one point, as fast as a call from Python can be.\n\n"
+                              "Parameters\n----------\n"
+                              "x, y : float\n    The point, in the units of the mesh.\n\n"
+                              "Returns\n-------\n"
+                              "Location\n    With the attributes `triangle`, `where`, "
+                              "`local`, `weights`, `hole`, `inside`.\n\n"
+                              "Notes\n-----\n"
+                              "The answer is that of `locate`, without a tolerance.");
+
+static PyObject *locator_locate_one(PyObject *self, PyObject *const *args, Py_ssize_t count)
+{
+    locator_object *object = (locator_object *)self;
+    mw_location location;
+    double x, y;
+    if (count != 2)
+        return PyErr_Format(PyExc_TypeError, "locate_one() takes x and y (%zd given)", count);
+    x = PyFloat_AsDouble(args[0]);
+    if (x == -1 && PyErr_Occurred()) return NULL;
+    y = PyFloat_AsDouble(args[1]);
+    if (y == -1 && PyErr_Occurred()) return NULL;
+    location = mw_locate(object->locator, &object->cursor, x, y);
+    return location_new(object->state, &location);
+}
+
+/* nearest_border(x, y): triangle, edge, distance, point, weights */
+static PyObject *locator_nearest_border(PyObject *self, PyObject *args)
+{
+    locator_object *object = (locator_object *)self;
+    double x, y;
+    mw_nearest_border_point nearest;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "dd", &x, &y)) return NULL;
+    Py_BEGIN_ALLOW_THREADS status = mw_nearest_border(object->locator, x, y, &nearest, &error);
+    Py_END_ALLOW_THREADS if (status) return errors_raise(object->state, &error);
+    return Py_BuildValue("IId(dd)(ddd)", nearest.triangle, nearest.edge, nearest.distance,
+                         nearest.point[0], nearest.point[1], nearest.weight[0], nearest.weight[1],
+                         nearest.weight[2]);
+}
+
+/* describe(): a dictionary of the members of mw_locator_info, and the promise that is void, or None */
+static PyObject *locator_describe(PyObject *self, PyObject *unused)
+{
+    const mw_locator *locator = ((locator_object *)self)->locator;
+    mw_locator_info info;
+    (void)unused;
+    mw_locator_describe(locator, &info);
+    return Py_BuildValue(
+        "{s:n,s:n,s:n,s:n,s:I,s:I,s:I,s:N,s:N,s:N,s:z}", "bytes", (Py_ssize_t)info.bytes,
+        "border_bytes", (Py_ssize_t)info.border_bytes, "area_bytes", (Py_ssize_t)info.area_bytes,
+        "fill_bytes", (Py_ssize_t)info.fill_bytes, "ghost_triangles", info.ghost_triangles, "holes",
+        info.holes, "components", info.components, "copied", PyBool_FromLong(info.copied),
+        "embedding", PyBool_FromLong(info.embedding), "unfilled", PyBool_FromLong(info.unfilled),
+        "void_promise", mw_locator_void_promise(locator));
+}
+
+static PyObject *locator_mesh(PyObject *self, void *unused)
+{
+    (void)unused;
+    return Py_NewRef(((locator_object *)self)->mesh);
+}
+
+static PyMethodDef locator_methods[] = {
+    {"_locate", locator_locate, METH_VARARGS, NULL},
+    {"locate_one", (PyCFunction)(void (*)(void))locator_locate_one, METH_FASTCALL, locator_one_doc},
+    {"_nearest_border", locator_nearest_border, METH_VARARGS, NULL},
+    {"_describe", locator_describe, METH_NOARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+static PyGetSetDef locator_members[] = {
+    {"mesh", locator_mesh, NULL, "The mesh that is searched.", NULL},
+    {NULL, NULL, NULL, NULL, NULL},
+};
+
+static PyType_Slot locator_slots[] = {
+    {Py_tp_doc, "A locator of the library."}, {Py_tp_dealloc, locator_dealloc},
+    {Py_tp_traverse, locator_traverse},       {Py_tp_methods, locator_methods},
+    {Py_tp_getset, locator_members},          {0, NULL},
+};
+
+static PyType_Spec locator_spec = {
+    .name = "meshwalk._core.Locator",
+    .basicsize = sizeof(locator_object),
+    .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC |
+             Py_TPFLAGS_DISALLOW_INSTANTIATION,
+    .slots = locator_slots,
+};
+
+static PyMethodDef locator_functions[] = {
+    {"locator_from_mesh", locator_from_mesh, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+int locator_init(PyObject *module, core_state *state)
+{
+    state->locator_type = objects_add_type(module, &locator_spec);
+    return state->locator_type ? PyModule_AddFunctions(module, locator_functions) : -1;
+}

@@ -1,0 +1,191 @@
+/* mesh.c - Mesh: a mw_mesh as an object. */
+#include "core.h"
+
+PyObject *mesh_new(core_state *state, PyObject *class, mw_mesh *mesh)
+{
+    mesh_object *object = objects_new(class, state->mesh_type);
+    if (!object) {
+        mw_mesh_destroy(mesh);
+        return NULL;
+    }
+    object->state = state;
+    object->mesh = mesh;
+    return (PyObject *)object;
+}
+
+static void mesh_dealloc(PyObject *self)
+{
+    mw_mesh_destroy(((mesh_object *)self)->mesh);
+    objects_free(self);
+}
+
+/* mesh_from_arrays(cls, points, triangles, tolerant, layout, threads) */
+static PyObject *mesh_from_arrays(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    PyObject *class, *points, *triangles;
+    mw_mesh_options options = {0};
+    int layout;
+    buffer_mesh given;
+    mw_mesh *mesh;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOOpiO&", &class, &points, &triangles, &options.tolerant, &layout,
+                          option_uint32, &options.threads))
+        return NULL;
+    options.layout = (mw_mesh_layout)layout;
+    if (buffer_get_mesh(points, triangles, 2, &given)) return NULL;
+    Py_BEGIN_ALLOW_THREADS status = mw_mesh_create(&given.arrays, &options, &mesh, &error);
+    Py_END_ALLOW_THREADS buffer_release_mesh(&given);
+    return status ? errors_raise(state, &error) : mesh_new(state, class, mesh);
+}
+
+/* copy_points(out): fill two doubles a vertex */
+static PyObject *mesh_copy_points(PyObject *self, PyObject *out)
+{
+    const mw_mesh *mesh = ((mesh_object *)self)->mesh;
+    uint32_t count = mw_mesh_vertex_count(mesh);
+    Py_buffer view;
+    if (buffer_get_writable(out, sizeof(double), 2 * (size_t)count, &view)) return NULL;
+    Py_BEGIN_ALLOW_THREADS for (uint32_t i = 0; i < count; i++)
+        mw_mesh_vertex(mesh, i, (double *)view.buf + 2 * (size_t)i);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_RETURN_NONE;
+}
+
+/* copy_triangles(out): fill three uint32 a triangle */
+static PyObject *mesh_copy_triangles(PyObject *self, PyObject *out)
+{
+    const mw_mesh *mesh = ((mesh_object *)self)->mesh;
+    uint32_t count = mw_mesh_triangle_count(mesh);
+    Py_buffer view;
+    if (buffer_get_writable(out, sizeof(uint32_t), 3 * (size_t)count, &view)) return NULL;
+    Py_BEGIN_ALLOW_THREADS for (uint32_t t = 0; t < count; t++)
+        mw_mesh_triangle(mesh, t, (uint32_t *)view.buf + 3 * (size_t)t);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_RETURN_NONE;
+}
+
+/* copy_neighbours(out): fill three uint32 a triangle */
+static PyObject *mesh_copy_neighbours(PyObject *self, PyObject *out)
+{
+    const mw_mesh *mesh = ((mesh_object *)self)->mesh;
+    uint32_t count = mw_mesh_triangle_count(mesh);
+    Py_buffer view;
+    if (buffer_get_writable(out, sizeof(uint32_t), 3 * (size_t)count, &view)) return NULL;
+    Py_BEGIN_ALLOW_THREADS for (uint32_t t = 0; t < count; t++) for (unsigned edge = 0; edge < 3;
+                                                                     edge++)(
+        (uint32_t *)view.buf)[3 * (size_t)t + edge] = mw_mesh_neighbour(mesh, t, edge, NULL);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_RETURN_NONE;
+}
+
+/* interpolate(values, locations, out): one double for each vertex, location and answer */
+static PyObject *mesh_interpolate(PyObject *self, PyObject *args)
+{
+    const mw_mesh *mesh = ((mesh_object *)self)->mesh;
+    PyObject *values, *locations, *out, *result = NULL;
+    Py_buffer value_view, location_view, out_view;
+    size_t count;
+    if (!PyArg_ParseTuple(args, "OOO", &values, &locations, &out)) return NULL;
+    if (buffer_get_packed(values, sizeof(double), mw_mesh_vertex_count(mesh), &value_view))
+        return NULL;
+    if (buffer_get_all(locations, sizeof(mw_location), &location_view, &count)) goto release_values;
+    if (buffer_get_writable(out, sizeof(double), count, &out_view)) goto release_locations;
+    Py_BEGIN_ALLOW_THREADS mw_interpolate(mesh, value_view.buf, location_view.buf, count,
+                                          out_view.buf);
+    Py_END_ALLOW_THREADS result = Py_NewRef(Py_None);
+    PyBuffer_Release(&out_view);
+release_locations:
+    PyBuffer_Release(&location_view);
+release_values:
+    PyBuffer_Release(&value_view);
+    return result;
+}
+
+static PyObject *mesh_info_dict(const mw_mesh_info *info)
+{
+    return Py_BuildValue(
+        "{s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:N,s:N,s:N,s:N,s:(dd),s:(dd),s:d}", "vertices",
+        info->vertices, "triangles", info->triangles, "unused_vertices", info->unused_vertices,
+        "flat_triangles", info->flat_triangles, "clockwise_triangles", info->clockwise_triangles,
+        "clashing_edges", info->clashing_edges, "border_edges", info->border_edges, "border_loops",
+        info->border_loops, "components", info->components, "holes", info->holes, "oriented",
+        PyBool_FromLong(info->oriented), "embedding", PyBool_FromLong(info->embedding), "convex",
+        PyBool_FromLong(info->convex), "delaunay", PyBool_FromLong(info->delaunay), "low",
+        info->low[0], info->low[1], "high", info->high[0], info->high[1], "area", info->area);
+}
+
+/* describe(): a dictionary of the members of mw_mesh_info */
+static PyObject *mesh_describe(PyObject *self, PyObject *unused)
+{
+    mesh_object *object = (mesh_object *)self;
+    mw_mesh_info info;
+    mw_error error;
+    mw_status status;
+    (void)unused;
+    Py_BEGIN_ALLOW_THREADS status = mw_mesh_describe(object->mesh, NULL, &info, &error);
+    Py_END_ALLOW_THREADS return status ? errors_raise(object->state, &error)
+                                       : mesh_info_dict(&info);
+}
+
+static PyObject *mesh_vertex_count(PyObject *self, void *unused)
+{
+    (void)unused;
+    return PyLong_FromUnsignedLong(mw_mesh_vertex_count(((mesh_object *)self)->mesh));
+}
+
+static PyObject *mesh_triangle_count(PyObject *self, void *unused)
+{
+    (void)unused;
+    return PyLong_FromUnsignedLong(mw_mesh_triangle_count(((mesh_object *)self)->mesh));
+}
+
+static PyObject *mesh_bytes(PyObject *self, void *unused)
+{
+    (void)unused;
+    return PyLong_FromSize_t(mw_mesh_bytes(((mesh_object *)self)->mesh));
+}
+
+static PyMethodDef mesh_methods[] = {
+    {"_copy_points", mesh_copy_points, METH_O, NULL},
+    {"_copy_triangles", mesh_copy_triangles, METH_O, NULL},
+    {"_copy_neighbours", mesh_copy_neighbours, METH_O, NULL},
+    {"_interpolate", mesh_interpolate, METH_VARARGS, NULL},
+    {"_describe", mesh_describe, METH_NOARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+static PyGetSetDef mesh_members[] = {
+    {"vertex_count", mesh_vertex_count, NULL, "Number of vertices.", NULL},
+    {"triangle_count", mesh_triangle_count, NULL, "Number of triangles.", NULL},
+    {"nbytes", mesh_bytes, NULL, "Memory of the library's mesh, in bytes; fields not counted.",
+     NULL},
+    {NULL, NULL, NULL, NULL, NULL},
+};
+
+static PyType_Slot mesh_slots[] = {
+    {Py_tp_doc, "A mesh of the library."},
+    {Py_tp_dealloc, mesh_dealloc},
+    {Py_tp_methods, mesh_methods},
+    {Py_tp_getset, mesh_members},
+    {0, NULL},
+};
+
+static PyType_Spec mesh_spec = {
+    .name = "meshwalk._core.Mesh",
+    .basicsize = sizeof(mesh_object),
+    .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_DISALLOW_INSTANTIATION,
+    .slots = mesh_slots,
+};
+
+static PyMethodDef mesh_functions[] = {
+    {"mesh_from_arrays", mesh_from_arrays, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+int mesh_init(PyObject *module, core_state *state)
+{
+    state->mesh_type = objects_add_type(module, &mesh_spec);
+    return state->mesh_type ? PyModule_AddFunctions(module, mesh_functions) : -1;
+}

@@ -1,0 +1,198 @@
+"""Arrays of users, as the library takes them; what cannot be taken is told with its place.
+
+Each function says when it copies. Nothing here changes a number: a conversion that would round
+one is refused.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from meshwalk._errors import LimitError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Rejected = NDArray[np.bool_]
+
+
+def _place(name: str, rejected: Rejected) -> str:
+    """``name[3, 1]``: the first place where `rejected` is true."""
+    index = np.unravel_index(int(np.argmax(rejected)), rejected.shape)
+    return f"{name}[{', '.join(str(int(i)) for i in index)}]" if rejected.ndim else name
+
+
+def _as_array(given: ArrayLike, name: str) -> NDArray[Any]:
+    try:
+        array = np.asanyarray(given)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    if isinstance(array, np.ma.MaskedArray):
+        return array
+    return np.asarray(array)
+
+
+def _no_masked(array: NDArray[Any], name: str) -> NDArray[Any]:
+    if not isinstance(array, np.ma.MaskedArray):
+        return array
+    mask = np.ma.getmaskarray(array)
+    if mask.any():
+        raise ValueError(f"{_place(name, mask)} is masked")
+    return np.asarray(array.data)
+
+
+def _masked_to_nan(array: NDArray[Any], name: str) -> NDArray[Any]:
+    if not isinstance(array, np.ma.MaskedArray):
+        return array
+    doubles = np.array(_as_doubles(np.asarray(array.data), name))
+    doubles[np.ma.getmaskarray(array)] = np.nan
+    return doubles
+
+
+def _as_doubles(array: NDArray[Any], name: str) -> NDArray[np.float64]:
+    """The same numbers as doubles: a copy unless they are doubles of this machine."""
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name} must be real numbers, not {array.dtype}")
+    if array.dtype.kind == "f" and array.dtype.itemsize <= 8:
+        return array.astype(np.float64, copy=False)
+    with np.errstate(over="ignore"):
+        doubles = array.astype(np.float64)
+    if array.dtype.itemsize >= 8:
+        changed = _rounded(array, doubles)
+        if changed.any():
+            raise ValueError(f"{_place(name, changed)} does not fit a double without rounding")
+    return doubles
+
+
+def _rounded(array: NDArray[Any], doubles: NDArray[np.float64]) -> Rejected:
+    """Which numbers are others as doubles."""
+    if array.dtype.kind == "f":
+        return np.asarray((doubles.astype(array.dtype) != array) & ~np.isnan(array))
+    # 2**63 and 2**64 are doubles, but no integers of these types: a cast of them is undefined.
+    limit = 2.0**63 if array.dtype.kind == "i" else 2.0**64
+    fits = doubles < limit
+    return np.asarray(~fits | (np.where(fits, doubles, 0).astype(array.dtype) != array))
+
+
+def _rows_apart(array: NDArray[np.float64]) -> bool:
+    """Whether the library can step over the rows of a two-dimensional array as they lie."""
+    size = array.itemsize
+    across, along = array.strides
+    return array.shape[0] <= 1 or (
+        along == size and across % size == 0 and across >= size * array.shape[1]
+    )
+
+
+def _as_rows(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same rows, so that the library can step over them: a copy where it cannot."""
+    if array.flags.aligned and (
+        array.flags.c_contiguous or (array.shape[0] > 1 and _rows_apart(array))
+    ):
+        return array
+    return np.require(array, requirements=("C", "A"))
+
+
+def vertices(
+    given: ArrayLike, name: str, widths: tuple[int, ...]
+) -> tuple[NDArray[np.float64], int]:
+    """Points of a mesh: rows of as many doubles as one of `widths`, and that width."""
+    array = _as_doubles(_no_masked(_as_array(given, name), name), name)
+    if array.ndim != 2 or array.shape[1] not in widths:
+        wanted = " or ".join(f"(n, {width})" for width in widths)
+        raise ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
+    return _as_rows(array), array.shape[1]
+
+
+def queries(given: ArrayLike, name: str, width: int) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    """Points to be located: rows of doubles, and the shape of the answers.
+
+    A point with a masked coordinate becomes NaN, which is located nowhere (``Where.BAD``).
+    """
+    array = _as_doubles(_masked_to_nan(_as_array(given, name), name), name)
+    if array.shape == (0,):
+        array = array.reshape(0, width)
+    if array.ndim == 0 or array.shape[-1] != width:
+        hint = f"; leave columns out as in {name}[..., :{width}]"
+        more = array.ndim > 0 and array.shape[-1] > width
+        raise ValueError(
+            f"{name} must have the shape (..., {width}), not {array.shape}{hint if more else ''}"
+        )
+    rows = array if array.ndim == 2 else array.reshape(-1, width)
+    return _as_rows(rows), array.shape[:-1]
+
+
+def triangles(given: ArrayLike, name: str, most: int) -> NDArray[Any]:
+    """Vertex numbers, three a row, as the library takes them.
+
+    int32, uint32 and int64 without gaps are taken as they are; others are copied.
+    """
+    array = _no_masked(_as_array(given, name), name)
+    if array.shape == (0,):
+        array = np.empty((0, 3), np.int32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be integers, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name} must have the shape (m, 3), not {array.shape}")
+    if array.shape[0] > most:
+        raise LimitError(f"{name} has {array.shape[0]} rows; at most {most} triangles are possible")
+    return np.require(array, _integer_type(array, name), ("C", "A"))
+
+
+def _integer_type(array: NDArray[Any], name: str) -> type[np.integer[Any]]:
+    """The type, of those that the library takes, that holds the numbers."""
+    if array.dtype.kind == "u" and array.dtype.itemsize == 8:
+        large = array > np.iinfo(np.int64).max
+        if large.any():
+            raise ValueError(f"{_place(name, large)} is no vertex")
+        return np.int64
+    if array.dtype.itemsize == 8:
+        return np.int64
+    return np.uint32 if array.dtype.kind == "u" and array.dtype.itemsize == 4 else np.int32
+
+
+def values(given: ArrayLike, name: str, count: int) -> NDArray[Any]:
+    """Values at vertices, of any real type, as they are: ``(count, ...)``; masked ones are NaN."""
+    array = _as_array(given, name)
+    if isinstance(array, np.ma.MaskedArray):
+        mask = np.ma.getmaskarray(array)
+        array = np.array(array.data, array.dtype if array.dtype.kind == "f" else np.float64)
+        array[mask] = np.nan
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name} must be real numbers, not {array.dtype}")
+    if array.ndim == 0 or array.shape[0] != count:
+        raise ValueError(
+            f"{name} must have a row for each of the {count} vertices; its shape is {array.shape}"
+        )
+    return array
+
+
+def field(given: ArrayLike, name: str, count: int) -> NDArray[np.float64]:
+    """Values of a field of a mesh: one double for each vertex, a copy that cannot be written."""
+    array = _as_doubles(_masked_to_nan(_as_array(given, name), name), name)
+    if array.shape != (count,):
+        raise ValueError(f"{name} must have the shape ({count},), not {array.shape}")
+    own = np.array(array, order="C")
+    own.flags.writeable = False
+    return own
+
+
+def numbers(array: NDArray[np.uint32]) -> NDArray[np.int32] | NDArray[np.int64]:
+    """Numbers of vertices or triangles as signed integers, -1 for none, without a copy."""
+    signed: NDArray[np.int32] = array.view(np.int32)
+    if array.size and int(signed.min()) < -1:  # more than 2**31 vertices
+        wide = array.astype(np.int64)
+        wide[array == np.iinfo(np.uint32).max] = -1
+        return wide
+    return signed
+
+
+def path(given: Any) -> bytes:
+    """The name of a file as the system takes it."""
+    import os
+
+    name = os.fsencode(given)
+    if b"\0" in name:
+        raise ValueError("a path has no null characters")
+    return name

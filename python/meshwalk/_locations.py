@@ -1,0 +1,183 @@
+"""Where points lie: the answers of a locator."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from meshwalk import _arrays, _core
+from meshwalk._where import Where
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from meshwalk._mesh import Mesh
+
+_MEMBERS: dict[str, Any] = {
+    "weights": (np.float64, (3,)),
+    "triangle": np.int32,
+    "hole": np.int32,
+    "where": np.uint8,
+    "local": np.uint8,
+}
+LOCATION = np.dtype(
+    {
+        "names": list(_MEMBERS),
+        "formats": list(_MEMBERS.values()),
+        "offsets": [_core.LOCATION_LAYOUT[name] for name in _MEMBERS],
+        "itemsize": _core.LOCATION_LAYOUT["itemsize"],
+    }
+)
+"""The type of one answer, as the library writes it."""
+
+
+class Locations:
+    """Where points lie: the answer of `Locator.locate`, of the shape of the points.
+
+    The attributes are views of the library's own answers: they cost nothing, and share memory.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        The mesh in which the points were located.
+    records : ndarray
+        All answers, as a structured array.
+
+    Examples
+    --------
+    >>> import meshwalk
+    >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> hit = meshwalk.Locator(mesh).locate([[3, 1], [2, 2], [5, 5]])
+    >>> hit
+    <Locations: 3 points; 1 inside, 1 edge, 1 outside>
+    >>> hit.triangle
+    array([ 0,  0, -1], dtype=int32)
+    >>> hit.inside
+    array([ True,  True, False])
+    >>> meshwalk.Where(hit.where[1])
+    <Where.EDGE: 1>
+    >>> hit.interpolate([10.0, 20.0, 30.0, 20.0])
+    array([20., 20., nan])
+    """
+
+    __slots__ = ("mesh", "records")
+
+    def __init__(self, mesh: Mesh, records: NDArray[Any]) -> None:
+        if records.dtype != LOCATION:
+            raise TypeError(f"records must be of the type that locate gives, not {records.dtype}")
+        self.mesh = mesh
+        self.records = records
+
+    @property
+    def triangle(self) -> NDArray[np.int32]:
+        """The triangle that contains each point, -1 for none.
+
+        A point on an edge or a vertex belongs to the lowest-numbered triangle that contains it.
+        """
+        return self.records["triangle"]
+
+    @property
+    def where(self) -> NDArray[np.uint8]:
+        """Where each point lies: the numbers of `Where`."""
+        return self.records["where"]
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """Weights of the three vertices of the triangle, shape (..., 3); NaN where there is none.
+
+        They are not negative, sum up to 1 but for rounding, and are exactly 0 for the vertices off
+        the edge that the point is on.
+        """
+        return self.records["weights"]
+
+    @property
+    def hole(self) -> NDArray[np.int32]:
+        """Number of the hole in which each point lies, -1 for none."""
+        return self.records["hole"]
+
+    @property
+    def local(self) -> NDArray[np.uint8]:
+        """The local edge or vertex that a point is on; 255 for none."""
+        return self.records["local"]
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """True where a triangle contains the point, its border included: a new array each time."""
+        return np.asarray(self.where <= Where.VERTEX)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the points, without their coordinates."""
+        return self.records.shape
+
+    def interpolate(self, values: ArrayLike | str) -> NDArray[Any]:
+        """Interpolate values at the vertices, linearly in each triangle.
+
+        Parameters
+        ----------
+        values : array_like, shape (n_vertices, ...), or str
+            Values at the vertices of the mesh, or the name of one of its fields. Masked values
+            count as NaN.
+
+        Returns
+        -------
+        ndarray, shape ``hit.shape + values.shape[1:]``
+            NaN where there is no triangle, and where a vertex with a weight has NaN. Float32 for
+            values of float16 and float32, which are interpolated in doubles and rounded once; else
+            float64. The values at a vertex are exactly that vertex's.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [0, 4]], [[0, 1, 2]], {"depth": [1, 5, 9]})
+        >>> hit = meshwalk.Locator(mesh).locate([[1, 1], [0, 4]])
+        >>> hit.interpolate("depth")
+        array([4., 9.])
+        >>> hit.interpolate([[0, 1], [4, 1], [0, 1]])
+        array([[1., 1.],
+               [0., 1.]])
+        """
+        if isinstance(values, str):
+            return self._interpolate_array(self._field(values))
+        return self._interpolate_array(_arrays.values(values, "values", self.mesh.vertex_count))
+
+    def _field(self, name: str) -> NDArray[np.float64]:
+        fields = self.mesh.fields
+        if name not in fields:
+            there = f"it has {', '.join(fields)}" if fields else "it has none"
+            raise KeyError(f"the mesh has no field {name!r}; {there}")
+        return fields[name]
+
+    def _interpolate_array(self, values: NDArray[Any]) -> NDArray[Any]:
+        narrow = values.dtype.kind == "f" and values.dtype.itemsize <= 4
+        columns = values.reshape(values.shape[0], -1)
+        records = np.ascontiguousarray(self.records).reshape(-1)
+        out = np.empty((records.size, columns.shape[1]), np.float32 if narrow else np.float64)
+        for k in range(columns.shape[1]):
+            column = np.empty(records.size)
+            self.mesh._interpolate(np.ascontiguousarray(columns[:, k], np.float64), records, column)
+            out[:, k] = column
+        return out.reshape(self.shape + values.shape[1:])
+
+    def __getitem__(self, index: Any) -> Locations:
+        chosen = self.records[index]
+        return Locations(self.mesh, np.asarray(chosen))
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        if copy:
+            return self.records.astype(dtype or LOCATION)
+        return self.records if dtype is None else self.records.astype(dtype, copy=False)
+
+    def __repr__(self) -> str:
+        counts = np.bincount(self.where.ravel(), minlength=len(Where))
+        kinds = ", ".join(f"{counts[w]} {w.name.lower()}" for w in Where if counts[w])
+        size = " x ".join(str(n) for n in self.shape) if self.shape else "1"
+        noun = "point" if size == "1" else "points"
+        return f"<Locations: {size} {noun}{'; ' if kinds else ''}{kinds}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Locations, (self.mesh, self.records)

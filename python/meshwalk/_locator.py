@@ -1,0 +1,239 @@
+"""Which triangle contains a point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from meshwalk import _arrays, _core
+from meshwalk._errors import InputError
+from meshwalk._locations import LOCATION, Locations
+from meshwalk._mesh import Mesh
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from numpy.typing import ArrayLike
+
+_FILLS = {"auto": 0, "yes": 1, "no": 2}
+
+
+class NearestBorder(NamedTuple):
+    """The border edge nearest to a point: the answer of `Locator.nearest_border`."""
+
+    triangle: int
+    """The triangle that has the edge; of several at the same distance the lowest."""
+    edge: int
+    """Its local edge, which joins the local vertices k and (k + 1) mod 3."""
+    distance: float
+    """In units of the mesh, rounded; 0 for a point on the border."""
+    point: tuple[float, float]
+    """The nearest point of that edge, rounded."""
+    weights: tuple[float, float, float]
+    """The same point as weights of the triangle's vertices."""
+
+
+class LocatorInfo(NamedTuple):
+    """What a locator has built beside the mesh: the answer of `Locator.describe`."""
+
+    bytes: int
+    """All memory of the locator, the mesh not counted."""
+    border_bytes: int
+    """Of it, the index of the border."""
+    area_bytes: int
+    """Of it, stored areas."""
+    fill_bytes: int
+    """Of it, the triangles that fill pockets and holes, and the copy that they are in."""
+    ghost_triangles: int
+    """Triangles that fill pockets and holes."""
+    holes: int
+    """Holes of the mesh."""
+    components: int
+    """Pieces that share no place; only where pockets and holes are open, else 1."""
+    copied: bool
+    """Walks run on a copy of the triangles."""
+    embedding: bool
+    """False only with ``any=True``."""
+    unfilled: bool
+    """Pockets and holes are not filled."""
+    void_promise: str | None
+    """Of a mesh that is no embedding: which promise does not hold."""
+
+
+class Locator(_core.Locator):
+    """Finds the triangle that contains a point: exactly, and without an index of the triangles.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Any embedding: convex or not, with holes, in pieces, Delaunay or not.
+    border : bool, optional
+        Build what `nearest_border` and a `tolerance` need.
+    any : bool, optional
+        Take also a mesh that is no embedding; `describe` says which promise is void then.
+    fill : {"auto", "yes", "no"}, optional
+        Whether pockets and holes of a mesh that is not convex are filled with triangles of the
+        locator's own, which walks can cross.
+    queries : int, optional
+        For ``fill="auto"``: about so many are to come; few do not pay for filling. 0 means many.
+    areas : bool, optional
+        Store twice the area of each triangle, for the walk ``"direct"``.
+    threads : int, optional
+        How many threads build it; 0 lets the library choose.
+
+    Raises
+    ------
+    InputError
+        The mesh has no triangle with an area, or is no embedding; the exception tells the first
+        defect, `Mesh.check` all of them.
+
+    Notes
+    -----
+    A locator keeps its mesh alive. Any number of threads may ask it at a time.
+
+    Examples
+    --------
+    >>> import meshwalk
+    >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> locator = meshwalk.Locator(mesh)
+    >>> locator.locate([[3, 1], [1, 3], [9, 9]]).triangle
+    array([ 0,  1, -1], dtype=int32)
+    >>> locator.locate_one(3, 1)
+    <Location: inside of triangle 0, weights (0.25, 0.5, 0.25)>
+    """
+
+    __slots__ = ("__weakref__", "_options")
+    _options: dict[str, Any]
+    if TYPE_CHECKING:
+        mesh: Mesh
+
+    def __new__(
+        cls,
+        mesh: Mesh,
+        border: bool = False,
+        *,
+        any: bool = False,
+        fill: Literal["auto", "yes", "no"] = "auto",
+        queries: int = 0,
+        areas: bool = False,
+        threads: int = 0,
+    ) -> Self:
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"mesh must be a meshwalk.Mesh, not {type(mesh).__name__}")
+        if fill not in _FILLS:
+            raise ValueError(f"fill must be one of {', '.join(_FILLS)}, not {fill!r}")
+        try:
+            locator = _core.locator_from_mesh(
+                cls, mesh, any, border, areas, _FILLS[fill], queries, threads
+            )
+        except InputError as error:
+            defects = mesh.check().defects
+            error.defect = next((d for d in defects if d.triangle == error.triangle), None)
+            raise
+        locator._options = {
+            "border": border,
+            "any": any,
+            "fill": fill,
+            "queries": queries,
+            "areas": areas,
+        }
+        return locator
+
+    def locate(
+        self,
+        xy: ArrayLike,
+        tolerance: float = 0,
+        hints: None = None,
+        threads: int = 0,
+        *,
+        walk: str = "auto",
+        start: str = "auto",
+        lanes: int = 0,
+    ) -> Locations:
+        """Find the triangles that contain points.
+
+        Parameters
+        ----------
+        xy : array_like, shape (..., 2)
+            The points, in the units of the mesh, of any real type that fits doubles exactly. Not
+            copied if these are doubles whose rows have no gaps within, such as
+            ``table[:, :2]``. A point that is NaN, infinite or masked is ``Where.BAD``.
+        tolerance : float, optional
+            Points outside at most so far from the mesh are ``Where.NEAR``, with the nearest
+            triangle. Needs a locator with ``border=True``.
+        hints : None
+            Not in this version.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose. The answers are the same.
+        walk, start : str, optional
+            By which walk, and from which first triangle, as on the command line (`walk_names`,
+            `start_names`). The answers are the same.
+        lanes : int, optional
+            Walks in flight at a time; 0 lets the library choose.
+
+        Returns
+        -------
+        Locations
+            Of the shape ``xy.shape[:-1]``, with the attributes `triangle`, `where`, `weights`,
+            `hole`, `inside` and the method `interpolate`.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.delaunay([[0, 0], [4, 0], [4, 4], [0, 4]])
+        >>> hit = meshwalk.Locator(mesh, border=True).locate([[2, 5], [2, 9]], tolerance=1)
+        >>> [meshwalk.Where(where).name for where in hit.where]
+        ['NEAR', 'OUTSIDE']
+        """
+        if hints is not None:
+            raise NotImplementedError("hints are not in this version")
+        points, shape = _arrays.queries(xy, "xy", 2)
+        records = np.empty(len(points), LOCATION)
+        self._locate(points, records, walk, start, tolerance, lanes, threads)
+        return Locations(self.mesh, records.reshape(shape))
+
+    def nearest_border(self, x: float, y: float) -> NearestBorder:
+        """Find the border edge nearest to a point, exactly.
+
+        Parameters
+        ----------
+        x, y : float
+            A finite point, in the units of the mesh.
+
+        Returns
+        -------
+        NearestBorder
+
+        Raises
+        ------
+        ValueError
+            The locator was made without ``border=True``, or the point is not finite.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [0, 4]], [[0, 1, 2]])
+        >>> meshwalk.Locator(mesh, border=True).nearest_border(1, -2)
+        NearestBorder(triangle=0, edge=0, distance=2.0, point=(1.0, 0.0), weights=(0.75, 0.25, 0.0))
+        """
+        return NearestBorder(*self._nearest_border(x, y))
+
+    def describe(self) -> LocatorInfo:
+        """Tell what the locator has built beside the mesh, in bytes.
+
+        Returns
+        -------
+        LocatorInfo
+        """
+        return LocatorInfo(**self._describe())
+
+    def __repr__(self) -> str:
+        return f"<Locator of {self.mesh!r}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (type(self), self.mesh, self._options)
+
+
+def _restore(cls: type[Locator], mesh: Mesh, options: dict[str, Any]) -> Locator:
+    return cls(mesh, **options)

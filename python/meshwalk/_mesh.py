@@ -1,0 +1,256 @@
+"""Triangle meshes in the plane."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from meshwalk import _arrays, _core
+from meshwalk._check import Check, check
+from meshwalk._errors import InputError
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+    from typing import Self
+
+    from numpy.typing import ArrayLike, NDArray
+
+_LAYOUTS = {"auto": 0, "hilbert": 1, "as-given": 2}
+
+
+class MeshInfo(NamedTuple):
+    """What kind of mesh it is: the answer of `Mesh.describe`.
+
+    Holes, convexity and the embedding are decided exactly.
+    """
+
+    vertices: int
+    """Number of vertices."""
+    triangles: int
+    """Number of triangles."""
+    unused_vertices: int
+    """Vertices of no triangle."""
+    flat_triangles: int
+    """Triangles without area."""
+    clockwise_triangles: int
+    """Triangles that turn clockwise."""
+    clashing_edges: int
+    """Inner edges whose two triangles are oriented differently."""
+    border_edges: int
+    """Edges of one triangle only."""
+    border_loops: int
+    """Closed chains of border edges."""
+    components: int
+    """Pieces that share no vertex."""
+    holes: int
+    """Bounded pieces of the plane without the mesh; 0 if it is no embedding."""
+    oriented: bool
+    """There are no clashing edges."""
+    embedding: bool
+    """The triangles do not overlap and meet in whole edges and vertices only."""
+    convex: bool
+    """An embedding that fills its convex hull."""
+    delaunay: bool
+    """An embedding, and no inner edge has a vertex across it in a circle."""
+    low: tuple[float, float]
+    """Least x and y of the vertices in use."""
+    high: tuple[float, float]
+    """Largest x and y of the vertices in use."""
+    area: float
+    """Sum of the triangles' areas."""
+
+
+class Mesh(_core.Mesh):
+    """A triangle mesh in the plane, with your numbering.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 2) or (n, 3)
+        x, y of each vertex, of any real type that fits doubles exactly. A third column becomes the
+        field ``"z"``. Nothing is copied on the way if these are doubles whose rows have no gaps
+        within.
+    triangles : array_like of int, shape (m, 3)
+        Vertex numbers from 0, turned either way.
+    fields : mapping of str to array_like, shape (n,), optional
+        Values at the vertices, such as heights, by name.
+    tolerant : bool, optional
+        Take also triangles with a vertex twice, vertices that are not finite, and edges of three
+        triangles. The triangles concerned are kept, but own no point.
+    layout : {"auto", "hilbert", "as-given"}, optional
+        How the mesh lies in memory. No number shows it.
+    threads : int, optional
+        How many threads build it; 0 lets the library choose.
+
+    Raises
+    ------
+    InputError
+        A triangle names a vertex that does not exist, or has a vertex twice, a coordinate is NaN or
+        infinite, or an edge belongs to three triangles. `check` lists all such places.
+    LimitError
+        More than 2**30 triangles.
+    TypeError, ValueError
+        Arrays of the wrong type or shape, or with masked members.
+
+    See Also
+    --------
+    delaunay : a mesh of points.
+    read : a mesh from a file.
+    Locator : finds the triangle of a point.
+
+    Notes
+    -----
+    The mesh keeps its own copy of the arrays: what you change in them later does not change it. A
+    mesh never changes, so any number of threads may use it. It pickles with its arrays.
+
+    Examples
+    --------
+    >>> import meshwalk
+    >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]],
+    ...                      fields={"height": [10, 20, 30, 20]})
+    >>> mesh
+    <Mesh: 4 vertices, 2 triangles, fields: height>
+    >>> mesh.triangles
+    array([[0, 1, 2],
+           [0, 2, 3]], dtype=int32)
+    """
+
+    __slots__ = ("__weakref__", "_fields", "_options")
+    _fields: dict[str, NDArray[np.float64]]
+    _options: tuple[bool, str]
+
+    def __new__(
+        cls,
+        points: ArrayLike,
+        triangles: ArrayLike,
+        fields: Mapping[str, ArrayLike] | None = None,
+        *,
+        tolerant: bool = False,
+        layout: Literal["auto", "hilbert", "as-given"] = "auto",
+        threads: int = 0,
+    ) -> Self:
+        rows, width = _arrays.vertices(points, "points", (2, 3))
+        numbers = _arrays.triangles(triangles, "triangles", _core.MAX_TRIANGLES)
+        if layout not in _LAYOUTS:
+            raise ValueError(f"layout must be one of {', '.join(_LAYOUTS)}, not {layout!r}")
+        try:
+            mesh = _core.mesh_from_arrays(
+                cls, rows[:, :2], numbers, tolerant, _LAYOUTS[layout], threads
+            )
+        except InputError as error:
+            error.defect = next(iter(check(rows, numbers).defects), None)
+            raise
+        mesh._options = (tolerant, layout)
+        mesh._set_fields(rows[:, 2] if width == 3 else None, fields)
+        return mesh
+
+    def _set_fields(
+        self, heights: NDArray[np.float64] | None, fields: Mapping[str, ArrayLike] | None
+    ) -> None:
+        given = dict(fields or {})
+        if heights is not None:
+            if "z" in given:
+                raise ValueError("z is given twice: as a field, and as the third column of points")
+            given = {"z": heights, **given}
+        self._fields = {
+            name: _arrays.field(values, f"fields[{name!r}]", self.vertex_count)
+            for name, values in given.items()
+        }
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """x, y of each vertex, shape (n, 2): a new array each time."""
+        out = np.empty((self.vertex_count, 2))
+        self._copy_points(out)
+        return out
+
+    @property
+    def triangles(self) -> NDArray[np.int32] | NDArray[np.int64]:
+        """Vertex numbers of each triangle as given, shape (m, 3): a new array each time.
+
+        Of int32, or of int64 in meshes of more than 2**31 vertices.
+        """
+        out = np.empty((self.triangle_count, 3), np.uint32)
+        self._copy_triangles(out)
+        return _arrays.numbers(out)
+
+    @property
+    def neighbours(self) -> NDArray[np.int32]:
+        """The triangle across each local edge, -1 for none, shape (m, 3): a new array each time.
+
+        Local edge k of a triangle joins its local vertices k and (k + 1) mod 3.
+        """
+        out = np.empty((self.triangle_count, 3), np.uint32)
+        self._copy_neighbours(out)
+        return out.view(np.int32)
+
+    @property
+    def fields(self) -> Mapping[str, NDArray[np.float64]]:
+        """Values at the vertices by name, which cannot be written."""
+        return MappingProxyType(self._fields)
+
+    def check(self) -> Check:
+        """Find every defect of the mesh, and decide whether it is an embedding.
+
+        Returns
+        -------
+        Check
+            With `valid` and the list `defects`. Each defect names its triangles, vertex and edges.
+
+        See Also
+        --------
+        meshwalk.check : the same for arrays that `Mesh` refuses.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> meshwalk.Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]]).check()
+        Check(valid=True, defects=[])
+        """
+        return check(self.points, self.triangles)
+
+    def describe(self) -> MeshInfo:
+        """Tell what kind of mesh it is: holes, components, convex, Delaunay, extent, area.
+
+        Returns
+        -------
+        MeshInfo
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> info = meshwalk.Mesh([[0, 0], [4, 0], [0, 2]], [[0, 1, 2]]).describe()
+        >>> info.convex, info.area
+        (True, 4.0)
+        """
+        return MeshInfo(**self._describe())
+
+    def write(self, path: str | os.PathLike[str], format: str | None = None) -> None:
+        """Write the mesh to a file, see `meshwalk.write`."""
+        from meshwalk._files import write
+
+        write(path, self, format)
+
+    def __len__(self) -> int:
+        """Number of triangles."""
+        return self.triangle_count
+
+    def __repr__(self) -> str:
+        fields = f", fields: {', '.join(self._fields)}" if self._fields else ""
+        return f"<Mesh: {self.vertex_count} vertices, {self.triangle_count} triangles{fields}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (type(self), self.points, self.triangles, self._fields, *self._options)
+
+
+def _restore(
+    cls: type[Mesh],
+    points: NDArray[np.float64],
+    triangles: NDArray[Any],
+    fields: Mapping[str, NDArray[np.float64]],
+    tolerant: bool,
+    layout: Literal["auto", "hilbert", "as-given"],
+) -> Mesh:
+    return cls(points, triangles, fields, tolerant=tolerant, layout=layout)

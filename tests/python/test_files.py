@@ -1,0 +1,70 @@
+"""Files: what is written is read, and faulty ones are told with their place."""
+
+from __future__ import annotations
+
+import gzip
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ring_arrays
+
+import meshwalk
+
+
+@pytest.mark.parametrize("ending", ["off", "ply", "obj", "node"])
+def test_round_trip(tmp_path: Path, ending: str, random: np.random.Generator) -> None:
+    _, triangles = ring_arrays()
+    mesh = meshwalk.Mesh(random.uniform(size=(8, 2)), triangles, {"z": random.uniform(size=8)})
+    path = tmp_path / f"mesh.{ending}"
+    mesh.write(path)
+    again = meshwalk.read(path)
+    np.testing.assert_array_equal(again.points, mesh.points)
+    np.testing.assert_array_equal(again.triangles, mesh.triangles)
+    np.testing.assert_array_equal(again.fields["z"], mesh.fields["z"])
+
+
+def test_fields_and_formats(tmp_path: Path) -> None:
+    mesh = meshwalk.Mesh(*ring_arrays(), {"z": np.arange(8), "depth": np.arange(8) / 3})
+    for number, name in enumerate(meshwalk.mesh_formats):
+        meshwalk.write(tmp_path / f"{number}.{name}", mesh, name)
+    again = meshwalk.read(str(tmp_path / "2.ply-ascii"))
+    assert list(again.fields) == ["z", "depth"]
+    np.testing.assert_array_equal(again.fields["depth"], mesh.fields["depth"])
+    with pytest.raises(ValueError, match="xyz"):
+        mesh.write(tmp_path / "mesh.xyz")
+
+
+def test_without_heights_and_gzipped(tmp_path: Path) -> None:
+    path = tmp_path / "mesh.off"
+    meshwalk.Mesh(*ring_arrays()).write(path)
+    (tmp_path / "mesh.off.gz").write_bytes(gzip.compress(path.read_bytes()))
+    assert len(meshwalk.read(tmp_path / "mesh.off.gz")) == 8
+
+
+def test_faulty_files(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"none\.off"):
+        meshwalk.read(tmp_path / "none.off")
+    path = tmp_path / "mesh.off"
+    path.write_text("OFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n")
+    with pytest.raises(meshwalk.InputError, match=r"mesh\.off:4:") as raised:
+        meshwalk.read(path)
+    assert raised.value.line == 4
+    path.write_text("OFF\n3 1 0\n0 0 0\n1 0 nan\n0 nan 0\n3 0 1 2\n")
+    with pytest.raises(meshwalk.InputError) as raised:
+        meshwalk.read(path)
+    assert raised.value.vertex == 2
+    with pytest.raises(OSError, match="no such folder"):
+        meshwalk.Mesh(*ring_arrays()).write(tmp_path / "no such folder" / "mesh.off")
+    with pytest.raises(ValueError, match="null"):
+        meshwalk.read("mesh\0.off")
+    with pytest.raises(TypeError):
+        meshwalk.read(3)  # type: ignore[arg-type]
+
+
+def test_names_that_are_no_text(tmp_path: Path) -> None:
+    path = tmp_path / "m\udce9sh.off"
+    meshwalk.Mesh(*ring_arrays()).write(path)
+    assert len(meshwalk.read(path)) == 8
+    with pytest.raises(OSError, match=r"n\\xe9none\.off"):
+        meshwalk.read(tmp_path / "n\udce9none.off")

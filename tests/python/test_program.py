@@ -1,0 +1,84 @@
+"""The module and the program have one answer, bit for bit; the pages of the module are true."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import meshwalk
+
+
+def _program(program: str, *arguments: object) -> str:
+    command = [program, *map(str, arguments)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def test_the_terrain(data: Path, program: str, tmp_path: Path, random: np.random.Generator) -> None:
+    table = np.loadtxt(data / "jacksboro.csv", delimiter=",", skiprows=1)
+    mesh = meshwalk.delaunay(table)
+    by_program = tmp_path / "terrain.ply"
+    _program(program, "triangulate", data / "jacksboro.csv", "-o", by_program)
+    np.testing.assert_array_equal(meshwalk.read(by_program).triangles, mesh.triangles)
+
+    low, high = table[:, :2].min(0), table[:, :2].max(0)
+    xy = random.uniform(low - 100, high + 100, (2000, 2))
+    np.savetxt(tmp_path / "xy.csv", xy, "%.17g", ",", header="x,y", comments="")
+    hit = meshwalk.Locator(mesh).locate(xy)
+    answers = _program(program, "sample", by_program, tmp_path / "xy.csv").splitlines()
+    column = answers[0].split(",").index("z")
+    heights = [float(line.split(",")[column] or "nan") for line in answers[1:]]
+    np.testing.assert_array_equal(hit.interpolate("z"), heights)
+
+    answers = _program(program, "locate", by_program, tmp_path / "xy.csv").splitlines()
+    column = answers[0].split(",").index("triangle")
+    triangles = [int(line.split(",")[column] or -1) for line in answers[1:]]
+    np.testing.assert_array_equal(hit.triangle, triangles)
+
+
+@pytest.mark.parametrize("page", ["README.md", "python/README.md"])
+def test_pages(page: str, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = (data.parent / page).read_text()
+    blocks = re.findall(r"^```python\n(.*?)^```(?:\n+```output\n(.*?)^```)?", text, re.S | re.M)
+    assert blocks
+    monkeypatch.chdir(data.parent)
+    for block, expected in blocks:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(compile(block, page, "exec"), {})
+        if expected:
+            assert printed.getvalue() == expected
+
+
+def test_import_is_quick() -> None:
+    """At most 30 ms more than NumPy alone: not timed here, but nothing large may be imported."""
+    command = """
+import numpy, sys
+before = set(sys.modules)
+import meshwalk
+print(*(set(sys.modules) - before))
+"""
+    more = _program(sys.executable, "-c", command).split()
+    others = [name for name in more if not name.startswith("meshwalk")]
+    assert len(others) < 5, others
+
+
+def test_the_extension_uses_the_limited_interface_only() -> None:
+    from meshwalk import _core
+
+    assert _core.__file__.endswith("_core.abi3.so")
+    assert meshwalk.__version__ == _core.version
+
+
+def test_where_is_that_of_the_library(square: meshwalk.Mesh) -> None:
+    """The repr of a location is written by the library."""
+    locator = meshwalk.Locator(square)
+    for x, y in ((3, 1), (2, 0), (0, 0), (9, 9)):
+        location = locator.locate_one(x, y)
+        assert location.where.name.lower() in repr(location)
