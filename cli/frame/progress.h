@@ -19,6 +19,10 @@ void progress_phase(const char *doing, const char *what);
 void progress_points(uint64_t done, double fraction);
 void progress_lines(uint64_t done, double fraction);
 
+/* The calls of the library that follow do the part from..to of this phase, as fractions; -1: not
+ * known. A phase begins with 0..1, of each call. */
+void progress_part(double from, double to);
+
 /* For calls of the library: shows their stage and their fraction, and cancels them when a signal
  * asks the program to end. Never NULL. */
 const mw_progress *progress_of_call(void);

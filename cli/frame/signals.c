@@ -105,3 +105,8 @@ bool signals_have_come(void)
 {
     return atomic_load(&come);
 }
+
+void signals_await_end(void)
+{
+    for (;;) pause();
+}

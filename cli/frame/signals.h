@@ -30,4 +30,7 @@ void signals_hold(bool hold);
 /* Has a signal asked the program to end? It will end as soon as signals are not held. */
 bool signals_have_come(void);
 
+/* Wait for that end, after a call of the library was cancelled for it. */
+_Noreturn void signals_await_end(void);
+
 #endif

@@ -132,8 +132,10 @@ static int pipeline_choose_decimal(query_pipeline *p)
 static int pipeline_read_block(query_pipeline *p, size_t *count)
 {
     mw_error error;
+    double before = mw_point_reader_fraction(p->reader);
     if (mw_point_reader_read(p->reader, p->values, QUERY_BLOCK_SIZE, count, &error) != MW_OK)
         return fail_reading(&error);
+    progress_part(before, mw_point_reader_fraction(p->reader));
     return *count > 0 ? pipeline_choose_decimal(p) : 0;
 }
 

@@ -116,7 +116,7 @@ static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z
         .fields = fields->values,
         .field_count = fields->count,
     };
-    return mw_write_mesh(path, &file, format, error);
+    return mw_write_mesh(path, &file, format, NULL, error);
 }
 
 /* write_mesh(path, format or None, points, has_z, triangles, [(name, values)]): three doubles a

@@ -360,14 +360,15 @@ static uint64_t editor_sum(const mw_editor *editor)
 
 static mw_status editor_edit(mw_editor *editor, const call_inputs *in, uint64_t *sum, mw_error *error)
 {
-    enum { POINTS = 200 };
-    double more[2 * POINTS];
+    enum { MOST = 200 };
+    double more[2 * MOST];
+    uint32_t n = in->point_count - 1 < MOST ? in->point_count - 1 : MOST;
     mw_mesh *mesh = NULL;
     mw_index_options layers = {0};
     const mw_index *index;
     uint64_t before = editor_sum(editor);
-    for (uint32_t i = 0; i < 2 * POINTS; i++) more[i] = 0.5 * (in->points[i] + in->points[i + 2]);
-    mw_status status = mw_edit_insert_points(editor, more, POINTS, 2, NULL, NULL, error);
+    for (uint32_t i = 0; i < 2 * n; i++) more[i] = 0.5 * (in->points[i] + in->points[i + 2]);
+    mw_status status = mw_edit_insert_points(editor, more, n, 2, NULL, NULL, error);
     expect(!status || before == editor_sum(editor), "the editor has changed");
     if (!status) status = mw_editor_index(editor, MW_START_LAYERS, &layers, &index, error);
     if (!status) before = editor_sum(editor), status = mw_editor_compact(editor, NULL, NULL, error);
