@@ -11,7 +11,7 @@ _meshwalk_options() {
         info | check) echo "--as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details $query $stream $common" ;;
-        sample) echo "--field --outside --status $query $stream $common" ;;
+        sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
@@ -66,6 +66,8 @@ _meshwalk_names() {
         --descent) echo 'auto nearest coordinate' ;;
         --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
+        --missing) echo 'empty nearest' ;;
+        --nodata) echo none ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;

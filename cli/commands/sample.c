@@ -1,6 +1,7 @@
 /* sample - the value the mesh has at each point. */
 #include "cli/commands/commands.h"
 #include "cli/frame/message.h"
+#include "cli/input/nodata.h"
 #include "cli/output/csv_row.h"
 #include "cli/stream/point_query.h"
 
@@ -9,11 +10,12 @@
 #include <string.h>
 
 enum { OUTSIDE_EMPTY = 0, OUTSIDE_NEAREST, OUTSIDE_LINEAR };
+enum { MISSING_EMPTY = 0, MISSING_NEAREST };
 
 typedef struct sample_settings {
     point_query_settings query;
-    const char *field;
-    int outside;
+    const char *field, *nodata;
+    int outside, missing;
     bool status;
 } sample_settings;
 
@@ -28,22 +30,54 @@ static const char *outside_help(int i)
 }
 static const choices outside_choices = {"way of --outside", outside_name, outside_help};
 
+static const char *missing_name(int i)
+{
+    return (const char *[]){"empty", "nearest", NULL}[i];
+}
+static const char *missing_help(int i)
+{
+    return (const char *[]){"no value", "the value of the nearest of the other corners"}[i];
+}
+static const choices missing_choices = {"way of --missing", missing_name, missing_help};
+
 static const option sample_options[] = {
     {"field", 0, OPTION_TEXT, offsetof(sample_settings, field), "NAME",
      "the value to sample: z or a field of MESH (default: z)", NULL},
     {"outside", 0, OPTION_CHOICE, offsetof(sample_settings, outside), "NAME",
      "what a point outside the mesh gets (default: empty):", &outside_choices},
+    {"missing", 0, OPTION_CHOICE, offsetof(sample_settings, missing), "NAME",
+     "what a point gets where a corner of its triangle has no value (default: empty):", &missing_choices},
+    {"nodata", 0, OPTION_TEXT, offsetof(sample_settings, nodata), "V",
+     "vertices with the value V have none, as those with NaN; none: all others have one (default: -99999)", NULL},
     {"status", 0, OPTION_FLAG, offsetof(sample_settings, status), NULL,
-     "add the column status: inside, edge, vertex, outside, hole, near or bad", NULL},
+     "add the column status: inside, edge, vertex, outside, hole, near or bad; or missing, where a corner has no value",
+     NULL},
     {0},
 };
 
 /* What the rows are made from. */
 typedef struct sampled_field {
-    const double *values; /* one for each vertex */
-    int outside;
+    const double *values; /* one for each vertex; NaN where it is missing */
+    int outside, missing;
     bool status;
 } sampled_field;
+
+/* The value of the nearest corner that has one; NaN if none has. */
+static double sample_nearest_corner(const point_query *q, const double *values, uint32_t triangle, const double p[2])
+{
+    uint32_t v[3];
+    double value = NAN, least = INFINITY;
+    mw_mesh_triangle(q->mesh, triangle, v);
+    for (int k = 0; k < 3; k++) {
+        double at[2];
+        mw_mesh_vertex(q->mesh, v[k], at);
+        double distance = hypot(at[0] - p[0], at[1] - p[1]);
+        if (isnan(values[v[k]]) || !(distance < least)) continue;
+        least = distance;
+        value = values[v[k]];
+    }
+    return value;
+}
 
 /* The value at the nearest point of the border. */
 static double sample_border_value(const point_query *q, const double *values, const mw_nearest_border_point *hit)
@@ -68,10 +102,13 @@ static double sample_plane_value(const point_query *q, const double *values, uin
     return values[v[0]] + wb * (values[v[1]] - values[v[0]]) + wc * (values[v[2]] - values[v[0]]);
 }
 
-static double sample_value_outside(const point_query *q, const sampled_field *s, const double point[2])
+/* The value that --outside gives. Sets *triangle to the triangle that it comes from. */
+static double sample_value_outside(const point_query *q, const sampled_field *s, const double point[2],
+                                   uint32_t *triangle)
 {
     mw_nearest_border_point hit;
     if (mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) != MW_OK) return NAN;
+    *triangle = hit.triangle;
     double value = s->outside == OUTSIDE_LINEAR ? sample_plane_value(q, s->values, hit.triangle, point) : NAN;
     return isfinite(value) ? value : sample_border_value(q, s->values, &hit);
 }
@@ -81,12 +118,15 @@ static bool sample_row(const point_query *q, const void *self, const double poin
 {
     const sampled_field *s = self;
     double value = NAN;
-    if (where->triangle != MW_NONE)
+    uint32_t triangle = where->triangle;
+    if (triangle != MW_NONE)
         mw_interpolate(q->mesh, s->values, where, 1, &value);
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
-        value = sample_value_outside(q, s, point);
+        value = sample_value_outside(q, s, point, &triangle);
+    bool missing = isnan(value) && triangle != MW_NONE;
+    if (missing && s->missing == MISSING_NEAREST) value = sample_nearest_corner(q, s->values, triangle, point);
     csv_row_double(out, !isnan(value), value);
-    if (s->status) csv_row_word(out, mw_where_name((mw_where)where->where));
+    if (s->status) csv_row_word(out, missing ? "missing" : mw_where_name((mw_where)where->where));
     return !isnan(value);
 }
 
@@ -106,11 +146,30 @@ static int sample_fail_field(const char *path, const mw_mesh_file *file, const c
     return end;
 }
 
+/* The field to sample. */
+typedef struct sample_choice {
+    const char *field;
+    nodata_rule nodata;
+    bool quiet;
+} sample_choice;
+
+static int sample_set_field(mw_mesh *mesh, const char *path, const sample_choice *choice, const double *values,
+                            size_t stride)
+{
+    mw_error error;
+    size_t count = mw_mesh_vertex_count(mesh);
+    double *copy = nodata_copy(values, stride, count, &choice->nodata, path, choice->field, choice->quiet);
+    if (!copy) return fail_memory();
+    mw_status status = mw_mesh_set_field(mesh, choice->field, copy, 1, &error);
+    free(copy);
+    return status == MW_OK ? 0 : fail_mesh(path, &error);
+}
+
 /* Copy the field to sample from the file to the mesh. */
 static int sample_load_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
 {
-    mw_error error;
-    const char *field = self;
+    const sample_choice *choice = self;
+    const char *field = choice->field;
     const double *values = NULL;
     size_t stride = 1;
     for (size_t i = 0; i < file->field_count && !values; i++)
@@ -120,7 +179,7 @@ static int sample_load_field(mw_mesh *mesh, const char *path, const mw_mesh_file
         stride = 3;
     }
     if (!values) return sample_fail_field(path, file, field);
-    return mw_mesh_set_field(mesh, field, values, stride, &error) == MW_OK ? 0 : fail_mesh(path, &error);
+    return sample_set_field(mesh, path, choice, values, stride);
 }
 
 static int sample_run(const void *settings, const char *const *operands)
@@ -129,8 +188,11 @@ static int sample_run(const void *settings, const char *const *operands)
     const char *field = s->field ? s->field : "z";
     point_query q;
     const char *const answers[] = {field, s->status ? "status" : NULL, NULL};
-    sampled_field rows = {.outside = s->outside, .status = s->status};
-    int end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field, field);
+    sampled_field rows = {.outside = s->outside, .missing = s->missing, .status = s->status};
+    sample_choice choice = {.field = field, .quiet = s->query.stream.common.quiet};
+    int end = nodata_parse(s->nodata, &choice.nodata);
+    if (end) return end;
+    end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field, &choice);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);
         end = point_query_run(&q, operands[1], answers, sample_row, &rows);

@@ -180,13 +180,15 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
 {
     const char *path = operands[0];
     mw_mesh_file file;
-    *q = (point_query){.settings = settings, .begin = monotonic_seconds()};
+    *q = (point_query){.settings = settings, .path = path, .begin = monotonic_seconds()};
     int end = files_check_output(settings->stream.common.output, operands, 2);
     if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
     if (end == 0) end = point_query_check_fill(settings);
     if (end == 0) end = files_read_mesh(path, &file);
     if (end) return end;
     bool area = files_has_area(&file);
+    extent_add(&q->extent, file.points, file.point_count, 3);
+    if (!settings->stream.common.quiet) extent_warn_of_seam(path, &q->extent, &file);
     end = point_query_make_mesh(q, path, &file, area);
     if (end == 0 && load) end = load(q->mesh, path, &file, self);
     mw_mesh_file_release(&file);
@@ -207,6 +209,7 @@ typedef struct point_query_context {
     point_query_row *row;
     const void *self;
     location_statistics statistics;
+    extent extent; /* of the points */
 } point_query_context;
 
 static int point_query_answer_block(void *self, const query_block *block, void *answers)
@@ -234,6 +237,7 @@ static int point_query_answer_block(void *self, const query_block *block, void *
                                        answers, &counters, &error);
     if (status != MW_OK) return fail_query(&error);
     location_statistics_add(&context->statistics, answers, block->count, &counters);
+    extent_add(&context->extent, block->values, block->count, block->stride);
     return 0;
 }
 
@@ -303,5 +307,11 @@ int point_query_run(const point_query *q, const char *points, const char *const 
         .report = point_query_report,
         .self = &context,
     };
-    return query_stream_run(&s, points);
+    int end = query_stream_run(&s, points);
+    const uint64_t *where = context.statistics.where;
+    bool done = end == 0 || end == END_UNANSWERED;
+    if (done && !q->settings->stream.common.quiet)
+        extent_remark(q->path, &q->extent, points, &context.extent,
+                      where[MW_INSIDE] + where[MW_ON_EDGE] + where[MW_ON_VERTEX] + where[MW_NEAR]);
+    return end;
 }

@@ -3,6 +3,7 @@
 #ifndef MW_CLI_STREAM_POINT_QUERY_H
 #define MW_CLI_STREAM_POINT_QUERY_H
 
+#include "cli/stream/extent_remark.h"
 #include "cli/stream/query_stream.h"
 
 #include <meshwalk/meshwalk.h>
@@ -31,8 +32,10 @@ typedef struct point_query {
     const point_query_settings *settings;
     mw_mesh *mesh;
     mw_locator *locator;
-    mw_index *index; /* NULL if the start has none */
-    double begin;    /* monotonic_seconds when the command began */
+    mw_index *index;  /* NULL if the start has none */
+    const char *path; /* of the mesh */
+    extent extent;    /* of its vertices */
+    double begin;     /* monotonic_seconds when the command began */
 } point_query;
 
 /* Write the answer for one point, each cell behind a comma. Returns false if there is none. `self` is

@@ -1,6 +1,8 @@
 /* check.c - the defects of arrays, as tuples. */
 #include "core.h"
 
+#include <string.h>
+
 /* A number of a defect; -1 for one that does not apply. */
 static long check_number(uint32_t number, uint32_t none)
 {
@@ -31,18 +33,39 @@ static PyObject *check_defect_list(const mw_check *check)
     return list;
 }
 
-/* check_arrays(points, triangles): is it an embedding, and a list of defects */
+/* What the arrays are to be: names of checks in Python. */
+typedef struct check_request {
+    const char *kind; /* "mesh", "surface" or "star" */
+    int weld;
+    mw_star_options star;
+} check_request;
+
+static mw_status check_run(const check_request *request, const mw_arrays *arrays, mw_check *check,
+                           mw_error *error)
+{
+    if (strcmp(request->kind, "star") == 0)
+        return mw_star_check_arrays(arrays, request->weld, &request->star, check, error);
+    if (strcmp(request->kind, "surface") == 0)
+        return mw_surface_check_arrays(arrays, request->weld, NULL, check, error);
+    return mw_check_arrays(arrays, NULL, check, error);
+}
+
+/* check_arrays(kind, points, triangles, weld, (x, y, z)): is it sound, and a list of defects */
 static PyObject *check_arrays(PyObject *module, PyObject *args)
 {
     PyObject *points, *triangles, *list;
+    check_request request = {0};
+    double *centre = request.star.centre;
     buffer_mesh given;
     mw_check check;
     mw_error error;
     mw_status status;
     int valid;
-    if (!PyArg_ParseTuple(args, "OO", &points, &triangles)) return NULL;
-    if (buffer_get_mesh(points, triangles, 2, &given)) return NULL;
-    Py_BEGIN_ALLOW_THREADS status = mw_check_arrays(&given.arrays, NULL, &check, &error);
+    if (!PyArg_ParseTuple(args, "sOOp(ddd)", &request.kind, &points, &triangles, &request.weld,
+                          &centre[0], &centre[1], &centre[2]) ||
+        buffer_get_mesh(points, triangles, strcmp(request.kind, "mesh") == 0 ? 2 : 3, &given))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS status = check_run(&request, &given.arrays, &check, &error);
     Py_END_ALLOW_THREADS buffer_release_mesh(&given);
     if (status) return errors_raise(PyModule_GetState(module), &error);
     list = check_defect_list(&check);

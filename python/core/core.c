@@ -3,14 +3,7 @@
 
 static int core_add_numbers(PyObject *module)
 {
-    PyObject *layout =
-        Py_BuildValue("{s:n,s:n,s:n,s:n,s:n,s:n}", "weights", offsetof(mw_location, weight),
-                      "triangle", offsetof(mw_location, triangle), "hole",
-                      offsetof(mw_location, hole), "where", offsetof(mw_location, where), "local",
-                      offsetof(mw_location, local), "itemsize", sizeof(mw_location));
-    int failed = !layout || PyModule_AddObjectRef(module, "LOCATION_LAYOUT", layout);
-    Py_XDECREF(layout);
-    return failed || PyModule_AddIntConstant(module, "MAX_TRIANGLES", MW_MAX_TRIANGLES) ||
+    return PyModule_AddIntConstant(module, "MAX_TRIANGLES", MW_MAX_TRIANGLES) ||
            PyModule_AddStringConstant(module, "version", mw_version());
 }
 
@@ -19,7 +12,9 @@ static int core_exec(PyObject *module)
     core_state *state = PyModule_GetState(module);
     return errors_init(state) || memory_init(module, state) || mesh_init(module, state) ||
                    location_init(module, state) || locator_init(module, state) ||
-                   check_init(module) || triangulation_init(module) || files_init(module) ||
+                   surface_init(module, state) || star_init(module, state) ||
+                   prober_init(module, state) || editor_init(module, state) || check_init(module) ||
+                   layouts_init(module) || triangulation_init(module) || files_init(module) ||
                    core_add_numbers(module)
                ? -1
                : 0;
@@ -31,6 +26,10 @@ static int core_traverse(PyObject *module, visitproc visit, void *arg)
     Py_VISIT(state->mesh_type);
     Py_VISIT(state->locator_type);
     Py_VISIT(state->location_type);
+    Py_VISIT(state->surface_type);
+    Py_VISIT(state->star_type);
+    Py_VISIT(state->prober_type);
+    Py_VISIT(state->editor_type);
     Py_VISIT(state->memory_type);
     Py_VISIT(state->input_error);
     Py_VISIT(state->limit_error);
@@ -44,6 +43,10 @@ static int core_clear(PyObject *module)
     Py_CLEAR(state->mesh_type);
     Py_CLEAR(state->locator_type);
     Py_CLEAR(state->location_type);
+    Py_CLEAR(state->surface_type);
+    Py_CLEAR(state->star_type);
+    Py_CLEAR(state->prober_type);
+    Py_CLEAR(state->editor_type);
     Py_CLEAR(state->memory_type);
     Py_CLEAR(state->input_error);
     Py_CLEAR(state->limit_error);

@@ -17,6 +17,7 @@
 /* What the module owns; each object keeps a pointer to it, which its type keeps alive. */
 typedef struct core_state {
     PyTypeObject *mesh_type, *locator_type, *location_type, *memory_type;
+    PyTypeObject *surface_type, *star_type, *prober_type, *editor_type;
     PyObject *input_error, *limit_error;
     PyObject *where_members; /* a tuple: the members of meshwalk.Where, by their numbers */
 } core_state;
@@ -25,6 +26,24 @@ typedef struct mesh_object {
     PyObject_HEAD core_state *state;
     mw_mesh *mesh;
 } mesh_object;
+
+typedef struct surface_object {
+    PyObject_HEAD core_state *state;
+    mw_surface *surface;
+} surface_object;
+
+/* What is kept beside a surface keeps it alive. */
+typedef struct star_object {
+    PyObject_HEAD core_state *state;
+    PyObject *surface;
+    mw_star *star;
+} star_object;
+
+typedef struct prober_object {
+    PyObject_HEAD core_state *state;
+    PyObject *surface;
+    mw_prober *prober;
+} prober_object;
 
 /* --- errors.c: exceptions --- */
 
@@ -93,7 +112,12 @@ PyObject *mesh_new(core_state *state, PyObject *class, mw_mesh *mesh);
 int location_init(PyObject *module, core_state *state);
 PyObject *location_new(core_state *state, const mw_location *location);
 int locator_init(PyObject *module, core_state *state);
+int surface_init(PyObject *module, core_state *state);
+int star_init(PyObject *module, core_state *state);
+int prober_init(PyObject *module, core_state *state);
+int editor_init(PyObject *module, core_state *state);
 int check_init(PyObject *module);
+int layouts_init(PyObject *module);
 int triangulation_init(PyObject *module);
 int files_init(PyObject *module);
 

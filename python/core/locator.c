@@ -155,7 +155,7 @@ static PyObject *locator_nearest_border(PyObject *self, PyObject *args)
                          nearest.weight[2]);
 }
 
-/* describe(): a dictionary of the members of mw_locator_info, and the promise that is void, or None */
+/* describe(): a dictionary of the members of mw_locator_info, and of the void promise, or None */
 static PyObject *locator_describe(PyObject *self, PyObject *unused)
 {
     const mw_locator *locator = ((locator_object *)self)->locator;

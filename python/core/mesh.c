@@ -1,6 +1,8 @@
 /* mesh.c - Mesh: a mw_mesh as an object. */
 #include "core.h"
 
+#include <string.h>
+
 PyObject *mesh_new(core_state *state, PyObject *class, mw_mesh *mesh)
 {
     mesh_object *object = objects_new(class, state->mesh_type);
@@ -103,6 +105,24 @@ release_values:
     return result;
 }
 
+/* copy_field(name as bytes, out): fill one double a vertex */
+static PyObject *mesh_copy_field(PyObject *self, PyObject *args)
+{
+    const mw_mesh *mesh = ((mesh_object *)self)->mesh;
+    const size_t count = mw_mesh_vertex_count(mesh);
+    const char *name;
+    const double *values;
+    PyObject *out;
+    Py_buffer view;
+    if (!PyArg_ParseTuple(args, "yO", &name, &out)) return NULL;
+    values = mw_mesh_field(mesh, name);
+    if (!values) return PyErr_Format(PyExc_KeyError, "no field '%s'", name);
+    if (buffer_get_writable(out, sizeof(double), count, &view)) return NULL;
+    if (count) memcpy(view.buf, values, count * sizeof(double));
+    PyBuffer_Release(&view);
+    Py_RETURN_NONE;
+}
+
 static PyObject *mesh_info_dict(const mw_mesh_info *info)
 {
     return Py_BuildValue(
@@ -151,6 +171,7 @@ static PyMethodDef mesh_methods[] = {
     {"_copy_points", mesh_copy_points, METH_O, NULL},
     {"_copy_triangles", mesh_copy_triangles, METH_O, NULL},
     {"_copy_neighbours", mesh_copy_neighbours, METH_O, NULL},
+    {"_copy_field", mesh_copy_field, METH_VARARGS, NULL},
     {"_interpolate", mesh_interpolate, METH_VARARGS, NULL},
     {"_describe", mesh_describe, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},

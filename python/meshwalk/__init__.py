@@ -15,21 +15,46 @@ Arrays of any real type are taken if doubles hold their numbers exactly. The int
 released while the library works, and objects may be used by any number of threads.
 """
 
-from meshwalk._check import Check, Defect, check
+from meshwalk._check import Check, Defect, check, check_star, check_surface
 from meshwalk._core import Location
 from meshwalk._core import version as __version__
+from meshwalk._editor import (
+    Change,
+    EdgeKind,
+    Edit,
+    EditKind,
+    Editor,
+    EditorInfo,
+    EditorLocations,
+)
 from meshwalk._errors import Error, InputError, LimitError
 from meshwalk._files import mesh_formats, read, write
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
-from meshwalk._triangulate import DuplicateWarning, delaunay
+from meshwalk._prober import NearestPoints, Prober, Touches, TouchState
+from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
+from meshwalk._surface import Surface, SurfaceInfo
+from meshwalk._triangulate import (
+    DuplicateWarning,
+    OptimumWarning,
+    constrained_delaunay,
+    delaunay,
+    triangulate,
+)
 from meshwalk._where import Where
 
 __all__ = [
+    "Change",
     "Check",
     "Defect",
     "DuplicateWarning",
+    "EdgeKind",
+    "Edit",
+    "EditKind",
+    "Editor",
+    "EditorInfo",
+    "EditorLocations",
     "Error",
     "InputError",
     "LimitError",
@@ -40,11 +65,26 @@ __all__ = [
     "Mesh",
     "MeshInfo",
     "NearestBorder",
+    "NearestPoints",
+    "OptimumWarning",
+    "Prober",
+    "Star",
+    "StarInfo",
+    "Surface",
+    "SurfaceInfo",
+    "TouchState",
+    "Touches",
     "Where",
     "__version__",
     "check",
+    "check_star",
+    "check_surface",
+    "constrained_delaunay",
     "delaunay",
+    "direction_to_lonlat",
+    "lonlat_to_direction",
     "mesh_formats",
     "read",
+    "triangulate",
     "write",
 ]

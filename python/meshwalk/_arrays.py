@@ -13,6 +13,8 @@ import numpy as np
 from meshwalk._errors import LimitError
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import ArrayLike, NDArray
 
     Rejected = NDArray[np.bool_]
@@ -140,6 +142,30 @@ def triangles(given: ArrayLike, name: str, most: int) -> NDArray[Any]:
     return np.require(array, _integer_type(array, name), ("C", "A"))
 
 
+def indices(
+    given: ArrayLike, name: str, shape: tuple[int | None, ...], count: int | None
+) -> NDArray[np.uint32]:
+    """Numbers below `count`; if that is None, of anything, and -1 is none. A copy."""
+    array = _no_masked(_as_array(given, name), name)
+    if array.shape == (0,):
+        array = np.empty((0, *(size or 0 for size in shape[1:])), np.int64)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be integers, not {array.dtype}")
+    fits = array.ndim == len(shape) and all(
+        wanted in (None, size) for wanted, size in zip(shape, array.shape, strict=True)
+    )
+    if not fits:
+        wanted = ", ".join("k" if size is None else str(size) for size in shape)
+        comma = "," if len(shape) == 1 else ""
+        raise ValueError(f"{name} must have the shape ({wanted}{comma}), not {array.shape}")
+    low, high = (-1, 2**32 - 1) if count is None else (0, count)
+    wrong = (array < low) | (array >= high)
+    if wrong.any():
+        kind = "number" if count is None else "point"
+        raise ValueError(f"{_place(name, wrong)} is no {kind}: {array[wrong][0]}")
+    return np.require(array.astype(np.int64).astype(np.uint32), requirements=("C", "A"))
+
+
 def _integer_type(array: NDArray[Any], name: str) -> type[np.integer[Any]]:
     """The type, of those that the library takes, that holds the numbers."""
     if array.dtype.kind == "u" and array.dtype.itemsize == 8:
@@ -178,6 +204,25 @@ def field(given: ArrayLike, name: str, count: int) -> NDArray[np.float64]:
     return own
 
 
+def fields(given: Mapping[str, ArrayLike] | None, count: int) -> dict[str, NDArray[np.float64]]:
+    """Fields of a mesh by name, each a copy that cannot be written."""
+    return {
+        name: field(values, f"fields[{name!r}]", count) for name, values in (given or {}).items()
+    }
+
+
+def record_type(layout: dict[str, int], members: dict[str, Any]) -> np.dtype[Any]:
+    """The type of one of the library's answers; the library tells where its members stand."""
+    return np.dtype(
+        {
+            "names": list(members),
+            "formats": list(members.values()),
+            "offsets": [layout[name] for name in members],
+            "itemsize": layout["itemsize"],
+        }
+    )
+
+
 def numbers(array: NDArray[np.uint32]) -> NDArray[np.int32] | NDArray[np.int64]:
     """Numbers of vertices or triangles as signed integers, -1 for none, without a copy."""
     signed: NDArray[np.int32] = array.view(np.int32)
@@ -186,6 +231,14 @@ def numbers(array: NDArray[np.uint32]) -> NDArray[np.int32] | NDArray[np.int64]:
         wide[array == np.iinfo(np.uint32).max] = -1
         return wide
     return signed
+
+
+def field_name(name: str) -> bytes:
+    """The name of a field as the library takes it."""
+    encoded = name.encode("utf-8", "surrogateescape")
+    if b"\0" in encoded:
+        raise ValueError("the name of a field has no null characters")
+    return encoded
 
 
 def path(given: Any) -> bytes:

@@ -80,7 +80,66 @@ def check(points: ArrayLike, triangles: ArrayLike) -> Check:
     >>> print(result.defects[0].text)
     triangle 0: triangle 1 is folded back onto it at edge 0
     """
-    rows, _ = _arrays.vertices(points, "points", (2, 3))
+    return _check("mesh", points, triangles, False, (0, 0, 0))
+
+
+def check_surface(points: ArrayLike, triangles: ArrayLike, *, weld: bool = False) -> Check:
+    """Find every defect of arrays that are to be a surface in space.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Vertices.
+    triangles : array_like of int, shape (m, 3)
+        Vertex numbers, from 0.
+    weld : bool, optional
+        Vertices with equal coordinates are one.
+
+    Returns
+    -------
+    Check
+        `valid` if there is none but flat triangles.
+    """
+    return _check("surface", points, triangles, weld, (0, 0, 0))
+
+
+def check_star(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    centre: tuple[float, float, float] = (0, 0, 0),
+    *,
+    weld: bool = False,
+) -> Check:
+    """Find every defect of arrays that are to be a polyhedron, star-shaped about a centre.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Vertices.
+    triangles : array_like of int, shape (m, 3)
+        Vertex numbers, from 0.
+    centre : tuple of float, optional
+        Where rays begin.
+    weld : bool, optional
+        Vertices with equal coordinates are one.
+
+    Returns
+    -------
+    Check
+        `valid` if `Star` takes it.
+    """
+    return _check("star", points, triangles, weld, centre)
+
+
+def _check(
+    kind: str,
+    points: ArrayLike,
+    triangles: ArrayLike,
+    weld: bool,
+    centre: tuple[float, float, float],
+) -> Check:
+    rows, _ = _arrays.vertices(points, "points", (2, 3) if kind == "mesh" else (3,))
     numbers = _arrays.triangles(triangles, "triangles", _core.MAX_TRIANGLES)
-    valid, defects = _core.check_arrays(rows[:, :2], numbers)
+    rows = rows[:, :2] if kind == "mesh" else rows
+    valid, defects = _core.check_arrays(kind, rows, numbers, weld, centre)
     return Check(valid, [Defect(*defect) for defect in defects])

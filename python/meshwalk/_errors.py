@@ -17,6 +17,8 @@ class Error(Exception):
         The triangle and the vertex concerned, numbered as yours; None where that does not apply.
     line : int or None
         The line of a text file, from 1.
+    segments : tuple of int or None
+        Two segments that cross, of `constrained_delaunay`.
     defect : Defect or None
         The defect of the mesh, where it has one.
 
@@ -29,6 +31,7 @@ class Error(Exception):
     triangle: int | None = None
     vertex: int | None = None
     line: int | None = None
+    segments: tuple[int, int] | None = None
     defect: Defect | None = None
 
 

@@ -12,6 +12,8 @@ from meshwalk._mesh import Mesh
 if TYPE_CHECKING:
     import os
 
+    from numpy.typing import NDArray
+
 mesh_formats: tuple[str, ...] = _core.MESH_FORMATS
 """Names of the formats that `write` takes."""
 
@@ -49,11 +51,19 @@ def read(path: str | os.PathLike[str]) -> Mesh:
     >>> meshwalk.read(name).fields["z"]
     array([7., 8., 9.])
     """
+    xyz, triangles, has_z, fields = read_arrays(path)
+    return Mesh(xyz if has_z else xyz[:, :2], triangles, fields)
+
+
+def read_arrays(
+    path: str | os.PathLike[str],
+) -> tuple[NDArray[np.float64], NDArray[np.uint32], bool, dict[str, NDArray[np.float64]]]:
+    """x, y, z; triangles; whether the file has z; further values at the vertices by name."""
     points, triangles, has_z, fields, _ = _read(_arrays.path(path))
-    xyz = np.frombuffer(points, np.float64).reshape(-1, 3)
-    return Mesh(
-        xyz if has_z else xyz[:, :2],
+    return (
+        np.frombuffer(points, np.float64).reshape(-1, 3),
         np.frombuffer(triangles, np.uint32).reshape(-1, 3),
+        bool(has_z),
         {name: np.frombuffer(values, np.float64) for name, values in fields.items()},
     )
 
@@ -105,6 +115,6 @@ def write(path: str | os.PathLike[str], mesh: Mesh, format: str | None = None) -
     heights = fields.pop("z", None)
     if heights is not None:
         points[:, 2] = heights
-    named = [(name.encode("utf-8", "surrogateescape"), values) for name, values in fields.items()]
+    named = [(_arrays.field_name(name), values) for name, values in fields.items()]
     triangles = mesh.triangles.astype(np.uint32, copy=False)
     _core.write_mesh(_arrays.path(path), format, points, heights is not None, triangles, named)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,35 +12,32 @@ from meshwalk._where import Where
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+    from scipy.sparse import csr_array
 
     from meshwalk._mesh import Mesh
+    from meshwalk._surface import Surface
 
-_MEMBERS: dict[str, Any] = {
-    "weights": (np.float64, (3,)),
-    "triangle": np.int32,
-    "hole": np.int32,
-    "where": np.uint8,
-    "local": np.uint8,
-}
-LOCATION = np.dtype(
+LOCATION = _arrays.record_type(
+    _core.LOCATION_LAYOUT,
     {
-        "names": list(_MEMBERS),
-        "formats": list(_MEMBERS.values()),
-        "offsets": [_core.LOCATION_LAYOUT[name] for name in _MEMBERS],
-        "itemsize": _core.LOCATION_LAYOUT["itemsize"],
-    }
+        "weights": (np.float64, (3,)),
+        "triangle": np.int32,
+        "hole": np.int32,
+        "where": np.uint8,
+        "local": np.uint8,
+    },
 )
 """The type of one answer, as the library writes it."""
 
 
 class Locations:
-    """Where points lie: the answer of `Locator.locate`, of the shape of the points.
+    """Where points lie: the answer of `Locator.locate` or `Star.locate`, of the points' shape.
 
     The attributes are views of the library's own answers: they cost nothing, and share memory.
 
     Attributes
     ----------
-    mesh : Mesh
+    mesh : Mesh or Surface
         The mesh in which the points were located.
     records : ndarray
         All answers, as a structured array.
@@ -63,7 +61,7 @@ class Locations:
 
     __slots__ = ("mesh", "records")
 
-    def __init__(self, mesh: Mesh, records: NDArray[Any]) -> None:
+    def __init__(self, mesh: Mesh | Surface, records: NDArray[Any]) -> None:
         if records.dtype != LOCATION:
             raise TypeError(f"records must be of the type that locate gives, not {records.dtype}")
         self.mesh = mesh
@@ -141,6 +139,78 @@ class Locations:
         if isinstance(values, str):
             return self._interpolate_array(self._field(values))
         return self._interpolate_array(_arrays.values(values, "values", self.mesh.vertex_count))
+
+    def operator(self) -> csr_array:
+        """The interpolation as a sparse matrix: values at the points are ``operator @ values``.
+
+        Returns
+        -------
+        scipy.sparse.csr_array, shape (number of points, n_vertices)
+            Points in the order of ``ravel``. A row holds the weights that are not 0. Rows of points
+            without a triangle are empty, so the product is 0 there, where `interpolate` gives NaN:
+            ``numpy.where(hit.inside.ravel(), operator @ values, numpy.nan)``.
+
+        Raises
+        ------
+        ImportError
+            SciPy is not installed.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [0, 4]], [[0, 1, 2]])
+        >>> hit = meshwalk.Locator(mesh).locate([[1, 1], [9, 9], [4, 0]])
+        >>> hit.operator().toarray()
+        array([[0.5 , 0.25, 0.25],
+               [0.  , 0.  , 0.  ],
+               [0.  , 1.  , 0.  ]])
+        """
+        from scipy.sparse import csr_array
+
+        weights = self.weights.reshape(-1, 3)
+        there = self.triangle.reshape(-1) >= 0
+        used = there[:, None] & (weights != 0)
+        corners = self.mesh.triangles[np.where(there, self.triangle.reshape(-1), 0)]
+        starts = np.zeros(len(weights) + 1, np.int64)
+        np.cumsum(used.sum(1), out=starts[1:])
+        shape = (len(weights), self.mesh.vertex_count)
+        return csr_array((weights[used], corners[used], starts), shape=shape)
+
+    def to_esmf(self, path: str | os.PathLike[str]) -> None:
+        """Write the weights to a netCDF file in ESMF's convention, as xESMF and uxarray read it.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file, in the 64-bit offset format of netCDF 3.
+
+        Notes
+        -----
+        The dimensions are ``n_a`` (vertices), ``n_b`` (points) and ``n_s`` (weights); the variables
+        ``row`` (point, from 1), ``col`` (vertex, from 1) and ``S`` (weight). SciPy has to be
+        installed.
+
+        Examples
+        --------
+        >>> import meshwalk, os, tempfile
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [0, 4]], [[0, 1, 2]])
+        >>> hit = meshwalk.Locator(mesh).locate([[1, 1], [4, 0]])
+        >>> hit.to_esmf(os.path.join(tempfile.mkdtemp(), "weights.nc"))
+        """
+        from scipy.io import netcdf_file
+
+        matrix = self.operator().tocoo()
+        with netcdf_file(os.fspath(path), "w", version=2) as file:
+            file.title = "linear interpolation in triangles, by meshwalk"
+            for name, size in (("n_a", matrix.shape[1]), ("n_b", matrix.shape[0])):
+                file.createDimension(name, size)
+            file.createDimension("n_s", matrix.nnz)
+            for name, kind, values in (
+                ("row", "i4", matrix.row + 1),
+                ("col", "i4", matrix.col + 1),
+                ("S", "f8", matrix.data),
+            ):
+                file.createVariable(name, kind, ("n_s",))[:] = values
 
     def _field(self, name: str) -> NDArray[np.float64]:
         fields = self.mesh.fields

@@ -117,9 +117,10 @@ class Mesh(_core.Mesh):
            [0, 2, 3]], dtype=int32)
     """
 
-    __slots__ = ("__weakref__", "_fields", "_options")
+    __slots__ = ("__weakref__", "_constraints", "_fields", "_options")
+    _constraints: tuple[NDArray[np.uint32], NDArray[np.uint32]]
     _fields: dict[str, NDArray[np.float64]]
-    _options: tuple[bool, str]
+    _options: tuple[bool, Literal["auto", "hilbert", "as-given"]]
 
     def __new__(
         cls,
@@ -142,22 +143,24 @@ class Mesh(_core.Mesh):
         except InputError as error:
             error.defect = next(iter(check(rows, numbers).defects), None)
             raise
-        mesh._options = (tolerant, layout)
         mesh._set_fields(rows[:, 2] if width == 3 else None, fields)
+        mesh._options = (tolerant, layout)
         return mesh
 
     def _set_fields(
         self, heights: NDArray[np.float64] | None, fields: Mapping[str, ArrayLike] | None
     ) -> None:
+        self._options = (False, "auto")
+        self._constraints = (np.empty((0, 2), np.uint32), np.empty(0, np.uint32))
         given = dict(fields or {})
         if heights is not None:
             if "z" in given:
                 raise ValueError("z is given twice: as a field, and as the third column of points")
             given = {"z": heights, **given}
-        self._fields = {
-            name: _arrays.field(values, f"fields[{name!r}]", self.vertex_count)
-            for name, values in given.items()
-        }
+        self._fields = _arrays.fields(given, self.vertex_count)
+
+    def _set_constraints(self, edges: NDArray[np.uint32], segments: NDArray[np.uint32]) -> None:
+        self._constraints = (edges, segments)
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -190,6 +193,19 @@ class Mesh(_core.Mesh):
     def fields(self) -> Mapping[str, NDArray[np.float64]]:
         """Values at the vertices by name, which cannot be written."""
         return MappingProxyType(self._fields)
+
+    @property
+    def constrained_edges(self) -> NDArray[np.int32] | NDArray[np.int64]:
+        """The edges that are parts of segments, shape (k, 2), of `constrained_delaunay`; or none.
+
+        Each joins two vertices, in the direction of its segment.
+        """
+        return _arrays.numbers(self._constraints[0])
+
+    @property
+    def edge_segments(self) -> NDArray[np.int32] | NDArray[np.int64]:
+        """The segment that each of the `constrained_edges` is a part of, shape (k,)."""
+        return _arrays.numbers(self._constraints[1])
 
     def check(self) -> Check:
         """Find every defect of the mesh, and decide whether it is an embedding.
@@ -242,7 +258,8 @@ class Mesh(_core.Mesh):
         return f"<Mesh: {self.vertex_count} vertices, {self.triangle_count} triangles{fields}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restore, (type(self), self.points, self.triangles, self._fields, *self._options)
+        arrays = (self.points, self.triangles, self._fields, *self._constraints)
+        return _restore, (type(self), *arrays, *self._options)
 
 
 def _restore(
@@ -250,7 +267,11 @@ def _restore(
     points: NDArray[np.float64],
     triangles: NDArray[Any],
     fields: Mapping[str, NDArray[np.float64]],
+    edges: NDArray[np.uint32],
+    edge_segments: NDArray[np.uint32],
     tolerant: bool,
     layout: Literal["auto", "hilbert", "as-given"],
 ) -> Mesh:
-    return cls(points, triangles, fields, tolerant=tolerant, layout=layout)
+    mesh = cls(points, triangles, fields, tolerant=tolerant, layout=layout)
+    mesh._set_constraints(edges, edge_segments)
+    return mesh

@@ -150,6 +150,32 @@ run_on "$points" locate --stats --json --seed 5 --walk lawson square.off -; exit
 holds "the statistics are JSON" is_json "$logs/err"
 says '"seed": 5'; says '"walk": "lawson"'; says '"triangles_per_query": [1-9]'
 
+# Most points outside: a remark compares the extents and says what it suspects.
+printf '%s\n' OFF '4 2 0' '500000 4000000 0' '501000 4000000 0' '501000 4001000 0' '500000 4001000 0' '3 0 1 2' '3 0 2 3' >utm.off
+says_remark() { exits 0; says "standard input: remark: $1 points lie outside of [a-z]+\.off: the points have x from .*; the mesh has x from .*$2\$"; }
+run_on $'-123 44\n' locate utm.off -; says_remark '1 of 1' 'to 4001000; the points look like degrees, the mesh does not'
+says 'the points have x from -123 to -123, y from 44 to 44; the mesh has x from 500000 to 501000, y from 4000000 to '
+run_on $'4000500,500500\nNA,1\n' locate utm.off -; says_remark '1 of 1' '; with x and y exchanged they would meet: --columns .*'
+run_on $'1640500,13123500\n' locate utm.off -; says_remark '1 of 1' '; they would meet if the points were in feet and the mesh in metres'
+run_on $'152500,1219300\n' locate utm.off -; says_remark '1 of 1' '; they would meet if the points were in metres and the mesh in feet'
+run_on $'500500,4000500\n' locate square.off -; says_remark '1 of 1' '; the mesh looks like degrees, the points do not'
+run_on $'500500,4000500\n-123 44\n' locate -q utm.off -; exits 3
+run_on $'-123 44\n' locate -q utm.off -; exits 0; says_nothing
+run_on $'-123 44\n' locate --strict utm.off -; exits 1; says remark
+run_on $'-123 44\n500500 4000500\n' locate utm.off -; exits 0; says_nothing
+run_on $'700000 4000000\n' locate utm.off -; exits 0; says_nothing # a few may well be somewhere else
+run_on "$(yes '700000 4000000' | head -n 10)"$'\n' locate utm.off -; says_remark '10 of 10' 'y from 4000000 to 4001000'
+printf '%s\n' OFF '3 1 0' '-150 0 0' '-140 0 0' '-145 9 0' '3 0 1 2' >west.off
+run_on "$(yes '215 1' | head -n 10)"$'\n' locate west.off -; says_remark '10 of 10' '; with 360 degrees less in x they would meet'
+printf '%s\n' OFF '3 1 0' '210 0 0' '220 0 0' '215 9 0' '3 0 1 2' >east.off
+run_on "$(yes -- '-145,1' | head -n 10)"$'\n' sample east.off -; says_remark '10 of 10' '; with 360 degrees more in x they would meet'
+run_on $'nan nan\n' locate utm.off -; exits 0; says_nothing
+# A mesh of longitudes across 180 degrees.
+awk 'BEGIN { print "OFF"; print 22, 20, 0
+    for (i = 0; i < 11; i++) for (j = 0; j < 2; j++) print (i < 10 ? 160 + 2 * i : -179), 10 + j, 0
+    for (i = 0; i < 10; i++) { print 3, 2*i, 2*i+2, 2*i+3; print 3, 2*i, 2*i+3, 2*i+1 } }' >seam.off
+run_on $'165 10.5\n' locate --any seam.off -; says "seam\.off: warning: 2 of its triangles are wider than 180 degrees: .*'meshwalk star --lonlat'"
+
 # Memory and time of what the start and the walks build; nothing where nothing is built.
 for start in grid two-level-grid layers; do
     run_on "$points" locate --stats --start $start --areas square.off -; exits 0

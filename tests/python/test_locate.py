@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -206,3 +207,28 @@ def test_types_are_not_made_by_hand(square: meshwalk.Mesh) -> None:
         meshwalk.Locator(np.zeros((3, 2)))  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="records must be of the type that locate gives"):
         meshwalk.Locations(square, np.zeros(3))
+
+
+def test_operator(scattered: meshwalk.Mesh, random: np.random.Generator) -> None:
+    xy = np.concatenate([random.uniform(-1, 12, (40, 2)), scattered.points[:10]]).reshape(5, 10, 2)
+    hit = meshwalk.Locator(scattered).locate(xy)
+    operator = hit.operator()
+    assert operator.shape == (50, scattered.vertex_count)
+    assert (operator.data != 0).all()
+    values = random.uniform(size=(scattered.vertex_count, 2))
+    product = np.where(hit.inside.ravel()[:, None], operator @ values, np.nan)
+    np.testing.assert_allclose(product.reshape(5, 10, 2), hit.interpolate(values), rtol=1e-14)
+    assert (np.diff(operator.indptr)[~hit.inside.ravel()] == 0).all()
+    assert meshwalk.Locator(scattered).locate([]).operator().shape == (0, scattered.vertex_count)
+
+
+def test_weights_in_a_file(square: meshwalk.Mesh, tmp_path: Path) -> None:
+    from scipy.io import netcdf_file
+
+    hit = meshwalk.Locator(square).locate([[3, 1], [9, 9], [4, 4]])
+    hit.to_esmf(tmp_path / "weights.nc")
+    with netcdf_file(tmp_path / "weights.nc", mmap=False) as file:
+        assert file.dimensions == {"n_a": 4, "n_b": 3, "n_s": 4}
+        assert file.variables["row"][:].tolist() == [1, 1, 1, 3]
+        assert file.variables["col"][:].tolist() == [1, 2, 3, 3]
+        assert file.variables["S"][:].tolist() == [0.25, 0.5, 0.25, 1]

@@ -82,3 +82,24 @@ def test_where_is_that_of_the_library(square: meshwalk.Mesh) -> None:
     for x, y in ((3, 1), (2, 0), (0, 0), (9, 9)):
         location = locator.locate_one(x, y)
         assert location.where.name.lower() in repr(location)
+
+
+def test_a_globe(program: str, tmp_path: Path, random: np.random.Generator) -> None:
+    from test_space import FACETS, OCTAHEDRON
+
+    points = np.array(OCTAHEDRON) * 2.0 + [10, 20, 30]
+    mesh = meshwalk.Mesh(points, FACETS)
+    mesh.write(tmp_path / "globe.off")
+    lonlat = random.uniform([-180, -90], [180, 90], (500, 2))
+    np.savetxt(tmp_path / "d.csv", lonlat, "%.17g", ",", header="lon,lat", comments="")
+    answers = _program(
+        *(program, "star", tmp_path / "globe.off", tmp_path / "d.csv"),
+        *("--lonlat", "--centre", "10,20,30"),
+    ).splitlines()
+    names = answers[0].split(",")
+    table = [dict(zip(names, line.split(","), strict=True)) for line in answers[1:]]
+    star = meshwalk.Star(meshwalk.Surface.read(tmp_path / "globe.off"), (10, 20, 30))
+    hit = star.locate(lonlat, lonlat=True)
+    np.testing.assert_array_equal(hit.triangle, [int(row["triangle"]) for row in table])
+    weights = [[float(row[f"w{k}"]) for k in range(3)] for row in table]
+    np.testing.assert_array_equal(hit.weights, weights)

@@ -1,0 +1,63 @@
+/* layouts.c - where the members of the library's answers stand, as NumPy wants to know it. */
+#include "core.h"
+
+static int layout_add(PyObject *module, const char *name, PyObject *layout)
+{
+    int failed = !layout || PyModule_AddObjectRef(module, name, layout);
+    Py_XDECREF(layout);
+    return failed ? -1 : 0;
+}
+
+#define LAYOUT_MEMBER(type, name, member) name, (Py_ssize_t)offsetof(type, member)
+
+static int layout_add_location(PyObject *module)
+{
+    return layout_add(module, "LOCATION_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n,s:n,s:n,s:n}",
+                                    LAYOUT_MEMBER(mw_location, "weights", weight),
+                                    LAYOUT_MEMBER(mw_location, "triangle", triangle),
+                                    LAYOUT_MEMBER(mw_location, "hole", hole),
+                                    LAYOUT_MEMBER(mw_location, "where", where),
+                                    LAYOUT_MEMBER(mw_location, "local", local), "itemsize",
+                                    (Py_ssize_t)sizeof(mw_location)));
+}
+
+static int layout_add_touch(PyObject *module)
+{
+    return layout_add(
+        module, "TOUCH_LAYOUT",
+        Py_BuildValue(
+            "{s:n,s:n,s:n,s:n,s:n,s:n,s:n}", LAYOUT_MEMBER(mw_touch, "distance", distance),
+            LAYOUT_MEMBER(mw_touch, "weights", weight),
+            LAYOUT_MEMBER(mw_touch, "triangle", triangle), LAYOUT_MEMBER(mw_touch, "state", state),
+            LAYOUT_MEMBER(mw_touch, "where", where), LAYOUT_MEMBER(mw_touch, "local", local),
+            "itemsize", (Py_ssize_t)sizeof(mw_touch)));
+}
+
+static int layout_add_nearest(PyObject *module)
+{
+    return layout_add(module, "NEAREST_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n,s:n,s:n}",
+                                    LAYOUT_MEMBER(mw_nearest_surface_point, "triangle", triangle),
+                                    LAYOUT_MEMBER(mw_nearest_surface_point, "distance", distance),
+                                    LAYOUT_MEMBER(mw_nearest_surface_point, "point", point),
+                                    LAYOUT_MEMBER(mw_nearest_surface_point, "weights", weight),
+                                    "itemsize", (Py_ssize_t)sizeof(mw_nearest_surface_point)));
+}
+
+static int layout_add_changed(PyObject *module)
+{
+    return layout_add(module, "CHANGED_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n}",
+                                    LAYOUT_MEMBER(mw_changed_triangle, "triangle", triangle),
+                                    LAYOUT_MEMBER(mw_changed_triangle, "before", before),
+                                    "itemsize", (Py_ssize_t)sizeof(mw_changed_triangle)));
+}
+
+int layouts_init(PyObject *module)
+{
+    return layout_add_location(module) || layout_add_touch(module) || layout_add_nearest(module) ||
+                   layout_add_changed(module)
+               ? -1
+               : 0;
+}

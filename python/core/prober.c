@@ -1,0 +1,155 @@
+/* prober.c - Prober: a mw_prober as an object, which keeps its surface alive. */
+#include "core.h"
+
+#include <string.h>
+
+/* prober_from_surface(cls, surface, boxes) */
+static PyObject *prober_from_surface(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    PyObject *class, *surface;
+    mw_prober_options options = {0};
+    prober_object *object;
+    mw_prober *prober;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OO!p", &class, state->surface_type, &surface, &options.boxes))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS status =
+        mw_prober_create(((surface_object *)surface)->surface, &options, &prober, &error);
+    Py_END_ALLOW_THREADS if (status) return errors_raise(state, &error);
+    object = objects_new(class, state->prober_type);
+    if (!object) {
+        mw_prober_destroy(prober);
+        return NULL;
+    }
+    object->state = state;
+    object->surface = Py_NewRef(surface);
+    object->prober = prober;
+    return (PyObject *)object;
+}
+
+static int prober_traverse(PyObject *self, visitproc visit, void *arg)
+{
+    Py_VISIT(Py_TYPE(self));
+    Py_VISIT(((prober_object *)self)->surface);
+    return 0;
+}
+
+static void prober_dealloc(PyObject *self)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject_GC_UnTrack(self);
+    mw_prober_destroy(object->prober);
+    Py_XDECREF(object->surface);
+    objects_free(self);
+}
+
+static mw_probe_start prober_start_by_name(const char *name)
+{
+    int start = 0;
+    while (start < MW_PROBE_START_COUNT &&
+           strcmp(mw_probe_start_name((mw_probe_start)start), name) != 0)
+        start++;
+    return (mw_probe_start)start;
+}
+
+/* _probe(queries, out, max_distance, certain, start, iterations, threads): six doubles a query */
+static PyObject *prober_probe(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject *queries, *out;
+    const char *start;
+    mw_probe_options options = {0};
+    buffer_points given;
+    Py_buffer touches;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOdpsO&O&", &queries, &out, &options.max_distance,
+                          &options.certain, &start, option_uint32, &options.iterations,
+                          option_uint32, &options.threads))
+        return NULL;
+    options.start = prober_start_by_name(start);
+    if (options.start == MW_PROBE_START_COUNT)
+        return PyErr_Format(PyExc_ValueError, "there is no start '%s'", start);
+    if (buffer_get_points(queries, 6, &given)) return NULL;
+    if (buffer_get_writable(out, sizeof(mw_touch), given.count, &touches)) {
+        PyBuffer_Release(&given.view);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS status =
+        mw_probe_batch(object->prober, given.points, given.count, given.stride, &options,
+                       touches.buf, NULL, &error);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&touches);
+    PyBuffer_Release(&given.view);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
+/* _nearest(points, out, max_distance) */
+static PyObject *prober_nearest(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject *points, *out;
+    double max_distance;
+    buffer_points given;
+    Py_buffer nearest;
+    mw_error error;
+    mw_status status = MW_OK;
+    if (!PyArg_ParseTuple(args, "OOd", &points, &out, &max_distance) ||
+        buffer_get_points(points, 3, &given))
+        return NULL;
+    if (buffer_get_writable(out, sizeof(mw_nearest_surface_point), given.count, &nearest)) {
+        PyBuffer_Release(&given.view);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS for (size_t i = 0; i < given.count && !status; i++) status =
+        mw_nearest_on_surface(object->prober, given.points + i * given.stride, max_distance,
+                              (mw_nearest_surface_point *)nearest.buf + i, &error);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&nearest);
+    PyBuffer_Release(&given.view);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
+static PyObject *prober_surface(PyObject *self, void *unused)
+{
+    (void)unused;
+    return Py_NewRef(((prober_object *)self)->surface);
+}
+
+static PyMethodDef prober_methods[] = {
+    {"_probe", prober_probe, METH_VARARGS, NULL},
+    {"_nearest", prober_nearest, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+static PyGetSetDef prober_members[] = {
+    {"surface", prober_surface, NULL, "The surface that is probed.", NULL},
+    {NULL, NULL, NULL, NULL, NULL},
+};
+
+static PyType_Slot prober_slots[] = {
+    {Py_tp_doc, "A prober of the library."}, {Py_tp_dealloc, prober_dealloc},
+    {Py_tp_traverse, prober_traverse},       {Py_tp_methods, prober_methods},
+    {Py_tp_getset, prober_members},          {0, NULL},
+};
+
+static PyType_Spec prober_spec = {
+    .name = "meshwalk._core.Prober",
+    .basicsize = sizeof(prober_object),
+    .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC |
+             Py_TPFLAGS_DISALLOW_INSTANTIATION,
+    .slots = prober_slots,
+};
+
+static PyMethodDef prober_functions[] = {
+    {"prober_from_surface", prober_from_surface, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+int prober_init(PyObject *module, core_state *state)
+{
+    state->prober_type = objects_add_type(module, &prober_spec);
+    return state->prober_type ? PyModule_AddFunctions(module, prober_functions) : -1;
+}

@@ -1,0 +1,186 @@
+/* star.c - Star: a mw_star as an object, which keeps its surface alive; longitude and latitude. */
+#include "core.h"
+
+/* star_from_surface(cls, surface, x, y, z) */
+static PyObject *star_from_surface(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    PyObject *class, *surface;
+    mw_star_options options = {0};
+    star_object *object;
+    mw_star *star;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OO!ddd", &class, state->surface_type, &surface, &options.centre[0],
+                          &options.centre[1], &options.centre[2]))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS status =
+        mw_star_create(((surface_object *)surface)->surface, &options, &star, &error);
+    Py_END_ALLOW_THREADS if (status) return errors_raise(state, &error);
+    object = objects_new(class, state->star_type);
+    if (!object) {
+        mw_star_destroy(star);
+        return NULL;
+    }
+    object->state = state;
+    object->surface = Py_NewRef(surface);
+    object->star = star;
+    return (PyObject *)object;
+}
+
+static int star_traverse(PyObject *self, visitproc visit, void *arg)
+{
+    Py_VISIT(Py_TYPE(self));
+    Py_VISIT(((star_object *)self)->surface);
+    return 0;
+}
+
+static void star_dealloc(PyObject *self)
+{
+    star_object *object = (star_object *)self;
+    PyObject_GC_UnTrack(self);
+    mw_star_destroy(object->star);
+    Py_XDECREF(object->surface);
+    objects_free(self);
+}
+
+/* _locate(points, out, walk, start, threads) */
+static PyObject *star_locate(PyObject *self, PyObject *args)
+{
+    star_object *object = (star_object *)self;
+    PyObject *points, *out;
+    const char *walk, *start;
+    mw_star_query_options options = {0};
+    buffer_points given;
+    Py_buffer locations;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOssO&", &points, &out, &walk, &start, option_uint32,
+                          &options.threads))
+        return NULL;
+    options.walk = mw_star_walk_by_name(walk);
+    options.start = mw_star_start_by_name(start);
+    if (options.walk == MW_STAR_WALK_COUNT)
+        return PyErr_Format(PyExc_ValueError, "there is no walk '%s'", walk);
+    if (options.start == MW_STAR_START_COUNT)
+        return PyErr_Format(PyExc_ValueError, "there is no start '%s'", start);
+    if (buffer_get_points(points, 3, &given)) return NULL;
+    if (buffer_get_writable(out, sizeof(mw_location), given.count, &locations)) {
+        PyBuffer_Release(&given.view);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS status =
+        mw_star_locate_batch(object->star, given.points, given.count, given.stride, &options,
+                             locations.buf, NULL, &error);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&locations);
+    PyBuffer_Release(&given.view);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
+/* describe(): a dictionary of the members of mw_star_info */
+static PyObject *star_describe(PyObject *self, PyObject *unused)
+{
+    mw_star_info info;
+    (void)unused;
+    mw_star_describe(((star_object *)self)->star, &info);
+    return Py_BuildValue("{s:n,s:n,s:I,s:(ddd)}", "bytes", (Py_ssize_t)info.bytes, "angle_bytes",
+                         (Py_ssize_t)info.angle_bytes, "flat_facets", info.flat_facets, "centre",
+                         info.centre[0], info.centre[1], info.centre[2]);
+}
+
+static PyObject *star_surface(PyObject *self, void *unused)
+{
+    (void)unused;
+    return Py_NewRef(((star_object *)self)->surface);
+}
+
+/* Two buffers: `from` of rows that are to be converted to the rows of `to`. */
+typedef struct star_rows {
+    buffer_points from;
+    Py_buffer to;
+} star_rows;
+
+static int star_get_rows(PyObject *args, size_t from_width, size_t to_width, star_rows *rows)
+{
+    PyObject *from, *to;
+    if (!PyArg_ParseTuple(args, "OO", &from, &to) ||
+        buffer_get_points(from, from_width, &rows->from))
+        return -1;
+    if (!buffer_get_writable(to, to_width * sizeof(double), rows->from.count, &rows->to)) return 0;
+    PyBuffer_Release(&rows->from.view);
+    return -1;
+}
+
+static PyObject *star_release_rows(star_rows *rows)
+{
+    PyBuffer_Release(&rows->from.view);
+    PyBuffer_Release(&rows->to);
+    Py_RETURN_NONE;
+}
+
+/* lonlat_to_direction(lonlat, out) */
+static PyObject *star_from_lonlat(PyObject *module, PyObject *args)
+{
+    star_rows rows;
+    (void)module;
+    if (star_get_rows(args, 2, 3, &rows)) return NULL;
+    Py_BEGIN_ALLOW_THREADS for (size_t i = 0; i < rows.from.count; i++)
+    {
+        const double *lonlat = rows.from.points + i * rows.from.stride;
+        mw_lonlat_to_direction(lonlat[0], lonlat[1], (double *)rows.to.buf + 3 * i);
+    }
+    Py_END_ALLOW_THREADS return star_release_rows(&rows);
+}
+
+/* direction_to_lonlat(directions, out) */
+static PyObject *star_to_lonlat(PyObject *module, PyObject *args)
+{
+    star_rows rows;
+    (void)module;
+    if (star_get_rows(args, 3, 2, &rows)) return NULL;
+    Py_BEGIN_ALLOW_THREADS for (size_t i = 0; i < rows.from.count; i++)
+    {
+        double *lonlat = (double *)rows.to.buf + 2 * i;
+        mw_direction_to_lonlat(rows.from.points + i * rows.from.stride, &lonlat[0], &lonlat[1]);
+    }
+    Py_END_ALLOW_THREADS return star_release_rows(&rows);
+}
+
+static PyMethodDef star_methods[] = {
+    {"_locate", star_locate, METH_VARARGS, NULL},
+    {"_describe", star_describe, METH_NOARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+static PyGetSetDef star_members[] = {
+    {"surface", star_surface, NULL, "The surface that rays meet.", NULL},
+    {NULL, NULL, NULL, NULL, NULL},
+};
+
+static PyType_Slot star_slots[] = {
+    {Py_tp_doc, "A star of the library."}, {Py_tp_dealloc, star_dealloc},
+    {Py_tp_traverse, star_traverse},       {Py_tp_methods, star_methods},
+    {Py_tp_getset, star_members},          {0, NULL},
+};
+
+static PyType_Spec star_spec = {
+    .name = "meshwalk._core.Star",
+    .basicsize = sizeof(star_object),
+    .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC |
+             Py_TPFLAGS_DISALLOW_INSTANTIATION,
+    .slots = star_slots,
+};
+
+static PyMethodDef star_functions[] = {
+    {"star_from_surface", star_from_surface, METH_VARARGS, NULL},
+    {"lonlat_to_direction", star_from_lonlat, METH_VARARGS, NULL},
+    {"direction_to_lonlat", star_to_lonlat, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+int star_init(PyObject *module, core_state *state)
+{
+    state->star_type = objects_add_type(module, &star_spec);
+    return state->star_type ? PyModule_AddFunctions(module, star_functions) : -1;
+}

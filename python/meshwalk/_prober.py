@@ -1,0 +1,270 @@
+"""Probes of a surface in space, and the point of it that is nearest."""
+
+from __future__ import annotations
+
+import enum
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from meshwalk import _arrays, _core
+from meshwalk._surface import Surface
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from numpy.typing import ArrayLike, NDArray
+
+TOUCH = _arrays.record_type(
+    _core.TOUCH_LAYOUT,
+    {
+        "distance": np.float64,
+        "weights": (np.float64, (3,)),
+        "triangle": np.int32,
+        "state": np.uint8,
+        "where": np.uint8,
+        "local": np.uint8,
+    },
+)
+"""The type of the answer to one probe, as the library writes it."""
+
+NEAREST = _arrays.record_type(
+    _core.NEAREST_LAYOUT,
+    {
+        "triangle": np.int32,
+        "distance": np.float64,
+        "point": (np.float64, (3,)),
+        "weights": (np.float64, (3,)),
+    },
+)
+"""The type of one nearest point, as the library writes it."""
+
+
+class TouchState(enum.IntEnum):
+    """What a probe found: the members of ``Touches.state``."""
+
+    HIT = 0
+    """It touches the triangle."""
+    NONE = 1
+    """Surely nothing within the distance."""
+    LIMIT = 2
+    """Nothing was found within the limit of iterations: there may be something."""
+    BAD = 3
+    """A coordinate is NaN or infinite, or the motion is zero."""
+
+
+class Touches:
+    """What probes touch: the answer of `Prober.probe`, of the shape of the points.
+
+    The attributes are views of the library's own answers.
+    """
+
+    __slots__ = ("records", "surface")
+
+    def __init__(self, surface: Surface, records: NDArray[Any]) -> None:
+        self.surface = surface
+        self.records = records
+
+    @property
+    def triangle(self) -> NDArray[np.int32]:
+        """The triangle touched, -1 for none."""
+        return self.records["triangle"]
+
+    @property
+    def distance(self) -> NDArray[np.float64]:
+        """From the point along the motion to what is touched: negative behind it; NaN for none."""
+        return self.records["distance"]
+
+    @property
+    def state(self) -> NDArray[np.uint8]:
+        """What was found: the numbers of `TouchState`."""
+        return self.records["state"]
+
+    @property
+    def where(self) -> NDArray[np.uint8]:
+        """Inside of the triangle, on an edge or at a vertex: the numbers of `Where`."""
+        return self.records["where"]
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """Weights of the three vertices of the triangle, shape (..., 3); NaN for none."""
+        return self.records["weights"]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the points, without their coordinates."""
+        return self.records.shape
+
+    def __repr__(self) -> str:
+        counts = np.bincount(self.state.ravel(), minlength=len(TouchState))
+        kinds = ", ".join(f"{counts[s]} {s.name.lower()}" for s in TouchState if counts[s])
+        return f"<Touches: {self.records.size} probes{'; ' if kinds else ''}{kinds}>"
+
+
+class NearestPoints:
+    """The points of a surface that are nearest: the answer of `Prober.nearest`.
+
+    The attributes are views of the library's own answers.
+    """
+
+    __slots__ = ("records", "surface")
+
+    def __init__(self, surface: Surface, records: NDArray[Any]) -> None:
+        self.surface = surface
+        self.records = records
+
+    @property
+    def triangle(self) -> NDArray[np.int32]:
+        """The triangle that has the nearest point, -1 for none."""
+        return self.records["triangle"]
+
+    @property
+    def distance(self) -> NDArray[np.float64]:
+        """How far it is; NaN for none."""
+        return self.records["distance"]
+
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """The nearest point, shape (..., 3); NaN for none."""
+        return self.records["point"]
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """The same point as weights of the triangle's vertices, shape (..., 3)."""
+        return self.records["weights"]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the points, without their coordinates."""
+        return self.records.shape
+
+    def __repr__(self) -> str:
+        found = int((self.triangle >= 0).sum())
+        return f"<NearestPoints: {found} of {self.records.size}>"
+
+
+class Prober(_core.Prober):
+    """Finds the triangle of a surface that a probe touches, and the nearest point.
+
+    Parameters
+    ----------
+    surface : Surface
+        Any surface: open or closed, in pieces.
+    boxes : bool, optional
+        Build boxes over the triangles, for ``certain=True`` and `nearest`.
+
+    Raises
+    ------
+    InputError
+        The surface has no triangle.
+
+    Notes
+    -----
+    A prober follows its surface: `Surface.move` brings it up to date. It keeps the surface alive,
+    and any number of threads may ask it at a time.
+
+    Examples
+    --------
+    >>> import meshwalk
+    >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> prober = meshwalk.Prober(floor, boxes=True)
+    >>> touch = prober.probe([[1, 1, 5], [9, 9, 5]], [0, 0, -1], certain=True)
+    >>> touch
+    <Touches: 2 probes; 1 hit, 1 none>
+    >>> touch.distance
+    array([ 5., nan])
+    >>> prober.nearest([1, -2, 0]).point
+    array([1., 0., 0.])
+    """
+
+    __slots__ = ("__weakref__", "_boxes")
+    _boxes: bool
+    if TYPE_CHECKING:
+        surface: Surface
+
+    def __new__(cls, surface: Surface, boxes: bool = False) -> Self:
+        if not isinstance(surface, Surface):
+            raise TypeError(f"surface must be a meshwalk.Surface, not {type(surface).__name__}")
+        with surface._lock:
+            prober = _core.prober_from_surface(cls, surface, boxes)
+            prober._boxes = boxes
+            surface._kept.add(prober)
+        return prober
+
+    def probe(
+        self,
+        points: ArrayLike,
+        motions: ArrayLike,
+        max_distance: float = 0,
+        *,
+        certain: bool = False,
+        start: Literal["auto", "last", "sample", "random"] = "auto",
+        iterations: int = 0,
+        threads: int = 0,
+    ) -> Touches:
+        """Find the triangles that lines through points touch, on either side of the points.
+
+        Parameters
+        ----------
+        points : array_like, shape (..., 3)
+            Where the probes are.
+        motions : array_like, shape (..., 3)
+            Their motions; only triangles whose fronts these point at are touched. One motion may
+            serve all points.
+        max_distance : float, optional
+            In units of length, how far a touch may be; 0 means any distance.
+        certain : bool, optional
+            Find the nearest touch, and none is missed. Needs a prober with ``boxes=True``. Else the
+            walks as published: fast, and where their iterations end without a touch the state is
+            ``TouchState.LIMIT``.
+        start : {"auto", "last", "sample", "random"}, optional
+            The first triangle of a walk.
+        iterations : int, optional
+            Walks at most, from different first triangles; 0 means 10.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose. The answers are the same.
+
+        Returns
+        -------
+        Touches
+        """
+        rows, shape = _arrays.queries(points, "points", 3)
+        ways, way_shape = _arrays.queries(motions, "motions", 3)
+        if way_shape not in ((), shape):
+            raise ValueError(f"motions must have the shape of points, {shape}, not {way_shape}")
+        queries = np.empty((len(rows), 6))
+        queries[:, :3] = rows
+        queries[:, 3:] = ways
+        records = np.empty(len(rows), TOUCH)
+        self._probe(queries, records, max_distance, certain, start, iterations, threads)
+        return Touches(self.surface, records.reshape(shape))
+
+    def nearest(self, points: ArrayLike, max_distance: float = np.inf) -> NearestPoints:
+        """Find the points of the surface that are nearest to points.
+
+        Parameters
+        ----------
+        points : array_like, shape (..., 3)
+            The points.
+        max_distance : float, optional
+            Look no farther.
+
+        Returns
+        -------
+        NearestPoints
+
+        Raises
+        ------
+        ValueError
+            The prober has no boxes, or the distance is negative or NaN.
+        """
+        rows, shape = _arrays.queries(points, "points", 3)
+        records = np.empty(len(rows), NEAREST)
+        self._nearest(rows, records, max_distance)
+        return NearestPoints(self.surface, records.reshape(shape))
+
+    def __repr__(self) -> str:
+        return f"<Prober of {self.surface!r}{', with boxes' if self._boxes else ''}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.surface, self._boxes)

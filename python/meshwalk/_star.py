@@ -1,0 +1,207 @@
+"""Rays from the centre of a star-shaped polyhedron, such as a globe."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from meshwalk import _arrays, _core
+from meshwalk._check import check_star
+from meshwalk._errors import InputError
+from meshwalk._locations import LOCATION, Locations
+from meshwalk._surface import Surface
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from numpy.typing import ArrayLike, NDArray
+
+
+class StarInfo(NamedTuple):
+    """What a star keeps beside its surface: the answer of `Star.describe`."""
+
+    bytes: int
+    """All memory of the star, the surface not counted."""
+    angle_bytes: int
+    """Of it, spherical coordinates."""
+    flat_facets: int
+    """Facets without area."""
+    centre: tuple[float, float, float]
+    """Where the rays begin."""
+
+
+class Star(_core.Star):
+    """Finds the facet of a closed surface that a ray from a centre meets, exactly.
+
+    Parameters
+    ----------
+    surface : Surface
+        A closed polyhedron, star-shaped about the centre: each ray meets it once.
+    centre : array_like, shape (3,), optional
+        Where the rays begin; the origin by default.
+
+    Raises
+    ------
+    InputError
+        The surface is not closed, or not star-shaped about the centre; the exception tells the
+        first defect.
+
+    Notes
+    -----
+    A star follows its surface: `Surface.move` brings it up to date. It keeps the surface alive, and
+    any number of threads may ask it at a time.
+
+    Examples
+    --------
+    >>> import meshwalk
+    >>> corners = [[0, 90], [0, 0], [90, 0], [180, 0], [270, 0], [0, -90]]
+    >>> triangles = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1],
+    ...              [5, 2, 1], [5, 3, 2], [5, 4, 3], [5, 1, 4]]
+    >>> globe = meshwalk.Star(meshwalk.Surface.from_lonlat(corners, triangles))
+    >>> globe.locate([[1, 2, 3], [0, 0, -7]]).triangle
+    array([0, 4], dtype=int32)
+    >>> globe.locate([[45, 45], [-45, -45]], lonlat=True).triangle
+    array([0, 7], dtype=int32)
+    """
+
+    __slots__ = ("__weakref__", "_centre")
+    _centre: tuple[float, float, float]
+    if TYPE_CHECKING:
+        surface: Surface
+
+    def __new__(cls, surface: Surface, centre: ArrayLike = (0, 0, 0)) -> Self:
+        if not isinstance(surface, Surface):
+            raise TypeError(f"surface must be a meshwalk.Surface, not {type(surface).__name__}")
+        place, _ = _arrays.queries(centre, "centre", 3)
+        if place.shape != (1, 3):
+            raise ValueError("centre must be one point")
+        x, y, z = (float(value) for value in place[0])
+        with surface._lock:
+            try:
+                star = _core.star_from_surface(cls, surface, x, y, z)
+            except InputError as error:
+                weld = surface._options[0]
+                found = check_star(surface.points, surface.triangles, (x, y, z), weld=weld)
+                error.defect = next((d for d in found.defects if d.kind != "flat triangle"), None)
+                raise
+            star._centre = (x, y, z)
+            surface._kept.add(star)
+        return star
+
+    def locate(
+        self,
+        points: ArrayLike,
+        lonlat: bool = False,
+        threads: int = 0,
+        *,
+        walk: str = "auto",
+        start: str = "auto",
+    ) -> Locations:
+        """Find the facets that rays from the centre meet.
+
+        Parameters
+        ----------
+        points : array_like, shape (..., 3), or (..., 2) with `lonlat`
+            A point on each ray but the centre; or its longitude and latitude in degrees, seen from
+            the centre.
+        lonlat : bool, optional
+            Whether these are longitudes and latitudes.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose. The answers are the same.
+        walk, start : str, optional
+            By which walk, and from which first facet. The answers are the same.
+
+        Returns
+        -------
+        Locations
+            `weights` are those of the point where the ray meets the flat facet. ``Where.BAD`` where
+            a point is the centre, not finite, or no longitude and latitude.
+        """
+        if lonlat:
+            rows, shape = _arrays.queries(points, "points", 2)
+            directions = lonlat_to_direction(rows)
+            directions *= _ray_length(self._centre)
+            directions += self._centre
+            rows = directions
+        else:
+            rows, shape = _arrays.queries(points, "points", 3)
+        records = np.empty(len(rows), LOCATION)
+        self._locate(rows, records, walk, start, threads)
+        return Locations(self.surface, records.reshape(shape))
+
+    def describe(self) -> StarInfo:
+        """Tell what the star keeps beside its surface.
+
+        Returns
+        -------
+        StarInfo
+        """
+        with self.surface._lock:
+            return StarInfo(**self._describe())
+
+    def __repr__(self) -> str:
+        return f"<Star of {self.surface!r} about {self._centre}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.surface, self._centre)
+
+
+def _ray_length(centre: tuple[float, float, float]) -> float:
+    """As the program has it: a power of two, at least 1 and half of the largest coordinate."""
+    _, exponent = math.frexp(max(abs(value) for value in centre))
+    return math.ldexp(1, exponent - 1) if exponent > 0 else 1
+
+
+def lonlat_to_direction(lonlat: ArrayLike) -> NDArray[np.float64]:
+    """Directions of longitudes and latitudes on the unit sphere.
+
+    Parameters
+    ----------
+    lonlat : array_like, shape (..., 2)
+        Longitude and latitude in degrees.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        x to (0, 0), y to (90, 0), z to the north pole. Multiples of 90 degrees give exact
+        directions; others are off by less than 2**-52. NaN where a number is not finite, or a
+        latitude is above 90 or below -90.
+
+    Examples
+    --------
+    >>> import meshwalk
+    >>> meshwalk.lonlat_to_direction([[90, 0], [0, 91]])
+    array([[ 0.,  1.,  0.],
+           [nan, nan, nan]])
+    """
+    rows, shape = _arrays.queries(lonlat, "lonlat", 2)
+    out = np.empty((len(rows), 3))
+    _core.lonlat_to_direction(rows, out)
+    return out.reshape(*shape, 3)
+
+
+def direction_to_lonlat(directions: ArrayLike) -> NDArray[np.float64]:
+    """Longitudes (-180 to 180) and latitudes of directions, in degrees.
+
+    Parameters
+    ----------
+    directions : array_like, shape (..., 3)
+        Of any length.
+
+    Returns
+    -------
+    ndarray, shape (..., 2)
+        Rounded; the longitude of a pole is 0. NaN for a direction of length 0.
+
+    Examples
+    --------
+    >>> import meshwalk
+    >>> meshwalk.direction_to_lonlat([0, 7, 0])
+    array([90.,  0.])
+    """
+    rows, shape = _arrays.queries(directions, "directions", 3)
+    out = np.empty((len(rows), 2))
+    _core.direction_to_lonlat(rows, out)
+    return out.reshape(*shape, 2)
