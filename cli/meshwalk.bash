@@ -5,7 +5,7 @@ _meshwalk_options() {
     local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
     query="$query --columns"
     query="$query --any"
-    local stream='--strict --stats --json --only-answers'
+    local stream='--strict --stats --json --layer --where --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
         info | check) echo "--as --centre --lonlat --weld --json $common" ;;
@@ -54,7 +54,7 @@ _meshwalk_names() {
             case $1 in
                 star) echo 'auto random sample front last sorted grid nonuniform-grid octahedron' ;;
                 probe) echo 'auto last sample random' ;;
-                *) echo 'auto random sample centre last sorted grid two-level-grid layers curve' ;;
+                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve' ;;
             esac
             ;;
         --arithmetic) echo 'exact double' ;;
@@ -103,7 +103,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field | --layer | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then

@@ -55,7 +55,7 @@ static const option probe_options[] = {
      "take also a surface with defects that 'meshwalk check --as surface' calls repeated-vertex, not-finite or "
      "edge-shared",
      NULL},
-    {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.columns), "LIST",
+    {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.source.columns), "LIST",
      "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: those that a header "
      "calls x, y, z, mx, my, mz, or the only six)",
      NULL},
@@ -225,6 +225,7 @@ static int probe_run(const void *settings, const char *const *operands)
     const probe_settings *s = settings;
     probed_surface p = {.settings = s, .begin = monotonic_seconds()};
     int end = files_check_output(s->stream.common.output, operands, 2);
+    if (end == 0) end = files_check_text_output(s->stream.common.output);
     if (end == 0) end = options_limit("race", s->race, MAX_RACERS, NULL);
     if (end == 0) end = probed_surface_open(&p, operands[0]);
     if (end == 0) end = probed_surface_run(&p, operands[1]);

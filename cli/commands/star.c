@@ -70,7 +70,7 @@ static const option star_options[] = {
      "--start grid, nonuniform-grid: about N cells (default: 0, one for 16 facets)", NULL},
     {"levels", 0, OPTION_COUNT, offsetof(star_settings, levels), "N",
      "--start octahedron: N levels, the octahedron itself counted (default: 0, by the number of facets)", NULL},
-    {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.columns), "LIST",
+    {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.source.columns), "LIST",
      "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers from 1: u,v,w or "
      "3,4,5 (default: those that a header calls so, by names that the manual page lists, or the only ones)",
      NULL},
@@ -267,6 +267,7 @@ static int star_run(const void *settings, const char *const *operands)
     const star_settings *s = settings;
     ray_queries r = {.settings = s, .begin = monotonic_seconds()};
     int end = files_check_output(s->stream.common.output, operands, 2);
+    if (end == 0) end = files_check_text_output(s->stream.common.output);
     if (end == 0) end = star_check_limits(s);
     if (end == 0) end = ray_queries_open(&r, operands[0]);
     if (end == 0) end = ray_queries_run(&r, operands[1]);

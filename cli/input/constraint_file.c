@@ -2,6 +2,7 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/gdal/gdal_library.h"
 #include "cli/input/gdal_constraints.h"
 
 #include <inttypes.h>
@@ -24,7 +25,7 @@ static int constraint_file_read_any(const char *path, mw_constraint_file *file)
     mw_status status = mw_read_constraints(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
     if (status == MW_OK) return 0;
     bool unknown = status == MW_ERROR_INPUT && !files_is_standard(path) && !mw_constraints_known(path);
-    if (gdal_constraints_built() && (unknown || is_directory(path))) return gdal_constraints_read(path, file);
+    if (gdal_library_built() && (unknown || is_directory(path))) return gdal_constraints_read(path, file);
     int end = fail_reading(&error);
     if (unknown) complain("a program that was built with GDAL reads other vector files too");
     return end;

@@ -1,60 +1,21 @@
 #include "cli/input/gdal_constraints.h"
 #include "cli/frame/message.h"
+#include "cli/gdal/gdal_library.h"
 
 #ifdef MW_GDAL
 
-#include <dlfcn.h>
-#include <gdal.h>
 #include <inttypes.h>
 #include <math.h>
-#include <ogr_api.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define FUNCTIONS(F)                                                                                                   \
-    F(CPLSetErrorHandler)                                                                                              \
-    F(CPLQuietErrorHandler)                                                                                            \
-    F(CPLErrorReset)                                                                                                   \
-    F(CPLGetLastErrorType)                                                                                             \
-    F(CPLGetLastErrorMsg)                                                                                              \
-    F(GDALAllRegister)                                                                                                 \
-    F(GDALOpenEx)                                                                                                      \
-    F(GDALClose)                                                                                                       \
-    F(GDALDatasetGetLayerCount)                                                                                        \
-    F(GDALDatasetGetLayer)                                                                                             \
-    F(OGR_L_ResetReading)                                                                                              \
-    F(OGR_L_GetNextFeature)                                                                                            \
-    F(OGR_F_GetGeometryRef)                                                                                            \
-    F(OGR_F_Destroy)                                                                                                   \
-    F(OGR_G_GetLinearGeometry)                                                                                         \
-    F(OGR_G_DestroyGeometry)                                                                                           \
-    F(OGR_G_GetGeometryType)                                                                                           \
-    F(OGR_GT_Flatten)                                                                                                  \
-    F(OGR_G_Is3D)                                                                                                      \
-    F(OGR_G_GetGeometryCount)                                                                                          \
-    F(OGR_G_GetGeometryRef)                                                                                            \
-    F(OGR_G_GetPointCount)                                                                                             \
-    F(OGR_G_GetPoint)
-
-/* The functions of GDAL that the program calls, under their own names. */
-static struct {
-#define MEMBER(name) __typeof__(name) *name;
-    FUNCTIONS(MEMBER)
-#undef MEMBER
-} gdal;
+static gdal_functions gdal;
 
 static bool gdal_load(void)
 {
-    void *library = dlopen(MW_GDAL, RTLD_NOW | RTLD_LOCAL);
-    if (!library) return false;
-#define FIND(name)                                                                                                     \
-    *(void **)&gdal.name = dlsym(library, #name);                                                                      \
-    if (!gdal.name) return false;
-    FUNCTIONS(FIND)
-#undef FIND
-    gdal.CPLSetErrorHandler(gdal.CPLQuietErrorHandler);
-    gdal.GDALAllRegister();
-    return true;
+    const gdal_functions *functions = gdal_library_load();
+    if (functions) gdal = *functions;
+    return functions != NULL;
 }
 
 /* A constraint file that grows while features are added. */
@@ -226,11 +187,6 @@ static int collector_read_layer(constraint_collector *c, OGRLayerH layer, const 
     }
 }
 
-bool gdal_constraints_built(void)
-{
-    return true;
-}
-
 int gdal_constraints_read(const char *path, mw_constraint_file *file)
 {
     constraint_collector c = {.file = file};
@@ -255,11 +211,6 @@ int gdal_constraints_read(const char *path, mw_constraint_file *file)
 }
 
 #else
-
-bool gdal_constraints_built(void)
-{
-    return false;
-}
 
 int gdal_constraints_read(const char *path, mw_constraint_file *file)
 {

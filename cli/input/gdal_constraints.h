@@ -1,15 +1,8 @@
-/* gdal_constraints.h - constraints from any vector file that GDAL reads.
- *
- * GDAL takes tens of milliseconds and tens of megabytes to load, so the program is not linked with
- * it. The library is loaded when a file is met that nothing else reads. */
+/* gdal_constraints.h - constraints from any vector file that GDAL reads. */
 #ifndef MW_CLI_INPUT_GDAL_CONSTRAINTS_H
 #define MW_CLI_INPUT_GDAL_CONSTRAINTS_H
 
 #include <meshwalk/meshwalk.h>
-#include <stdbool.h>
-
-/* Was the program built with GDAL? */
-bool gdal_constraints_built(void);
 
 /* Read the points, lines and polygons of all layers, also those inside collections; curves become
  * chains of segments. Features are numbered from 0 over all layers. Returns 0, or an exit code

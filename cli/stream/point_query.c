@@ -84,7 +84,8 @@ const option point_query_options[] = {
      "vertices",
      NULL},
     {"cells", 0, OPTION_COUNT, offsetof(point_query_settings, cells), "N",
-     "--start grid, two-level-grid: about N cells, of the first level; curve: N samples (default: 0, by the size of "
+     "--start grid, buckets, triangle-buckets, two-level-grid: about N cells, of the first level; curve: N samples "
+     "(default: 0, by the size of "
      "the "
      "mesh)",
      NULL},
@@ -94,7 +95,7 @@ const option point_query_options[] = {
      "--start layers: the vertex at which to go down from one to the next (default: auto):", &point_query_descents},
     {"tolerance", 0, OPTION_LENGTH, offsetof(point_query_settings, tolerance), "D",
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
-    {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.columns), "LIST",
+    {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.columns), "LIST",
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
      "calls so, by names that the manual page lists, or the only two)",
      NULL},
@@ -182,6 +183,7 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
     mw_mesh_file file;
     *q = (point_query){.settings = settings, .path = path, .begin = monotonic_seconds()};
     int end = files_check_output(settings->stream.common.output, operands, 2);
+    if (end == 0) end = files_check_text_output(settings->stream.common.output);
     if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
     if (end == 0) end = point_query_check_fill(settings);
     if (end == 0) end = files_read_mesh(path, &file);

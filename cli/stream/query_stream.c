@@ -22,6 +22,10 @@ const option query_stream_options[] = {
     {"stats", 0, OPTION_FLAG, offsetof(query_stream_settings, stats), NULL,
      "print counts and times on standard error when done", NULL},
     {"json", 0, OPTION_FLAG, offsetof(query_stream_settings, json), NULL, "with --stats: as JSON", NULL},
+    {"layer", 0, OPTION_TEXT, offsetof(query_stream_settings, source.layer), "NAME",
+     "of a file that GDAL reads: the layer with the points (default: the only one that has any)", NULL},
+    {"where", 0, OPTION_TEXT, offsetof(query_stream_settings, source.where), "CONDITION",
+     "of a file that GDAL reads: which features are read, in SQL, as \"depth > 10\" (default: all)", NULL},
     {"only-answers", 0, OPTION_FLAG, offsetof(query_stream_settings, only_answers), NULL,
      "write the coordinates and the answers, not the other columns; as CSV with commas", NULL},
     {0},
@@ -30,7 +34,7 @@ const option query_stream_options[] = {
 /* A stream in progress: the block in memory, and its rows. */
 typedef struct query_pipeline {
     const query_stream *stream;
-    mw_point_reader *reader;
+    query_source *source;
     mw_output *out;
     const char *path;
     mw_point_table table;
@@ -51,7 +55,7 @@ static void pipeline_begin_row(const query_pipeline *p, size_t i, text *out)
         csv_row_numbers(out, p->values + i * p->width, p->stream->shown);
         return;
     }
-    const char *row = mw_point_reader_row(p->reader, i, &length);
+    const char *row = query_source_row(p->source, i, &length);
     text_bytes(out, row, length);
 }
 
@@ -119,8 +123,7 @@ static int pipeline_answer_block(query_pipeline *p, size_t count)
 /* Answers have decimal commas where the table has them. Its first block decides. */
 static int pipeline_choose_decimal(query_pipeline *p)
 {
-    mw_error error;
-    if (mw_point_reader_table(p->reader, &p->table, &error) != MW_OK) return fail_reading(&error);
+    query_source_table(p->source, &p->table);
     if (!p->decimal) p->decimal = p->table.decimal;
     if (p->decimal == p->table.decimal || p->stream->settings->only_answers) return 0;
     complain("%s: has its first decimal comma after %" PRIu64
@@ -131,12 +134,10 @@ static int pipeline_choose_decimal(query_pipeline *p)
 
 static int pipeline_read_block(query_pipeline *p, size_t *count)
 {
-    mw_error error;
-    double before = mw_point_reader_fraction(p->reader);
-    if (mw_point_reader_read(p->reader, p->values, QUERY_BLOCK_SIZE, count, &error) != MW_OK)
-        return fail_reading(&error);
-    progress_part(before, mw_point_reader_fraction(p->reader));
-    return *count > 0 ? pipeline_choose_decimal(p) : 0;
+    double before = query_source_fraction(p->source);
+    int end = query_source_read(p->source, p->values, QUERY_BLOCK_SIZE, count);
+    progress_part(before, query_source_fraction(p->source));
+    return end == 0 && *count > 0 ? pipeline_choose_decimal(p) : end;
 }
 
 static int pipeline_write_header(query_pipeline *p)
@@ -162,20 +163,20 @@ static int pipeline_run_blocks(query_pipeline *p)
     while (end == 0 && count > 0 && !mw_output_failed(p->out)) {
         end = pipeline_answer_block(p, count);
         if (end == 0) end = pipeline_write_block(p, count);
-        progress_points(p->statistics.queries, mw_point_reader_fraction(p->reader));
+        progress_points(p->statistics.queries, query_source_fraction(p->source));
         if (end == 0) end = pipeline_read_block(p, &count);
     }
     return end;
 }
 
-static int pipeline_find_columns(query_pipeline *p)
+static int pipeline_open_source(query_pipeline *p)
 {
     const query_stream *s = p->stream;
-    mw_error error;
-    int end = query_columns_find(&s->columns, p->path, p->reader, s->settings->columns, p->index);
+    int end = query_source_open(&p->source, p->path, &s->settings->source, &s->columns, p->index);
     if (end) return end;
-    p->width = mw_point_reader_width(p->reader);
-    return mw_point_reader_table(p->reader, &p->table, &error) == MW_OK ? 0 : fail_reading(&error);
+    p->width = s->columns.count;
+    query_source_table(p->source, &p->table);
+    return 0;
 }
 
 /* The queries and the output are open. */
@@ -212,19 +213,14 @@ int query_stream_run(const query_stream *s, const char *path)
     const query_stream_settings *settings = s->settings;
     const char *output = settings->common.output ? settings->common.output : "-";
     mw_error error;
-    mw_point_reader_options options = {.columns = settings->columns, .table = 1};
-    int end = 0;
     query_pipeline *p = calloc(1, sizeof *p);
     if (!p) return fail_memory();
     *p = (query_pipeline){.stream = s, .path = path, .statistics = {.begin = s->begin, .ready = monotonic_seconds()}};
     progress_phase(s->doing, path);
-    if (mw_point_reader_open(path, &options, &p->reader, &error) != MW_OK)
-        end = fail_reading(&error);
-    else
-        end = pipeline_find_columns(p);
+    int end = pipeline_open_source(p);
     if (end == 0 && mw_output_open(output, &p->out, &error) != MW_OK) end = fail_writing(&error);
     if (end == 0) end = pipeline_run(p);
-    mw_point_reader_close(p->reader);
+    query_source_close(p->source);
     if (end == 0 && settings->stats) end = pipeline_print_statistics(p);
     if (end == 0 && settings->strict && p->statistics.unanswered) end = END_UNANSWERED;
     free(p);

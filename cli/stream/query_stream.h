@@ -7,14 +7,14 @@
 #include "cli/frame/options.h"
 #include "cli/frame/report.h"
 #include "cli/frame/text.h"
-#include "cli/input/query_columns.h"
+#include "cli/input/query_source.h"
 
 #define QUERY_BLOCK_SIZE ((size_t)1 << 18) /* queries in memory at a time */
 
 /* The settings of the commands that answer queries, and the options that all of them have. */
 typedef struct query_stream_settings {
     common_settings common;
-    const char *columns;
+    query_source_settings source;
     bool strict, stats, json, only_answers;
 } query_stream_settings;
 

@@ -415,6 +415,8 @@ static void test_other_kinds(void **state)
         {"m.off", BYTES("OFF\n0 0 0\n"), "this is a mesh ('off')"},
         {"m.txt", BYTES("ply\nformat ascii 1.0\n"), "this is a mesh ('ply')"},
         {"m.obj", BYTES("v 0 0 0\nv 1 0 0\n"), "this is a mesh ('obj')"},
+        {"m.txt", BYTES("\n {\"type\": \"Point\"}\n"), "m.txt: this is JSON, not a table"},
+        {"m.txt", BYTES("\xef\xbb\xbf<?xml?>\n"), "m.txt: this is XML, not a table"},
         {"m.txt", BYTES("1 2\n\0\0\n"), "m.txt:2: a NUL byte"},
         {"m.txt", BYTES("\x89PNG\r\n\x1a\n\0\0"), "m.txt:2: 0 columns of numbers"},
     };

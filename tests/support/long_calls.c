@@ -320,6 +320,22 @@ static mw_status run_index_layers(const call_inputs *in, const call_setting *how
     return index_run(in, MW_START_LAYERS, how, sum, error);
 }
 
+static mw_status run_index_buckets(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_BUCKETS, how, sum, error);
+}
+
+static mw_status run_index_triangle_buckets(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                            mw_error *error)
+{
+    return index_run(in, MW_START_TRIANGLE_BUCKETS, how, sum, error);
+}
+
+static mw_status run_index_kd_tree(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_KD_TREE, how, sum, error);
+}
+
 static mw_status run_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
 {
     mw_location *at = malloc(in->point_count * sizeof *at);
@@ -557,6 +573,9 @@ const long_call long_calls[] = {
     {"mw_index_create, two levels", run_index_two_level},
     {"mw_index_create, curve", run_index_curve},
     {"mw_index_create, layers", run_index_layers},
+    {"mw_index_create, buckets", run_index_buckets},
+    {"mw_index_create, triangle buckets", run_index_triangle_buckets},
+    {"mw_index_create, kd tree", run_index_kd_tree},
     {"mw_locate_batch", run_batch},
     {"mw_editor_create", run_editor},
     {"an editor's calls", run_edits},

@@ -20,6 +20,16 @@ static mw_status selection_check(const char *columns, mw_error *error)
     return MW_OK;
 }
 
+/* GeoJSON, GPX, KML and so on hold points, but no table of them. */
+static mw_status text_refuse_markup(const mw_source *source, const char *head, size_t size, mw_error *error)
+{
+    if (size >= 3 && memcmp(head, "\xef\xbb\xbf", 3) == 0) head += 3, size -= 3;
+    while (size > 0 && strchr(" \t\r\n", *head)) head++, size--;
+    if (size == 0 || (*head != '{' && *head != '<')) return MW_OK;
+    return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is %s, not a table of points", mw__source_name(source),
+                    *head == '{' ? "JSON" : "XML");
+}
+
 static mw_status point_reader_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
 {
     const char *head;
@@ -32,7 +42,8 @@ static mw_status point_reader_start(mw_point_reader *reader, const mw_point_read
     if (format && (!format->common_words || mw__mesh_format_by_path(reader->source.path) == format))
         return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is a mesh ('%s'), not a table of points",
                         mw__source_name(&reader->source), format->name);
-    return mw__point_table_start(reader, options, error);
+    status = text_refuse_markup(&reader->source, head, size, error);
+    return status ? status : mw__point_table_start(reader, options, error);
 }
 
 mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options *options, mw_point_reader **out,

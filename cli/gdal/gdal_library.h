@@ -1,0 +1,69 @@
+/* gdal_library.h - GDAL, loaded while the program runs.
+ *
+ * GDAL takes tens of milliseconds and tens of megabytes to load, so the program is not linked with
+ * it. The library is loaded when a file is met that nothing else reads. */
+#ifndef MW_CLI_GDAL_GDAL_LIBRARY_H
+#define MW_CLI_GDAL_GDAL_LIBRARY_H
+
+#include <stdbool.h>
+
+/* Was the program built with GDAL? */
+bool gdal_library_built(void);
+
+#ifdef MW_GDAL
+
+#include <gdal.h>
+#include <ogr_api.h>
+
+#define GDAL_FUNCTIONS(F)                                                                                              \
+    F(CPLSetErrorHandler)                                                                                              \
+    F(CPLQuietErrorHandler)                                                                                            \
+    F(CPLErrorReset)                                                                                                   \
+    F(CPLGetLastErrorType)                                                                                             \
+    F(CPLGetLastErrorMsg)                                                                                              \
+    F(GDALAllRegister)                                                                                                 \
+    F(GDALOpenEx)                                                                                                      \
+    F(GDALClose)                                                                                                       \
+    F(GDALDatasetGetLayerCount)                                                                                        \
+    F(GDALDatasetGetLayer)                                                                                             \
+    F(OGR_L_GetName)                                                                                                   \
+    F(OGR_L_GetGeomType)                                                                                               \
+    F(OGR_L_GetLayerDefn)                                                                                              \
+    F(OGR_L_SetAttributeFilter)                                                                                        \
+    F(OGR_L_ResetReading)                                                                                              \
+    F(OGR_L_GetNextFeature)                                                                                            \
+    F(OGR_FD_GetFieldCount)                                                                                            \
+    F(OGR_FD_GetFieldDefn)                                                                                             \
+    F(OGR_Fld_GetNameRef)                                                                                              \
+    F(OGR_Fld_GetType)                                                                                                 \
+    F(OGR_F_GetFID)                                                                                                    \
+    F(OGR_F_IsFieldSetAndNotNull)                                                                                      \
+    F(OGR_F_GetFieldAsDouble)                                                                                          \
+    F(OGR_F_GetFieldAsString)                                                                                          \
+    F(OGR_F_GetGeometryRef)                                                                                            \
+    F(OGR_F_Destroy)                                                                                                   \
+    F(OGR_G_GetLinearGeometry)                                                                                         \
+    F(OGR_G_DestroyGeometry)                                                                                           \
+    F(OGR_G_GetGeometryName)                                                                                           \
+    F(OGR_G_GetGeometryType)                                                                                           \
+    F(OGR_GT_Flatten)                                                                                                  \
+    F(OGR_GT_HasZ)                                                                                                     \
+    F(OGR_G_Is3D)                                                                                                      \
+    F(OGR_G_GetGeometryCount)                                                                                          \
+    F(OGR_G_GetGeometryRef)                                                                                            \
+    F(OGR_G_GetPointCount)                                                                                             \
+    F(OGR_G_GetPoint)
+
+/* The functions of GDAL that the program calls, under their own names. */
+typedef struct gdal_functions {
+#define GDAL_MEMBER(name) __typeof__(name) *name;
+    GDAL_FUNCTIONS(GDAL_MEMBER)
+#undef GDAL_MEMBER
+} gdal_functions;
+
+/* Load GDAL, if it is not loaded yet; errors are then kept quiet. NULL if it cannot be loaded. */
+const gdal_functions *gdal_library_load(void);
+
+#endif
+
+#endif

@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# Points from vector files, by GDAL: attributes, layers, conditions, missing geometries; what is refused.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+printf '%s\n' "$square" >square.off # on the plane z = x + y
+
+# Outputs whose names say that they are no text are refused before anything is read.
+for name in out.gpkg out.SHP out.geojson out.csv.gz out.xlsx ./a.b/out.parquet; do
+    run sample absent.off absent.csv -o $name; refused 2 "${name//./\\.}: the answers are written as text \(CSV\)"
+    run star absent.off absent.csv -o $name; refused 2 'as text'
+    run probe absent.off absent.csv -o $name; refused 2 'as text'
+done
+run_on $'0.75,0.25\n' sample square.off - -o gpkg; exits 0
+run_on '{"type":"Point","coordinates":[0.75,0.25]}' sample square.off -; refused 3 'standard input: this is JSON, not a table'
+run_on $'x,y\n0,0\n' sample square.off - --layer a; refused 2 "'--layer' is for files that GDAL reads"
+run_on $'x,y\n0,0\n' sample square.off - --where a; refused 2 "'--where' is for files that GDAL reads"
+
+cat >one.geojson <<'END'
+{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"id":"007","x":1.5,"n":3,"t":"a, \"b\"\nc"},"geometry":{"type":"Point","coordinates":[0.75,0.25]}},{"type":"Feature","properties":{"id":"B8","x":null,"n":9007199254740993},"geometry":null},{"type":"Feature","properties":{"id":" 9","x":0.1},"geometry":{"type":"MultiPoint","coordinates":[[0.5,0.5]]}}]}
+END
+run sample square.off one.geojson
+if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
+    refused 3 'one\.geojson: '
+    finish
+fi
+exits 0; says_nothing
+# Points and others in one layer: there may be heights.
+prints 'x_mw,y,z,id,x,n,t,z_mw
+0.75,0.25,,007,1.5,3,"a, ""b""
+c",1
+,,,B8,,9007199254740993,,
+0.5,0.5,," 9",0.1,,,1'
+cp one.geojson many.geojson
+sed -i 's/},{/},\n{/g' many.geojson
+run sample square.off one.geojson -o one.csv; exits 0
+run sample square.off many.geojson -o many.csv; exits 0
+holds "one line or many, all is the same" same_text one.csv many.csv
+cp one.geojson without-ending
+run sample square.off without-ending; exits 0; prints "$(<one.csv)"
+run sample --strict --status square.off one.geojson; exits 1; prints_line ',,bad$'
+run locate --only-answers --where 'n = 3' square.off one.geojson; exits 0
+prints $'x,y,status,triangle,w0,w1,w2\n0.75,0.25,inside,0,0.25,0.5,0.25'
+run sample --where 'm = 3' square.off one.geojson; refused 2 "'--where' is no condition on the layer: GDAL says: "
+run sample --layer none square.off one.geojson; refused 3 "has no layer 'none', but: one"
+run sample --columns x,y square.off one.geojson; refused 2 "'--columns' is for tables"
+
+# Layers: only those count that have features.
+cat >tracks.gpx <<'END'
+<?xml version="1.0"?>
+<gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1">
+<wpt lat="0.25" lon="0.75"><ele>12.5</ele><name>spring</name></wpt>
+<wpt lat="2" lon="3"></wpt>
+</gpx>
+END
+run sample square.off tracks.gpx; exits 0; prints_line '^x,y,ele,.*,name,.*,z$'; prints_line '^0.75,0.25,12.5,.*,spring,.*,1$'
+prints_line '^3,2,,.*,$'
+sed -i 's|</gpx>|<trk><trkseg><trkpt lat="0" lon="1"/><trkpt lat="1" lon="1"/></trkseg></trk></gpx>|' tracks.gpx
+run sample square.off tracks.gpx; refused 2 'tracks\.gpx: which layer has the points\? --layer may be one of: waypoints, routes, tracks,'
+run sample --only-answers --layer track_points square.off tracks.gpx; exits 0; prints $'x,y,z\n1,0,1\n1,1,2'
+
+# Heights, for rays from a centre; lines and damage.
+printf '{"type":"FeatureCollection","features":[%s%s]}' \
+    '{"type":"Feature","properties":{"k":1},"geometry":{"type":"Point","coordinates":[0,0,2]}},' \
+    '{"type":"Feature","properties":{"k":2},"geometry":{"type":"Point","coordinates":[1,1,3]}}' >heights.geojson
+run locate square.off heights.geojson; exits 0; prints_line '^x,y,z,k,status,'; prints_line '^1,1,3,2,vertex,0,0,0,1$'
+printf '%s\n' OFF '4 4 0' '1 1 1' '-1 -1 1' '-1 1 -1' '1 -1 -1' '3 0 1 2' '3 0 3 1' '3 0 2 3' '3 1 3 2' >tetra.off
+run star tetra.off heights.geojson; exits 0; prints_line '^0,0,2,1,edge,'
+echo '{"type":"Point","coordinates":[0,1]}' >flat.geojson
+run star tetra.off flat.geojson; refused 3 'flat\.geojson: its points have x and y, but 3 numbers are wanted'
+run probe tetra.off heights.geojson; refused 3 'but 6 numbers are wanted'
+echo '{"type":"LineString","coordinates":[[0,0],[1,1]]}' >line.geojson
+run sample square.off line.geojson -o out.csv; refused 3 'line\.geojson: GDAL finds no points in it'
+echo '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[0,0]}},
+{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[1,1]]}}]}' >mixed.geojson
+run sample square.off mixed.geojson -o out.csv; refused 3 'mixed\.geojson: feature 1 is a LINESTRING, not a point'
+echo '{"type":' >damaged.geojson
+run sample square.off damaged.geojson -o out.csv; refused 3 'damaged\.geojson: GDAL says: '
+printf 'SQLite format 3\0 and nothing more' >damaged.gpkg
+run sample square.off damaged.gpkg -o out.csv; refused 3 'damaged\.gpkg: GDAL says: '
+run sample square.off absent.gpkg -o out.csv; refused 3 'absent\.gpkg: No such file'
+absent out.csv
+data=$source_tree/../shared/data/gis
+if [[ -d $data ]]; then
+    gunzip -c "$data/track.gpx.gz" >real.gpx
+    run sample -q --layer track_points square.off real.gpx -o real.csv; exits 0
+    holds "every track point has its row" test "$(wc -l <real.csv)" == 872
+    gunzip -c "$data/b_pump.gpkg.gz" >pump.gpkg
+    run sample -q square.off pump.gpkg; exits 0; prints_line '^x,y,cat,z$'
+fi
+finish
