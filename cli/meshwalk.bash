@@ -54,7 +54,7 @@ _meshwalk_names() {
             case $1 in
                 star) echo 'auto random sample front last sorted grid nonuniform-grid octahedron' ;;
                 probe) echo 'auto last sample random' ;;
-                *) echo 'auto random sample centre last sorted grid two-level-grid layers curve' ;;
+                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve' ;;
             esac
             ;;
         --arithmetic) echo 'exact double' ;;

@@ -66,7 +66,7 @@ static const option edit_options[] = {
     {"start", 0, OPTION_CHOICE, offsetof(edit_settings, start), "NAME",
      "how to choose the first triangle (default: auto):", &point_query_starts},
     {"cells", 0, OPTION_COUNT, offsetof(edit_settings, cells), "N",
-     "--start grid, two-level-grid, curve: as for locate (default: 0, by the size of the mesh)", NULL},
+     "--start grid, ..., curve: as for locate (default: 0, by the size of the mesh)", NULL},
     {"layers", 0, OPTION_COUNT, offsetof(edit_settings, layers), "N",
      "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
     {"descent", 0, OPTION_CHOICE, offsetof(edit_settings, descent), "NAME",

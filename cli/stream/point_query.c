@@ -84,7 +84,8 @@ const option point_query_options[] = {
      "vertices",
      NULL},
     {"cells", 0, OPTION_COUNT, offsetof(point_query_settings, cells), "N",
-     "--start grid, two-level-grid: about N cells, of the first level; curve: N samples (default: 0, by the size of "
+     "--start grid, buckets, triangle-buckets, two-level-grid: about N cells, of the first level; curve: N samples "
+     "(default: 0, by the size of "
      "the "
      "mesh)",
      NULL},

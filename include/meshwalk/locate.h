@@ -122,7 +122,7 @@ MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info
 /* For a mesh taken with options.any although it is no embedding: which promise is void, as a text; else NULL. */
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);
 
-/* What some starts build beside the mesh: a grid, layers, or a sample along a curve. It is only a guide to the first triangle, so it may serve any
+/* What some starts build beside the mesh: a grid, buckets, layers, a tree, or a sample along a curve. It is only a guide to the first triangle, so it may serve any
  * locator whatever its mesh, as one made after the mesh was edited: answers stay exact, walks get longer. Const while it
  * is queried. */
 typedef struct mw_index mw_index;
@@ -134,11 +134,11 @@ typedef enum mw_descent { MW_DESCENT_AUTO = 0, MW_DESCENT_NEAREST, MW_DESCENT_CO
 
 /* All zero = choose. */
 typedef struct mw_index_options {
-    uint32_t cells;  /* MW_START_GRID: about so many cells, MW_START_TWO_LEVEL_GRID: of its first level; at most 2^30;
-                        0 = one for two vertices. MW_START_CURVE: triangles that are sampled; 0 = one of 32. More than 64
+    uint32_t cells;     /* MW_START_GRID, MW_START_BUCKETS, MW_START_TRIANGLE_BUCKETS: about so many cells,
+                        MW_START_TWO_LEVEL_GRID: of its first level; at most 2^30; 0 = one for two vertices. MW_START_CURVE: triangles that are sampled; 0 = one of 32. More than 64
                         for each triangle (65,536 in small meshes) are not made: they would only cost time and memory  */
-    uint32_t layers; /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
-    double ratio;    /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
+    uint32_t layers;    /* MW_START_LAYERS: layers, the mesh itself counted, 1 to MW_MAX_LAYERS; 0 = by its size     */
+    double ratio;       /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
     mw_descent descent; /* MW_START_LAYERS: the vertex to go down at                                             */
     uint64_t seed;      /* MW_START_LAYERS: of the random vertices                                               */
     uint32_t reserved[4];
@@ -146,8 +146,8 @@ typedef struct mw_index_options {
 
 #define MW_MAX_LAYERS 8
 
-/* Build the index of a start that needs one: MW_START_GRID, MW_START_TWO_LEVEL_GRID, MW_START_LAYERS or
- * MW_START_CURVE.
+/* Build the index of a start that needs one (mw_start_has_index): MW_START_GRID, MW_START_BUCKETS,
+ * MW_START_TRIANGLE_BUCKETS, MW_START_TWO_LEVEL_GRID, MW_START_LAYERS, MW_START_KD_TREE or MW_START_CURVE.
  *   options  NULL = all zero
  *   out      owned by the caller (mw_index_destroy); keeps nothing of the locator; NULL on failure
  * MW_ERROR_ARGUMENT for another start or options out of range; MW_ERROR_LIMIT for more cells than 2^30;
@@ -160,9 +160,9 @@ typedef struct mw_index_info {
     mw_start_kind start;
     size_t bytes;                     /* all its memory                                        */
     double seconds;                   /* it took to build                                      */
-    uint32_t cells;                   /* of a grid, those of both levels; of a curve, samples  */
+    uint32_t cells;                   /* of a grid, those of both levels, or buckets; of a curve, samples  */
     uint32_t layers;                  /* the mesh itself counted; else 0                       */
-    uint32_t vertices[MW_MAX_LAYERS]; /* of each layer, the mesh first                         */
+    uint32_t vertices[MW_MAX_LAYERS]; /* of each layer, the mesh first; of a tree, one number  */
 } mw_index_info;
 MW_API void mw_index_describe(const mw_index *index, mw_index_info *info);
 
@@ -196,7 +196,7 @@ typedef struct mw_query_options {
  * initialisation (turning round the first vertex), walk, and the final location that ends the cheap walks; the border walk
  * alternates between the walk and the border. Each beginning of a stage but the border counts the triangle it begins in again;
  * triangles_visited counts each entry once.
- * Layers (MW_START_LAYERS) are counted like the mesh itself. Independent of threads; where queries begin at the one
+ * Layers (MW_START_LAYERS) are counted like the mesh itself; the tests in a bucket (MW_START_TRIANGLE_BUCKETS) are orient_init. Independent of threads; where queries begin at the one
  * before (last, sorted, auto), they depend on lanes. */
 typedef struct mw_counters {
     uint64_t queries;           /* walks: points that are not finite are not counted */
@@ -302,6 +302,29 @@ MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y
  * Thread-safe. */
 MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations, size_t n,
                            double *result);
+
+typedef enum mw_value_type { MW_FLOAT64 = 0, MW_FLOAT32 } mw_value_type;
+
+/** Many values at each vertex, such as those of all time steps: value k of vertex v at values[v * stride + k]. */
+typedef struct mw_value_table {
+    const void *values; /**< of one double (MW_FLOAT64) or float (MW_FLOAT32) each              */
+    mw_value_type type;
+    size_t count;  /**< values of each vertex                                              */
+    size_t stride; /**< from one vertex to the next, in values; 0 = count                  */
+} mw_value_table;
+
+/** Interpolate many values at each point: as mw_interpolate each of them, but looking up each triangle once.
+ *
+ * @param mesh       in which the points were located
+ * @param table      read during the call only; a row for each vertex of the mesh
+ * @param locations  n of them
+ * @param result     n rows of table->count values of the table's type, packed; floats are summed as doubles and rounded
+ *                   once. NaN where the location has no triangle
+ * @return MW_ERROR_ARGUMENT: NULL, an unknown type, a stride that is less than count
+ *
+ * Thread-safe; no allocation. */
+MW_API mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table, const mw_location *locations,
+                                      size_t n, void *result, mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -26,6 +26,11 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, cells);
         break;
     case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, cells); break;
+    case MW_START_BUCKETS: done = mw__vertex_buckets_create(&index->vertex_buckets, tiling, low, high, cells); break;
+    case MW_START_TRIANGLE_BUCKETS:
+        done = mw__triangle_buckets_create(&index->triangle_buckets, tiling, low, high, cells);
+        break;
+    case MW_START_KD_TREE: done = mw__kd_tree_create(&index->kd_tree, tiling); break;
     case MW_START_LAYERS: return index_build_layers(&index->layers, tiling, options, error);
     default: break;
     }
@@ -38,6 +43,9 @@ void mw__index_release(mw_index *index)
     case MW_START_GRID: mw__grid_release(&index->grid); break;
     case MW_START_TWO_LEVEL_GRID: mw__two_level_grid_release(&index->two_level_grid); break;
     case MW_START_CURVE: mw__curve_release(&index->curve); break;
+    case MW_START_BUCKETS: mw__vertex_buckets_release(&index->vertex_buckets); break;
+    case MW_START_TRIANGLE_BUCKETS: mw__triangle_buckets_release(&index->triangle_buckets); break;
+    case MW_START_KD_TREE: mw__kd_tree_release(&index->kd_tree); break;
     case MW_START_LAYERS: mw__layers_release(&index->layers); break;
     default: break;
     }
@@ -56,6 +64,9 @@ size_t mw__index_bytes(const mw_index *index)
     case MW_START_GRID: return mw__grid_bytes(&index->grid);
     case MW_START_TWO_LEVEL_GRID: return mw__two_level_grid_bytes(&index->two_level_grid);
     case MW_START_CURVE: return mw__curve_bytes(&index->curve);
+    case MW_START_BUCKETS: return mw__vertex_buckets_bytes(&index->vertex_buckets);
+    case MW_START_TRIANGLE_BUCKETS: return mw__triangle_buckets_bytes(&index->triangle_buckets);
+    case MW_START_KD_TREE: return mw__kd_tree_bytes(&index->kd_tree);
     case MW_START_LAYERS: return mw__layers_bytes(&index->layers);
     default: return 0;
     }
@@ -73,6 +84,9 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
     case MW_START_CURVE:
         info->cells = index->curve.count - 2; /* the ends are no tiles */
         break;
+    case MW_START_BUCKETS: info->cells = mw__lattice_cells(&index->vertex_buckets.lattice); break;
+    case MW_START_TRIANGLE_BUCKETS: info->cells = mw__lattice_cells(&index->triangle_buckets.lattice); break;
+    case MW_START_KD_TREE: info->vertices[0] = index->kd_tree.count; break;
     case MW_START_LAYERS:
         info->layers = index->layers.count;
         mw__layers_describe(&index->layers, info->vertices);
@@ -95,6 +109,8 @@ static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
     case MW_START_GRID: return mw__grid_first(&index->grid, q);
     case MW_START_TWO_LEVEL_GRID: return mw__two_level_grid_first(&index->two_level_grid, q);
     case MW_START_CURVE: return mw__curve_first(&index->curve, q);
+    case MW_START_BUCKETS: return mw__vertex_buckets_first(&index->vertex_buckets, q);
+    case MW_START_KD_TREE: return mw__kd_tree_first(&index->kd_tree, q);
     default: return 0;
     }
 }
@@ -117,10 +133,14 @@ uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point
 
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
 {
-    if (MW_LIKELY(cursor->index->start != MW_START_LAYERS)) return mw__index_tile(tiling, cursor->index, q);
+    const mw_index *index = cursor->index;
+    if (MW_LIKELY(!mw__index_counts(index))) return mw__index_tile(tiling, index, q);
+    if (index->start == MW_START_TRIANGLE_BUCKETS)
+        return mw__tile_named(
+            tiling, mw__triangle_buckets_first(&index->triangle_buckets, tiling, q, cursor->count ? work : NULL));
     mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish, cursor->arithmetic == MW_EXACT,
                          cursor->count, tiling};
-    return mw__tile_named(tiling, mw__layers_first(&cursor->index->layers, q, &how, random, work));
+    return mw__tile_named(tiling, mw__layers_first(&index->layers, q, &how, random, work));
 }
 
 static void grid_first_many(const mw_grid *grid, const mw_point *q, uint32_t n, uint32_t *t)
@@ -168,7 +188,9 @@ void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const 
     case MW_START_GRID: grid_first_many(&index->grid, q, n, t); break;
     case MW_START_TWO_LEVEL_GRID: two_level_grid_first_many(&index->two_level_grid, q, n, t); break;
     case MW_START_CURVE: curve_first_many(&index->curve, q, n, t); break;
-    default: break;
+    default:
+        for (uint32_t i = 0; i < n; i++) t[i] = index_first_name(index, q[i]);
+        break;
     }
     if (MW_UNLIKELY(tiling->tile_of && index->start != MW_START_CURVE)) names_resolve_many(tiling, n, t);
     for (uint32_t i = 0; i < n; i++) {

@@ -4,8 +4,11 @@
 
 #include "start/curve.h"
 #include "start/grid.h"
+#include "start/kd_tree.h"
 #include "start/layers.h"
+#include "start/triangle_buckets.h"
 #include "start/two_level_grid.h"
+#include "start/vertex_buckets.h"
 #include "walk/walk.h"
 
 #include <meshwalk/locate.h>
@@ -18,6 +21,9 @@ struct mw_index {
         mw_two_level_grid two_level_grid;
         mw_layers layers;
         mw_curve curve;
+        mw_vertex_buckets vertex_buckets;
+        mw_triangle_buckets triangle_buckets;
+        mw_kd_tree kd_tree;
     };
 };
 
@@ -30,8 +36,14 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
 void mw__index_release(mw_index *index);
 size_t mw__index_bytes(const mw_index *index);
 
-/* The first tile for q: a tile of this tiling, whatever mesh the index was made from. Not for
- * layers. */
+/* Does a look into the index make tests that are counted? */
+static MW_INLINE bool mw__index_counts(const mw_index *index)
+{
+    return index->start == MW_START_LAYERS || index->start == MW_START_TRIANGLE_BUCKETS;
+}
+
+/* The first tile for q: a tile of this tiling, whatever mesh the index was made from. Not for those
+ * that count. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q);
 /* The same, without a look at that tile: where it has yet to be asked of memory, and is wanted
  * later. */
@@ -44,7 +56,7 @@ uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_po
 #define MW_INDEX_MANY 64
 
 /* The first tiles for n points, at most MW_INDEX_MANY. The look-ups wait for memory together, not
- * one after the other. Not for layers. */
+ * one after the other. Not for indices that count. */
 void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q, uint32_t n, uint32_t *t);
 
 #endif

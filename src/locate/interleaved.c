@@ -67,7 +67,7 @@ static void schedule_refill(lane_schedule *s)
     }
     s->ready_next = 0;
     s->ready_count = n;
-    if (index && index->start != MW_START_LAYERS)
+    if (index && !mw__index_counts(index))
         mw__index_first_many(&of->locator->tiling, index, s->q, n, s->tile);
     else
         for (uint32_t i = 0; i < n; i++) s->tile[i] = query_tile(of, s->q[i], s->query[i]);

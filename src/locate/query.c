@@ -182,6 +182,9 @@ static uint32_t start_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_TWO_LEVEL_GRID:
     case MW_START_LAYERS:
     case MW_START_CURVE:
+    case MW_START_BUCKETS:
+    case MW_START_TRIANGLE_BUCKETS:
+    case MW_START_KD_TREE:
     case MW_START_LAST:
     case MW_START_SORTED:
     case MW_START_COUNT: break;

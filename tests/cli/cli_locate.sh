@@ -49,6 +49,7 @@ for walk in $walks; do
 done
 # Whatever adjusts them, too; what is out of range is refused before anything is printed.
 for options in '--start grid --cells 1' '--start grid --cells 1000' '--start two-level-grid --cells 3' \
+    '--start buckets --cells 7' '--start triangle-buckets --cells 5' '--start kd-tree' \
     '--start layers --layers 1' '--start layers --layers 2' '--start layers --layers 3 --descent nearest' \
     '--start layers --layers 3 --descent coordinate' '--walk direct --start layers --descent coordinate' \
     '--start sample --sample 1' \
@@ -177,7 +178,7 @@ awk 'BEGIN { print "OFF"; print 22, 20, 0
 run_on $'165 10.5\n' locate --any seam.off -; says "seam\.off: warning: 2 of its triangles are wider than 180 degrees: .*'meshwalk star --lonlat'"
 
 # Memory and time of what the start and the walks build; nothing where nothing is built.
-for start in grid two-level-grid layers; do
+for start in grid buckets triangle-buckets two-level-grid layers kd-tree; do
     run_on "$points" locate --stats --start $start --areas square.off -; exits 0
     says '^start bytes +[1-9]'; says '^start seconds +[0-9]'; says '^area bytes +16$'; says "^start +$start\$"
 done

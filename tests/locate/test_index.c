@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "locate/index.h"
+#include "locate/locator.h"
 #include "support/allocations.h"
 #include "support/meshes.h"
 #include "support/start_list.h"
@@ -301,6 +302,9 @@ static void test_guides_well(void **state)
             visited[start] = (double)answers(locator, &options, q, N, at).triangles_visited / N;
         }
         if (!clustered) assert_true(visited[MW_START_GRID] < 5);
+        assert_true(visited[MW_START_TRIANGLE_BUCKETS] == 1); /* a test finds each */
+        assert_true(visited[MW_START_KD_TREE] < 5);
+        assert_true(clustered || visited[MW_START_BUCKETS] < 6);
         assert_true(visited[MW_START_TWO_LEVEL_GRID] < 5);
         assert_true(visited[MW_START_RANDOM] > 5 * visited[MW_START_TWO_LEVEL_GRID]);
         starts_close(index);
@@ -440,11 +444,13 @@ static void test_describe(void **state)
     arrays a = arrays_grid(100, 0.4, &random);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
-    for (int start = MW_START_GRID; start <= MW_START_TWO_LEVEL_GRID; start++) {
+    static const mw_start_kind starts[] = {MW_START_GRID, MW_START_BUCKETS, MW_START_TRIANGLE_BUCKETS,
+                                           MW_START_TWO_LEVEL_GRID};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
+        mw_start_kind start = starts[i];
         mw_index_info info, wanted, one;
-        mw_index *chosen = index_of(locator, (mw_start_kind)start, 0);
-        mw_index *given = index_of(locator, (mw_start_kind)start, 900),
-                 *least = index_of(locator, (mw_start_kind)start, 1);
+        mw_index *chosen = index_of(locator, start, 0), *given = index_of(locator, start, 900),
+                 *least = index_of(locator, start, 1);
         mw_index_describe(chosen, &info);
         mw_index_describe(given, &wanted);
         mw_index_describe(least, &one);
@@ -457,6 +463,10 @@ static void test_describe(void **state)
             assert_int_equal(wanted.cells, 32 * 32); /* 900, and the rim */
             assert_int_equal(one.cells, 1);
             assert_int_equal(info.bytes, sizeof *chosen + 4 * (size_t)info.cells);
+        } else if (start == MW_START_BUCKETS || start == MW_START_TRIANGLE_BUCKETS) {
+            assert_int_equal(wanted.cells, 30 * 30);
+            assert_int_equal(one.cells, 1);
+            if (start == MW_START_BUCKETS) assert_int_equal(info.bytes, sizeof *chosen + 4 * (size_t)info.cells);
         } else {
             assert_true(wanted.cells > 900 + 9000); /* all are crowded: 11 vertices each */
             assert_true(one.cells > 10000);         /* all are in one, which is a grid */
@@ -486,7 +496,7 @@ static void test_refuses(void **state)
     assert_int_equal(mw_index_create(locator, MW_START_GRID, NULL, NULL, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_index_create(NULL, MW_START_GRID, NULL, &none, &error), MW_ERROR_ARGUMENT);
     const uint32_t too_many[] = {(1u << 30) + 1, 4000000000u, UINT32_MAX};
-    for (int start = MW_START_GRID; start <= MW_START_TWO_LEVEL_GRID; start++)
+    for (int start = MW_START_GRID; start < MW_START_COUNT; start++)
         for (size_t i = 0; i < 3; i++) {
             mw_index_options options = {.cells = too_many[i]};
             none = grid;
@@ -538,6 +548,131 @@ static void test_auto(void **state)
     arrays_free(&a);
 }
 
+/* The vertices of the tile where a walk to q begins. */
+static const uint32_t *first_tile(const mw_locator *locator, const mw_index *index, mw_point q)
+{
+    return locator->tiling.tri[mw__index_tile(&locator->tiling, index, q)].v;
+}
+
+static double off2(mw_point a, mw_point b)
+{
+    return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+}
+
+/* The tree leads to the nearest vertex, wherever the query is; and where doubles do not hold distances, to any. */
+static void test_nearest_vertex(void **state)
+{
+    (void)state;
+    uint64_t random = 13;
+    for (int round = 0; round < 6; round++) {
+        arrays a =
+            round % 3 == 2 ? clusters(700, 30, &random) : arrays_grid(round % 3 ? 1 : 25, round < 3 ? 0.5 : 0, &random);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        const mw_tiling *tiling = &locator->tiling;
+        mw_index *index = index_of(locator, MW_START_KD_TREE, 0);
+        mw_index_info info;
+        mw_index_describe(index, &info);
+        assert_true(info.vertices[0] <= tiling->point_count && info.bytes > 24 * (size_t)info.vertices[0]);
+        for (int i = 0; i < 800; i++) {
+            mw_point near = tiling->point[mw__random_below(&random, tiling->point_count)];
+            double far = i % 4 ? 2 : 1e3;
+            mw_point q = {near.x + far * (random_unit(&random) - 0.5), near.y + far * (random_unit(&random) - 0.5)};
+            if (i % 5 == 0) q = near;
+            double least = INFINITY, reached = INFINITY;
+            const uint32_t *v = first_tile(locator, index, q);
+            for (uint32_t k = 0; k < tiling->point_count; k++) least = fmin(least, off2(tiling->point[k], q));
+            for (int k = 0; k < 3; k++) reached = fmin(reached, off2(tiling->point[v[k]], q));
+            assert_true(reached == least);
+        }
+        first_tile(locator, index, (mw_point){1e308, -1e308});
+        mw_index_destroy(index);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
+static bool in_cell(const mw_lattice *lattice, mw_point p, int64_t x, int64_t y)
+{
+    uint32_t cell = mw__lattice_cell(lattice, p);
+    return cell % lattice->columns == x && cell / lattice->columns == y;
+}
+
+/* The tile of a bucket has a vertex in it; and of buckets that are empty, in one of the first ring round it that has a
+ * vertex. */
+static void test_spiral(void **state)
+{
+    (void)state;
+    uint64_t random = 14;
+    for (int round = 0; round < 4; round++) {
+        arrays a = clusters(60, 3, &random);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        const mw_tiling *tiling = &locator->tiling;
+        mw_index *index = index_of(locator, MW_START_BUCKETS, 300);
+        const mw_lattice *lattice = &index->vertex_buckets.lattice;
+        for (uint32_t x = 0; x < lattice->columns; x++)
+            for (uint32_t y = 0; y < lattice->rows; y++) {
+                const uint32_t *v = first_tile(locator, index, mw__lattice_middle(lattice, x, y));
+                int64_t least = INT64_MAX;
+                for (uint32_t k = 0; k < tiling->point_count; k++) {
+                    uint32_t cell = mw__lattice_cell(lattice, tiling->point[k]);
+                    int64_t dx = llabs((int64_t)(cell % lattice->columns) - x);
+                    int64_t dy = llabs((int64_t)(cell / lattice->columns) - y);
+                    least = (dx > dy ? dx : dy) < least ? (dx > dy ? dx : dy) : least;
+                }
+                bool there = false;
+                for (int64_t i = x - least; i <= x + least; i++)
+                    for (int64_t j = y - least; j <= y + least; j++)
+                        for (int k = 0; k < 3; k++) there |= in_cell(lattice, tiling->point[v[k]], i, j);
+                assert_true(there);
+            }
+        mw_index_destroy(index);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
+/* A query tests triangles of its bucket, and begins in the one that has it; the tests are counted alone and in batches.
+ * Slivers across the extent are in many buckets each: then these are fewer. */
+static void test_triangle_buckets(void **state)
+{
+    (void)state;
+    enum { N = 2000 };
+    uint64_t random = 15;
+    for (int slivers = 0; slivers < 2; slivers++) {
+        arrays a = slivers ? arrays_fan(2000) : arrays_grid(40, 0.6, &random);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        mw_index *index = index_of(locator, MW_START_TRIANGLE_BUCKETS, 0);
+        mw_index_info info;
+        mw_index_describe(index, &info);
+        assert_true(info.bytes < 80 * (size_t)locator->tiling.tri_count);
+        double q[2 * N];
+        mw_location at[N];
+        for (int i = 0; i < N; i++) {
+            const uint32_t *t = a.triangles + 3 * (size_t)mw__random_below(&random, a.triangle_count);
+            for (int k = 0; k < 2; k++)
+                q[2 * i + k] = 0.25 * a.points[2 * t[0] + (uint32_t)k] + 0.25 * a.points[2 * t[1] + (uint32_t)k] +
+                               0.5 * a.points[2 * t[2] + (uint32_t)k];
+        }
+        mw_query_options options = {.index = index, .walk = MW_WALK_REMEMBERING, .counters = 1};
+        mw_counters batch = answers(locator, &options, q, N, at);
+        assert_true(batch.triangles_visited < N + N / 100);
+        assert_true(batch.orient_init >= 3 * N); /* those of the triangle that has it at least */
+        mw_cursor cursor;
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
+        for (int i = 0; i < N; i++) mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
+        assert_int_equal(cursor.counters.orient_init, batch.orient_init);
+        mw_index_destroy(index);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
 /* Each allocation fails once: that is said, and nothing is left. */
 static void test_memory(void **state)
 {
@@ -571,12 +706,25 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grids),    cmocka_unit_test(test_clusters),   cmocka_unit_test(test_slivers),
-        cmocka_unit_test(test_holes),    cmocka_unit_test(test_scales),     cmocka_unit_test(test_lattice),
-        cmocka_unit_test(test_fill),     cmocka_unit_test(test_other_mesh), cmocka_unit_test(test_guides_well),
-        cmocka_unit_test(test_describe), cmocka_unit_test(test_refuses),    cmocka_unit_test(test_auto),
-        cmocka_unit_test(test_memory),   cmocka_unit_test(test_stretched),  cmocka_unit_test(test_outside),
+        cmocka_unit_test(test_grids),
+        cmocka_unit_test(test_clusters),
+        cmocka_unit_test(test_slivers),
+        cmocka_unit_test(test_holes),
+        cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_lattice),
+        cmocka_unit_test(test_fill),
+        cmocka_unit_test(test_other_mesh),
+        cmocka_unit_test(test_guides_well),
+        cmocka_unit_test(test_describe),
+        cmocka_unit_test(test_refuses),
+        cmocka_unit_test(test_auto),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_stretched),
+        cmocka_unit_test(test_outside),
         cmocka_unit_test(test_crowded),
+        cmocka_unit_test(test_nearest_vertex),
+        cmocka_unit_test(test_spiral),
+        cmocka_unit_test(test_triangle_buckets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
