@@ -119,9 +119,11 @@ run star tetra.off rays.gpkg; exits 0; prints_line '^x,y,z,k,status,triangle,w0,
 run sample -q square.off tracks.gpx --layer waypoints -o crs.gpkg; exits 0
 holds "the coordinate system is kept" grep -q 'WGS 84' crs.gpkg
 # A column of numbers with a text far behind; a name that the format has no room for.
-{ echo id,x,y; yes 1,0,0 | head -n 270000; echo B7,0,0; } >late.csv
-run sample square.off late.csv -o late.fgb
-exits 3; says "row 270001: the column 'id' had numbers only, but here 'B7'"; absent late.fgb
+if (ulimit -v 4000000; "$meshwalk" --version) >/dev/null 2>&1; then # a sanitizer takes more, and long
+    { echo id,x,y; yes 1,0,0 | head -n 262144; echo B7,0,0; } >late.csv
+    run sample square.off late.csv -o late.fgb
+    exits 3; says "row 262145: the column 'id' had numbers only, but here 'B7'"; absent late.fgb
+fi
 run_on $'measured_depth,x,y\n1,0,0\n' sample square.off - -o long.shp; exits 0
 says "long\.shp: remark: the column 'measured_depth' is called 'measured_d' in this format"
 run_on $'500000,4000000\n' sample square.off - -o utm.geojson; exits 0
