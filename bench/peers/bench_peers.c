@@ -53,7 +53,7 @@ static int peers_run_workload(peers_run *r, workload *w)
 static int peers_run_points(peers_run *r, const char *name, dataset *data)
 {
     workload w;
-    int end = workload_from_points(&w, name, data, r->settings->common.seed);
+    int end = workload_from_points(&w, name, data, &r->settings->common);
     if (end == 0) end = peers_run_workload(r, &w);
     workload_release(&w);
     return end;
@@ -82,7 +82,7 @@ static const char *base_name(const char *path)
 static int peers_run_mesh(peers_run *r, const char *name, const mw_mesh_file *file)
 {
     workload w;
-    int end = workload_from_mesh(&w, name, file, r->settings->common.seed);
+    int end = workload_from_mesh(&w, name, file, &r->settings->common);
     if (end == 0) end = peers_run_workload(r, &w);
     workload_release(&w);
     return end;

@@ -16,7 +16,8 @@ static int workload_fail(const workload *w, const mw_error *error)
 static int workload_prepare(workload *w)
 {
     mw_error error;
-    if (mw_locator_create(w->drawn_in, NULL, &w->locator, &error) != MW_OK) return workload_fail(w, &error);
+    mw_locator_options options = {.threads = w->threads, .progress = progress_of_call()};
+    if (mw_locator_create(w->drawn_in, &options, &w->locator, &error) != MW_OK) return workload_fail(w, &error);
     w->mesh.points = w->points;
     w->mesh.triangles = w->triangles;
     return 0;
@@ -32,23 +33,26 @@ static int workload_take_triangles(workload *w)
     return workload_prepare(w);
 }
 
-int workload_from_points(workload *w, const char *name, dataset *data, uint64_t seed)
+int workload_from_points(workload *w, const char *name, dataset *data, const common_settings *common)
 {
     mw_error error;
-    *w = (workload){.name = name, .points = data->points, .region = *data, .seed = seed};
+    mw_delaunay_options options = {.threads = common->threads, .progress = progress_of_call()};
+    *w = (workload){
+        .threads = common->threads, .name = name, .points = data->points, .region = *data, .seed = common->seed};
     w->mesh.point_count = data->count;
     data->points = w->region.points = NULL;
     progress_phase("triangulating", name);
-    if (mw_delaunay(w->points, data->count, 2, NULL, NULL, NULL, &w->drawn_in, &error) != MW_OK)
+    if (mw_delaunay(w->points, data->count, 2, &options, NULL, NULL, &w->drawn_in, &error) != MW_OK)
         return workload_fail(w, &error);
     return workload_take_triangles(w);
 }
 
-int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, uint64_t seed)
+int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, const common_settings *common)
 {
     mw_error error;
+    mw_mesh_options options = {.threads = common->threads, .progress = progress_of_call()};
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    *w = (workload){.name = name, .seed = seed};
+    *w = (workload){.threads = common->threads, .name = name, .seed = common->seed};
     w->points = malloc(2 * (file->point_count + 1) * sizeof *w->points);
     if (!w->points) return fail_memory();
     for (size_t i = 0; i < file->point_count; i++) memcpy(w->points + 2 * i, file->points + 3 * i, 2 * sizeof(double));
@@ -61,7 +65,7 @@ int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, 
         return END_INPUT;
     }
     progress_phase("linking", name);
-    if (mw_mesh_create(&arrays, NULL, &w->drawn_in, &error) != MW_OK) return workload_fail(w, &error);
+    if (mw_mesh_create(&arrays, &options, &w->drawn_in, &error) != MW_OK) return workload_fail(w, &error);
     return workload_take_triangles(w);
 }
 
@@ -92,7 +96,7 @@ void workload_release(workload *w)
 static int workload_locate(const workload *w, const double *queries, size_t n, mw_location *found)
 {
     mw_error error;
-    mw_query_options options = {.seed = w->seed};
+    mw_query_options options = {.seed = w->seed, .threads = w->threads};
     return mw_locate_batch(w->locator, queries, n, 2, &options, found, NULL, &error) == MW_OK
                ? 0
                : workload_fail(w, &error);

@@ -4,6 +4,7 @@
 
 #include "bench/data/dataset.h"
 #include "bench/peers/engine.h"
+#include "cli/frame/options.h"
 
 #include <meshwalk/meshwalk.h>
 
@@ -23,15 +24,16 @@ typedef struct workload {
     /* To draw queries; gone when they are drawn. */
     dataset region; /* that they are drawn from; without points of its own */
     uint64_t seed, random;
+    uint32_t threads; /* that prepare it */
     mw_mesh *drawn_in;
     mw_locator *locator;
 } workload;
 
 /* The points are triangulated, and become those of the workload. Each of these returns 0 or an exit
  * code after a complaint. */
-int workload_from_points(workload *w, const char *name, dataset *data, uint64_t seed);
+int workload_from_points(workload *w, const char *name, dataset *data, const common_settings *common);
 /* The mesh is taken as it is. */
-int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, uint64_t seed);
+int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, const common_settings *common);
 /* Draw n queries for each of the tasks (ENGINE_IN), and give back what only drawing needs: beside a
  * large mesh there is no room for it. */
 int workload_draw_queries(workload *w, uint32_t tasks, size_t n);
