@@ -102,6 +102,12 @@ printf '4 2 1 0\n# attributes: x\n0 0 0 1\n1 1 0 1\n2 1 1 1\n3 0 1 1\n' >f.node
 printf '2 3 0\n0 0 1 2\n1 0 2 3\n' >f.ele
 run_on $'id,x,y\n1,0,0\n' sample --field attribute1 f.node -; exits 0; prints $'id,x,y,attribute1\n1,0,0,1'
 
+# An id may begin with #; a comment does not have all the columns, or stands where a number is read.
+run_on $'# made by hand\nid,x,y\n#12,0,0\n# no, row\n#13,1,0\n#\n14,1,1\n' sample square.off -; exits 0
+prints $'id,x,y,z\n#12,0,0,0\n#13,1,0,1\n14,1,1,2'
+run_on $'x,y,id\n#0,0,a\n1,0,b\n#0,0,c\n' sample square.off -; exits 0; prints $'x,y,id,z\n1,0,b,1'
+run_on $'id x y\n# of three\na 1 0\n' sample square.off -; exits 0; prints $'id,x,y,z\na,1,0,1'
+
 # Rows of another length, a quote that does not end: the line is named.
 run_on $'id,x,y\n1,0,0\n2,0\n' locate square.off -; exits 3; says 'standard input:3: 2 columns where the header has 3'
 run_on $'id,x,y\n1,0,0\n2,0,0,\n' locate square.off -; exits 3; says 'standard input:3: 4 columns where the header has 3'

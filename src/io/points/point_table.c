@@ -227,9 +227,11 @@ static mw_status table_read_rows(mw_point_reader *reader, double *values, size_t
                                  mw_error *error)
 {
     point_table *t = reader->state;
+    /* an id like #12 begins a row of a table, a number does not */
+    size_t marks = reader->table && t->columns > 0 && t->slot[0] == UNUSED ? t->columns : 0;
     while (*count < capacity && reader->rows.size < MW_ROW_TEXTS_LIMIT) {
         char *row;
-        mw_status status = mw__table_row(&reader->source, t->separator, &row, error);
+        mw_status status = mw__table_row(&reader->source, t->separator, marks, &row, error);
         if (status) return status;
         if (!row) break;
         status = table_keep_row(reader, row, error);
@@ -284,7 +286,7 @@ static mw_status table_make(mw_point_reader *reader, char separator, mw_error *e
 mw_status mw__point_table_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
 {
     char separator = ' ';
-    reader->header = (mw_table_header){.expected = UINT64_MAX};
+    reader->header = (mw_table_header){.expected = UINT64_MAX, .marks = reader->table};
     bool node = mw__path_ends(reader->source.path, ".node");
     mw_status status = node ? mw__table_header_of_node(&reader->source, &reader->header, error)
                             : mw__table_header_detect(&reader->source, &reader->header, &separator, error);

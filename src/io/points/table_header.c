@@ -36,19 +36,20 @@ static mw_status row_join_lines(mw_source *source, char separator, char **row, m
 }
 
 /* A row of empty cells between tabs is a row. */
-static bool row_is_blank(const char *row, char separator)
+static bool row_is_none(const char *row, char separator, size_t columns)
 {
     const char *p = row;
     while (*p == ' ' || (*p == '\t' && separator != '\t')) p++;
-    return !*p || *p == '#';
+    if (*p != '#') return !*p;
+    return columns == 0 || separator == ' ' || mw__delimited_count(row, separator) != columns;
 }
 
-mw_status mw__table_row(mw_source *source, char separator, char **row, mw_error *error)
+mw_status mw__table_row(mw_source *source, char separator, size_t columns, char **row, mw_error *error)
 {
     for (;;) {
         mw_status status = mw__source_line(source, row, error);
         if (status || !*row) return status;
-        if (row_is_blank(*row, separator)) continue;
+        if (row_is_none(*row, separator, columns)) continue;
         bool quotes = memchr(*row, '"', source->line_length) != NULL;
         return quotes ? row_join_lines(source, separator, row, error) : MW_OK;
     }
@@ -110,7 +111,7 @@ static mw_status header_refuse_decimal_commas(const mw_source *source, const cha
 mw_status mw__table_header_detect(mw_source *source, mw_table_header *c, char *separator, mw_error *error)
 {
     char *row, other;
-    mw_status status = mw__table_row(source, 0, &row, error);
+    mw_status status = mw__table_row(source, 0, 0, &row, error);
     if (status || !row) return status;
     status = header_refuse_decimal_commas(source, row, separator, error);
     if (status) return status;
@@ -120,7 +121,7 @@ mw_status mw__table_header_detect(mw_source *source, mw_table_header *c, char *s
     if (!c->numbers) return mw__fail_memory(error);
     if (mw__delimited_is_header(row, *separator) || row_names_coordinates(row, *separator)) {
         status = header_keep_names(c, row, *separator, error);
-        if (!status) status = mw__table_row(source, *separator, &row, error);
+        if (!status) status = mw__table_row(source, *separator, c->marks ? c->count : 0, &row, error);
         if (!status && row && !mw__delimited_takes_comma(*separator))
             status = header_refuse_decimal_commas(source, row, &other, error);
         if (status) return status;

@@ -10,6 +10,7 @@ typedef struct mw_table_header {
     char *text;        /* the header as it stands in the file; NULL without one */
     bool *numbers;     /* the first row has a number there (or nothing, in a named column) */
     uint64_t expected; /* rows, if they are announced; else UINT64_MAX */
+    bool marks;        /* set before: # may begin the first cell of a row */
 } mw_table_header;
 
 /* Look at the header, if there is one, and at the first row of data, which stays unread. A header is a
@@ -27,8 +28,9 @@ mw_status mw__table_header_commas(mw_table_header *header, char separator, mw_er
 void mw__table_header_release(mw_table_header *header);
 
 /* The next row: neither empty nor a comment; NULL at the end. It has several lines where a quoted cell
- * has. The separator may be 0: not known yet. */
-mw_status mw__table_row(mw_source *source, char separator, char **row, mw_error *error);
+ * has. The separator may be 0: not known yet. A line that begins with # is a row if it has so many
+ * `columns`, and blanks do not separate them; 0: it is a comment. */
+mw_status mw__table_row(mw_source *source, char separator, size_t columns, char **row, mw_error *error);
 
 /* The column of that name, letters in any case, or header->count. Without a header the first
  * three are x, y and z. */
