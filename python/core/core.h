@@ -130,5 +130,6 @@ int check_init(PyObject *module);
 int layouts_init(PyObject *module);
 int triangulation_init(PyObject *module);
 int files_init(PyObject *module);
+int points_init(PyObject *module);
 
 #endif

@@ -226,6 +226,9 @@ def constrained_delaunay(
     /,
 ) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(path: bytes, /) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]: ...
+def read_points(
+    path: bytes, columns: str | None, classes: bytes, /
+) -> tuple[memoryview, list[str]]: ...
 def write_mesh(
     path: bytes,
     format: str | None,
