@@ -10,6 +10,7 @@ static int core_add_numbers(PyObject *module)
 static int core_exec(PyObject *module)
 {
     core_state *state = PyModule_GetState(module);
+    state->main_thread = PyThread_get_thread_ident();
     return errors_init(state) || memory_init(module, state) || mesh_init(module, state) ||
                    location_init(module, state) || locator_init(module, state) ||
                    surface_init(module, state) || star_init(module, state) ||

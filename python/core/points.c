@@ -80,10 +80,11 @@ static PyObject *points_read(PyObject *module, PyObject *args)
     if (size != sizeof options.classes)
         return PyErr_Format(PyExc_ValueError, "expected 256 classes");
     memcpy(options.classes, classes, sizeof options.classes);
-    Py_BEGIN_ALLOW_THREADS status = mw_point_reader_open(path, &options, &reader, &error);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_point_reader_open(path, &options, &reader, &error);
     if (!status) status = point_rows_read(&rows, reader, &error);
-    Py_END_ALLOW_THREADS if (status)
-    {
+    Py_END_ALLOW_THREADS
+    if (status) {
         free(rows.values);
         mw_point_reader_close(reader);
         return errors_raise(state, &error);
