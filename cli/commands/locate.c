@@ -49,7 +49,9 @@ static int locate_run(const void *settings, const char *const *operands)
     const locate_settings *s = settings;
     point_query q;
     int end = point_query_open(&q, &s->query, operands, s->details, NULL, NULL);
-    if (end == 0) end = point_query_run(&q, operands[1], s->details ? detailed_answers : plain_answers, locate_row, s);
+    if (end == 0)
+        end = point_query_run(&q, operands[1], s->details ? detailed_answers : plain_answers,
+                              s->details ? "tirrriiiri" : "tirrr", locate_row, s);
     point_query_release(&q);
     return end;
 }

@@ -209,6 +209,7 @@ static int probed_surface_run(probed_surface *p, const char *path)
         .columns = {.axes = QUERY_SPACE, .names = {"x", "y", "z", "mx", "my", "mz"}, .count = 6},
         .shown = 3,
         .answers = answers,
+        .kinds = "tirrrr",
         .answer_size = sizeof(mw_touch),
         .answer = probed_surface_answer,
         .row = probe_row,
@@ -225,7 +226,7 @@ static int probe_run(const void *settings, const char *const *operands)
     const probe_settings *s = settings;
     probed_surface p = {.settings = s, .begin = monotonic_seconds()};
     int end = files_check_output(s->stream.common.output, operands, 2);
-    if (end == 0) end = files_check_text_output(s->stream.common.output);
+    if (end == 0) end = query_stream_check_output(&s->stream);
     if (end == 0) end = options_limit("race", s->race, MAX_RACERS, NULL);
     if (end == 0) end = probed_surface_open(&p, operands[0]);
     if (end == 0) end = probed_surface_run(&p, operands[1]);

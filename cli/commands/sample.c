@@ -195,7 +195,7 @@ static int sample_run(const void *settings, const char *const *operands)
     end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field, &choice);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);
-        end = point_query_run(&q, operands[1], answers, sample_row, &rows);
+        end = point_query_run(&q, operands[1], answers, s->status ? "rt" : "r", sample_row, &rows);
     }
     point_query_release(&q);
     return end;

@@ -244,6 +244,7 @@ static int ray_queries_run(ray_queries *r, const char *path)
                     .count = 3,
                     .hint = "; --lonlat reads longitude and latitude"},
         .answers = answers,
+        .kinds = "tirrr",
         .answer_size = sizeof(mw_location),
         .answer = ray_queries_answer,
         .row = ray_queries_write_row,
@@ -267,7 +268,7 @@ static int star_run(const void *settings, const char *const *operands)
     const star_settings *s = settings;
     ray_queries r = {.settings = s, .begin = monotonic_seconds()};
     int end = files_check_output(s->stream.common.output, operands, 2);
-    if (end == 0) end = files_check_text_output(s->stream.common.output);
+    if (end == 0) end = query_stream_check_output(&s->stream);
     if (end == 0) end = star_check_limits(s);
     if (end == 0) end = ray_queries_open(&r, operands[0]);
     if (end == 0) end = ray_queries_run(&r, operands[1]);

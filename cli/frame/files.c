@@ -75,16 +75,15 @@ int files_check_output(const char *output, const char *const *inputs, int count)
 
 int files_check_text_output(const char *output)
 {
-    static const char *const endings[] = {".gpkg", ".shp",     ".fgb",    ".geojson", ".json", ".gpx", ".kml",
-                                          ".kmz",  ".gml",     ".sqlite", ".parquet", ".xlsx", ".ods", ".dbf",
-                                          ".gz",   ".zip",     ".las",    ".laz",     ".nc",   ".tif", ".ply",
-                                          ".vtk",  ".feather", ".arrow",  ".gdb"};
+    static const char *const endings[] = {".gpx", ".kml", ".kmz", ".xlsx", ".ods", ".dbf",     ".gz",    ".zip", ".las",
+                                          ".laz", ".nc",  ".tif", ".ply",  ".vtk", ".feather", ".arrow", ".gdb"};
     if (files_is_standard(output)) return 0;
     size_t length = strlen(output);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t end = strlen(endings[i]);
         if (length <= end || strcasecmp(output + length - end, endings[i]) != 0) continue;
-        complain("%s: the answers are written as text (CSV), which a file %s is not", output, endings[i]);
+        complain("%s: answers are written as text (CSV), or as .gpkg, .shp, .fgb or .geojson by GDAL, but not as %s",
+                 output, endings[i]);
         return END_USAGE;
     }
     return 0;

@@ -1,5 +1,6 @@
 #include "cli/frame/signals.h"
 
+#include <dirent.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -25,11 +26,23 @@ static void ending_signals_collect(void)
     }
 }
 
+/* Remove a directory of files. */
+static void directory_remove(const char *path)
+{
+    DIR *directory = opendir(path);
+    char name[4096];
+    if (!directory) return;
+    for (struct dirent *entry; (entry = readdir(directory));)
+        if (snprintf(name, sizeof name, "%s/%s", path, entry->d_name) < (int)sizeof name) unlink(name);
+    closedir(directory);
+    rmdir(path);
+}
+
 /* The caller holds the lock. */
 static void temporaries_remove(void)
 {
     for (size_t i = 0; i < MAX_TEMPORARIES; i++) {
-        if (*temporaries[i]) unlink(temporaries[i]);
+        if (*temporaries[i] && unlink(temporaries[i]) != 0) directory_remove(temporaries[i]);
         *temporaries[i] = 0;
     }
 }

@@ -13,16 +13,44 @@ bool gdal_library_built(void);
 #ifdef MW_GDAL
 
 #include <gdal.h>
+#include <cpl_conv.h>
+#include <cpl_vsi.h>
 #include <ogr_api.h>
+#include <ogr_srs_api.h>
 
 #define GDAL_FUNCTIONS(F)                                                                                              \
     F(CPLSetErrorHandler)                                                                                              \
     F(CPLQuietErrorHandler)                                                                                            \
     F(CPLErrorReset)                                                                                                   \
+    F(CPLSetConfigOption)                                                                                              \
     F(CPLGetLastErrorType)                                                                                             \
     F(CPLGetLastErrorMsg)                                                                                              \
     F(GDALAllRegister)                                                                                                 \
     F(GDALOpenEx)                                                                                                      \
+    F(GDALGetDriverByName)                                                                                             \
+    F(GDALCreate)                                                                                                      \
+    F(GDALDatasetCreateLayer)                                                                                          \
+    F(GDALDatasetStartTransaction)                                                                                     \
+    F(GDALDatasetCommitTransaction)                                                                                    \
+    F(OSRNewSpatialReference)                                                                                          \
+    F(OSRExportToWkt)                                                                                                  \
+    F(OSRRelease)                                                                                                      \
+    F(VSIFree)                                                                                                         \
+    F(OGR_L_GetSpatialRef)                                                                                             \
+    F(OGR_L_CreateField)                                                                                               \
+    F(OGR_L_CreateFeature)                                                                                             \
+    F(OGR_Fld_Create)                                                                                                  \
+    F(OGR_Fld_SetWidth)                                                                                                \
+    F(OGR_Fld_Destroy)                                                                                                 \
+    F(OGR_F_Create)                                                                                                    \
+    F(OGR_F_SetFieldNull)                                                                                              \
+    F(OGR_F_SetFieldInteger64)                                                                                         \
+    F(OGR_F_SetFieldDouble)                                                                                            \
+    F(OGR_F_SetFieldString)                                                                                            \
+    F(OGR_F_SetGeometryDirectly)                                                                                       \
+    F(OGR_G_CreateGeometry)                                                                                            \
+    F(OGR_G_SetPoint)                                                                                                  \
+    F(OGR_G_SetPoint_2D)                                                                                               \
     F(GDALClose)                                                                                                       \
     F(GDALDatasetGetLayerCount)                                                                                        \
     F(GDALDatasetGetLayer)                                                                                             \

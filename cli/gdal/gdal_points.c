@@ -64,6 +64,7 @@ struct gdal_points {
     OGRLayerH layer;
     size_t coordinates, column_count; /* x, y and perhaps z are the first columns */
     char **names;
+    char *crs; /* WKT; GDAL's memory */
     text header, rows;
     size_t *ends, row_count, row_room; /* where the rows of the block end */
 };
@@ -195,6 +196,8 @@ int gdal_points_open(gdal_points **points, const char *path, const char *layer, 
     p->set = p->gdal->GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!p->set) return points_fail(p, "this is no vector file");
     int end = points_find_layer(p, layer);
+    OGRSpatialReferenceH crs = end ? NULL : p->gdal->OGR_L_GetSpatialRef(p->layer);
+    if (crs) p->gdal->OSRExportToWkt(crs, &p->crs);
     if (end == 0) end = points_name_columns(p);
     if (end || !where) return end;
     if (p->gdal->OGR_L_SetAttributeFilter(p->layer, where) == OGRERR_NONE) return 0;
@@ -206,6 +209,7 @@ void gdal_points_close(gdal_points *p)
 {
     if (!p) return;
     if (p->set) p->gdal->GDALClose(p->set);
+    if (p->crs) p->gdal->VSIFree(p->crs);
     for (size_t i = 0; p->names && i < p->column_count; i++) free(p->names[i]);
     free(p->names);
     text_release(&p->header);
@@ -221,6 +225,16 @@ void gdal_points_table(const gdal_points *p, mw_point_table *table)
                               .column_count = p->column_count,
                               .separator = ',',
                               .decimal = '.'};
+}
+
+size_t gdal_points_coordinates(const gdal_points *p)
+{
+    return p->coordinates;
+}
+
+const char *gdal_points_crs(const gdal_points *p)
+{
+    return p->crs;
 }
 
 /* --- features --------------------------------------------------------------------------------- */
@@ -323,6 +337,18 @@ void gdal_points_table(const gdal_points *points, mw_point_table *table)
 {
     (void)points;
     *table = (mw_point_table){0};
+}
+
+size_t gdal_points_coordinates(const gdal_points *points)
+{
+    (void)points;
+    return 2;
+}
+
+const char *gdal_points_crs(const gdal_points *points)
+{
+    (void)points;
+    return NULL;
 }
 
 int gdal_points_read(gdal_points *points, double *values, size_t width, size_t capacity, size_t *count)

@@ -21,6 +21,12 @@ void gdal_points_close(gdal_points *points); /* NULL is allowed */
  * closed. */
 void gdal_points_table(const gdal_points *points, mw_point_table *table);
 
+/* How many first columns are coordinates: 2, or 3 if there is z. */
+size_t gdal_points_coordinates(const gdal_points *points);
+
+/* The coordinate system of the points, as WKT; NULL: not known. */
+const char *gdal_points_crs(const gdal_points *points);
+
 /* Read up to `capacity` points, x, y and, if `width` is 3, z each; NaN where a feature has none. *count
  * is 0 at the end. Returns 0, or an exit code after a complaint. */
 int gdal_points_read(gdal_points *points, double *values, size_t width, size_t capacity, size_t *count);

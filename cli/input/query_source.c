@@ -70,6 +70,16 @@ void query_source_table(const query_source *s, mw_point_table *table)
         mw_point_reader_table(s->reader, table, NULL);
 }
 
+size_t query_source_coordinates(const query_source *s)
+{
+    return s->points ? gdal_points_coordinates(s->points) : 0;
+}
+
+const char *query_source_crs(const query_source *s)
+{
+    return s->points ? gdal_points_crs(s->points) : NULL;
+}
+
 int query_source_read(query_source *s, double *values, size_t capacity, size_t *count)
 {
     mw_error error;

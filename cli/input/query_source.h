@@ -20,6 +20,12 @@ void query_source_close(query_source *source); /* NULL is allowed */
 /* The table, as mw_point_reader_table tells it. */
 void query_source_table(const query_source *source, mw_point_table *table);
 
+/* How many first columns of the table are the coordinates of points of a vector file: 0 for a table. */
+size_t query_source_coordinates(const query_source *source);
+
+/* The coordinate system of the queries, as WKT; NULL: not known. */
+const char *query_source_crs(const query_source *source);
+
 /* Read up to `capacity` queries, the wanted columns of each. *count is 0 at the end. Returns 0, or an
  * exit code after a complaint. */
 int query_source_read(query_source *source, double *values, size_t capacity, size_t *count);

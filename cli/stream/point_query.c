@@ -183,7 +183,7 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
     mw_mesh_file file;
     *q = (point_query){.settings = settings, .path = path, .begin = monotonic_seconds()};
     int end = files_check_output(settings->stream.common.output, operands, 2);
-    if (end == 0) end = files_check_text_output(settings->stream.common.output);
+    if (end == 0) end = query_stream_check_output(&settings->stream);
     if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
     if (end == 0) end = point_query_check_fill(settings);
     if (end == 0) end = files_read_mesh(path, &file);
@@ -292,8 +292,8 @@ static void point_query_report(const void *self, report *r)
     point_query_report_memory(r, context->query);
 }
 
-int point_query_run(const point_query *q, const char *points, const char *const *answers, point_query_row *row,
-                    const void *self)
+int point_query_run(const point_query *q, const char *points, const char *const *answers, const char *kinds,
+                    point_query_row *row, const void *self)
 {
     point_query_context context = {.query = q, .row = row, .self = self};
     query_stream s = {
@@ -303,6 +303,7 @@ int point_query_run(const point_query *q, const char *points, const char *const 
         .columns = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2},
         .shown = 2,
         .answers = answers,
+        .kinds = kinds,
         .answer_size = sizeof(mw_location),
         .answer = point_query_answer_block,
         .row = point_query_write_row,

@@ -55,8 +55,9 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
 void point_query_release(point_query *q);
 
 /* Write the header, then the row of every point with its answer, in order. `answers` are the names of
- * the answer's cells; NULL ends them. Returns the exit code. */
-int point_query_run(const point_query *q, const char *points, const char *const *answers, point_query_row *row,
-                    const void *self);
+ * the answer's cells; NULL ends them; `kinds` tell what they hold, as in query_stream.h. Returns the exit
+ * code. */
+int point_query_run(const point_query *q, const char *points, const char *const *answers, const char *kinds,
+                    point_query_row *row, const void *self);
 
 #endif

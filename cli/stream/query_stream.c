@@ -4,6 +4,7 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
+#include "cli/gdal/gdal_rows.h"
 #include "cli/output/csv_row.h"
 #include "cli/stream/query_header.h"
 #include "cli/stream/statistics.h"
@@ -35,11 +36,13 @@ const option query_stream_options[] = {
 typedef struct query_pipeline {
     const query_stream *stream;
     query_source *source;
-    mw_output *out;
+    mw_output *out;  /* NULL if `rows` are written */
+    gdal_rows *rows; /* NULL if text is written */
     const char *path;
     mw_point_table table;
     size_t width, index[MAX_QUERY_COLUMNS]; /* values of a query, and their columns in the table */
-    char decimal;                           /* how answers are written; 0: not decided yet */
+    bool rows_wanted;
+    char decimal; /* how answers are written; 0: not decided yet */
     double *values;
     char *answers;
     text chunk[CHUNKS];
@@ -81,6 +84,31 @@ static void pipeline_format_chunk(query_pipeline *p, size_t k, size_t count)
     }
 }
 
+/* The first block tells what the columns hold. */
+static int pipeline_learn_chunks(query_pipeline *p, size_t chunks)
+{
+    int end = 0;
+    if (!p->rows || p->statistics.blocks > 1) return 0;
+    for (size_t k = 0; end == 0 && k < chunks; k++)
+        if (!p->chunk[k].failed) end = gdal_rows_learn(p->rows, p->chunk[k].bytes, p->chunk[k].size);
+    return end;
+}
+
+static int pipeline_write_chunks(query_pipeline *p, size_t chunks)
+{
+    int end = pipeline_learn_chunks(p, chunks);
+    for (size_t k = 0; end == 0 && k < chunks; k++) {
+        const text *chunk = &p->chunk[k];
+        if (chunk->failed) return fail_memory();
+        if (p->rows)
+            end = gdal_rows_write(p->rows, chunk->bytes, chunk->size, p->values + k * CHUNK * p->width, p->width);
+        else
+            mw_output_write(p->out, chunk->bytes, chunk->size);
+        p->statistics.unanswered += p->unanswered[k];
+    }
+    return end;
+}
+
 typedef struct pipeline_formatting {
     query_pipeline *pipeline;
     size_t count, chunks;
@@ -101,12 +129,7 @@ static int pipeline_write_block(query_pipeline *p, size_t count)
     pipeline_formatting formatting = {p, count, (count + CHUNK - 1) / CHUNK, 0};
     size_t chunks = formatting.chunks;
     mw__team_run(mw__team(p->stream->settings->common.threads, chunks), pipeline_format_chunks, &formatting);
-    for (size_t k = 0; k < chunks; k++) {
-        if (p->chunk[k].failed) return fail_memory();
-        mw_output_write(p->out, p->chunk[k].bytes, p->chunk[k].size);
-        p->statistics.unanswered += p->unanswered[k];
-    }
-    return 0;
+    return pipeline_write_chunks(p, chunks);
 }
 
 static int pipeline_answer_block(query_pipeline *p, size_t count)
@@ -140,6 +163,24 @@ static int pipeline_read_block(query_pipeline *p, size_t *count)
     return end == 0 && *count > 0 ? pipeline_choose_decimal(p) : end;
 }
 
+static int pipeline_open_rows(query_pipeline *p, const text *header)
+{
+    const query_stream *s = p->stream;
+    bool only = s->settings->only_answers;
+    gdal_rows_form form = {
+        .header = header->bytes,
+        .header_size = header->size,
+        .separator = only ? ',' : p->table.separator,
+        .decimal = only || !p->decimal ? '.' : p->decimal,
+        .dimensions = s->shown,
+        .dropped = only ? s->shown : query_source_coordinates(p->source),
+        .answers = s->kinds,
+        .crs = query_source_crs(p->source),
+        .quiet = s->settings->common.quiet,
+    };
+    return gdal_rows_open(&p->rows, s->settings->common.output, &form);
+}
+
 static int pipeline_write_header(query_pipeline *p)
 {
     const query_stream *s = p->stream;
@@ -148,8 +189,11 @@ static int pipeline_write_header(query_pipeline *p)
         query_header_write_answers(&header, &s->columns, s->shown, s->answers);
     else
         query_header_write(&header, &p->table, &s->columns, p->index, s->answers);
-    mw_output_write(p->out, header.bytes, header.size);
     int end = header.failed ? fail_memory() : 0;
+    if (end == 0 && p->rows_wanted)
+        end = pipeline_open_rows(p, &header);
+    else if (end == 0)
+        mw_output_write(p->out, header.bytes, header.size);
     text_release(&header);
     return end;
 }
@@ -160,7 +204,7 @@ static int pipeline_run_blocks(query_pipeline *p)
     int end = pipeline_read_block(p, &count);
     if (end == 0) end = pipeline_write_header(p);
     /* If the output fails, closing it reports the error. */
-    while (end == 0 && count > 0 && !mw_output_failed(p->out)) {
+    while (end == 0 && count > 0 && !(p->out && mw_output_failed(p->out))) {
         end = pipeline_answer_block(p, count);
         if (end == 0) end = pipeline_write_block(p, count);
         progress_points(p->statistics.queries, query_source_fraction(p->source));
@@ -184,12 +228,14 @@ static int pipeline_run(query_pipeline *p)
 {
     mw_error error;
     const query_stream *s = p->stream;
-    signals_set_temporary(mw_output_temporary(p->out));
+    if (p->out) signals_set_temporary(mw_output_temporary(p->out));
     p->values = malloc(QUERY_BLOCK_SIZE * p->width * sizeof *p->values);
     p->answers = malloc(QUERY_BLOCK_SIZE * s->answer_size);
     int end = p->values && p->answers ? pipeline_run_blocks(p) : fail_memory();
     progress_phase("writing", NULL);
-    if (mw_output_close(p->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
+    if (p->out && mw_output_close(p->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
+    int closed = gdal_rows_close(p->rows, end == 0);
+    if (end == 0) end = closed;
     signals_set_temporary(NULL);
     for (size_t k = 0; k < CHUNKS; k++) text_release(&p->chunk[k]);
     free(p->answers);
@@ -208,6 +254,12 @@ static int pipeline_print_statistics(const query_pipeline *p)
     return files_write_error_text(&r.text);
 }
 
+int query_stream_check_output(const query_stream_settings *settings)
+{
+    const char *output = settings->common.output;
+    return gdal_rows_known(output) ? gdal_rows_check(output) : files_check_text_output(output);
+}
+
 int query_stream_run(const query_stream *s, const char *path)
 {
     const query_stream_settings *settings = s->settings;
@@ -218,7 +270,8 @@ int query_stream_run(const query_stream *s, const char *path)
     *p = (query_pipeline){.stream = s, .path = path, .statistics = {.begin = s->begin, .ready = monotonic_seconds()}};
     progress_phase(s->doing, path);
     int end = pipeline_open_source(p);
-    if (end == 0 && mw_output_open(output, &p->out, &error) != MW_OK) end = fail_writing(&error);
+    p->rows_wanted = gdal_rows_known(output);
+    if (end == 0 && !p->rows_wanted && mw_output_open(output, &p->out, &error) != MW_OK) end = fail_writing(&error);
     if (end == 0) end = pipeline_run(p);
     query_source_close(p->source);
     if (end == 0 && settings->stats) end = pipeline_print_statistics(p);

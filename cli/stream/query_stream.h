@@ -43,12 +43,17 @@ typedef struct query_stream {
     query_columns columns;
     size_t shown;               /* columns of the query that --only-answers writes */
     const char *const *answers; /* names of the answers' columns; NULL ends them */
+    const char *kinds;          /* what these hold: 't' text, 'i' integer, 'r' real */
     size_t answer_size;         /* bytes of the answer to one query */
     query_stream_answer *answer;
     query_stream_row *row;
     query_stream_report *report;
     void *self;
 } query_stream;
+
+/* Refuse an output that rows cannot be written to, before anything is read. Returns 0, or an exit code
+ * after a complaint. */
+int query_stream_check_output(const query_stream_settings *settings);
 
 /* Write the header, then every row of the file with its answer. Returns the exit code. */
 int query_stream_run(const query_stream *s, const char *path);

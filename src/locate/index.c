@@ -4,6 +4,17 @@
 
 #include <stdlib.h>
 
+/* The starts that have no index. Every switch below lists all starts and has no default, so that
+ * the compiler names the places where a new one is missing. */
+#define WITHOUT_INDEX                                                                                                  \
+    MW_START_AUTO:                                                                                                     \
+    case MW_START_RANDOM:                                                                                              \
+    case MW_START_SAMPLE:                                                                                              \
+    case MW_START_CENTRE:                                                                                              \
+    case MW_START_LAST:                                                                                                \
+    case MW_START_SORTED:                                                                                              \
+    case MW_START_COUNT
+
 static mw_status index_build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
                                     mw_job *job, mw_error *error)
 {
@@ -34,7 +45,7 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
         break;
     case MW_START_KD_TREE: done = mw__kd_tree_create(&index->kd_tree, tiling, job); break;
     case MW_START_LAYERS: return index_build_layers(&index->layers, tiling, options, job, error);
-    default: break;
+    case WITHOUT_INDEX: break;
     }
     return done ? MW_OK : mw__fail_memory(error);
 }
@@ -49,7 +60,7 @@ void mw__index_release(mw_index *index)
     case MW_START_TRIANGLE_BUCKETS: mw__triangle_buckets_release(&index->triangle_buckets); break;
     case MW_START_KD_TREE: mw__kd_tree_release(&index->kd_tree); break;
     case MW_START_LAYERS: mw__layers_release(&index->layers); break;
-    default: break;
+    case WITHOUT_INDEX: break;
     }
 }
 
@@ -70,8 +81,9 @@ size_t mw__index_bytes(const mw_index *index)
     case MW_START_TRIANGLE_BUCKETS: return mw__triangle_buckets_bytes(&index->triangle_buckets);
     case MW_START_KD_TREE: return mw__kd_tree_bytes(&index->kd_tree);
     case MW_START_LAYERS: return mw__layers_bytes(&index->layers);
-    default: return 0;
+    case WITHOUT_INDEX: break;
     }
+    return 0;
 }
 
 void mw_index_describe(const mw_index *index, mw_index_info *info)
@@ -93,7 +105,7 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
         info->layers = index->layers.count;
         mw__layers_describe(&index->layers, info->vertices);
         break;
-    default: break;
+    case WITHOUT_INDEX: break;
     }
 }
 
@@ -113,8 +125,11 @@ static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
     case MW_START_CURVE: return mw__curve_first(&index->curve, q);
     case MW_START_BUCKETS: return mw__vertex_buckets_first(&index->vertex_buckets, q);
     case MW_START_KD_TREE: return mw__kd_tree_first(&index->kd_tree, q);
-    default: return 0;
+    case MW_START_TRIANGLE_BUCKETS:
+    case MW_START_LAYERS: /* count what they do: mw__index_first */
+    case WITHOUT_INDEX: break;
     }
+    return 0;
 }
 
 uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q)
@@ -190,7 +205,11 @@ void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const 
     case MW_START_GRID: grid_first_many(&index->grid, q, n, t); break;
     case MW_START_TWO_LEVEL_GRID: two_level_grid_first_many(&index->two_level_grid, q, n, t); break;
     case MW_START_CURVE: curve_first_many(&index->curve, q, n, t); break;
-    default:
+    case MW_START_BUCKETS:
+    case MW_START_TRIANGLE_BUCKETS:
+    case MW_START_KD_TREE:
+    case MW_START_LAYERS:
+    case WITHOUT_INDEX:
         for (uint32_t i = 0; i < n; i++) t[i] = index_first_name(index, q[i]);
         break;
     }

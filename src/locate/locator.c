@@ -86,14 +86,15 @@ static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_gr
         return done;
     }
     mw__curve_release(&curve);
-    if (even) {
-        return mw__grid_end(&guide->grid, plan, false) && done;
-    }
+    if (even) return mw__grid_end(&guide->grid, plan, false) && done;
     free(plan->site);
     mw__index_release(guide);
     *guide = (mw_index){.start = tiling->tile_of ? MW_START_TWO_LEVEL_GRID : MW_START_AUTO};
     if (!tiling->tile_of) return done;
-    return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells, job);
+    outer = mw__job_part(job, 0.4);
+    done = mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells, job);
+    mw__job_part_end(job, outer);
+    return done;
 }
 
 /* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of

@@ -163,3 +163,10 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
     }
     snprintf(text, size, "triangle %" PRIu32 ": unknown defect", t);
 }
+
+void mw_check_release(mw_check *check)
+{
+    if (!check) return;
+    free(check->defects);
+    *check = (mw_check){0};
+}

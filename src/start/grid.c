@@ -137,7 +137,7 @@ static bool grid_look(mw_grid *grid, mw_grid_plan *plan)
 bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells)
 {
     if (cells == 0) cells = mw__lattice_choose(plan->tiling);
-    mw__job_stage(plan->job, "laying a grid", 0.5);
+    mw__job_stage(plan->job, "laying a grid", 0.4);
     grid->lattice = mw__lattice_of(plan->tiling, low, high, cells, plan->job);
     if (!grid_look(grid, plan)) return false;
     plan_choose(plan, mw__lattice_cells(&grid->lattice));
@@ -263,7 +263,7 @@ static bool grid_fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 
 bool mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
 {
-    mw__job_stage(plan->job, "filling a grid", 0.5);
+    mw__job_stage(plan->job, "filling a grid", 0.4);
     bool done = grid_fill_gaps(grid, plan);
     for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells && done; c++)
         grid->tile[c] = sparse && cell_has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);

@@ -34,7 +34,7 @@ typedef struct mw_grid_plan {
     bool crowded;       /* a quarter of the tiles lies in cells with very many    */
 } mw_grid_plan;
 
-/* Each is a stage that takes half of the present part. Returns false when out of memory, or
+/* Each is a stage that takes 0.4 of the present part. Returns false when out of memory, or
  * cancelled. */
 bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells);
 /* With `sparse` crowded cells are left without a tile: MW_NONE. */

@@ -4,8 +4,6 @@
 #include "mesh/array_defects.h"
 #include "mesh/mesh_create.h"
 
-#include <stdlib.h>
-
 /* Append the defects of a mesh to `defects`, except those of replaced triangles (NULL: none are
  * replaced). */
 static mw_status mesh_find_defects(const mw_mesh *mesh, const uint8_t *replaced, mw_job *job, mw_defects *defects,
@@ -81,11 +79,4 @@ mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *optio
     /* Flat triangles come last in their order. */
     check->valid = defects.count == 0 || defects.list[0].kind == MW_DEFECT_FLAT;
     return MW_OK;
-}
-
-void mw_check_release(mw_check *check)
-{
-    if (!check) return;
-    free(check->defects);
-    *check = (mw_check){0};
 }

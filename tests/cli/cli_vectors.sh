@@ -5,8 +5,8 @@
 printf '%s\n' "$square" >square.off # on the plane z = x + y
 
 # Outputs whose names say that they are no text are refused before anything is read.
-for name in out.gpkg out.SHP out.geojson out.csv.gz out.xlsx ./a.b/out.parquet; do
-    run sample absent.off absent.csv -o $name; refused 2 "${name//./\\.}: the answers are written as text \(CSV\)"
+for name in out.kml out.GPX out.csv.gz out.xlsx ./a.b/out.tif; do
+    run sample absent.off absent.csv -o $name; refused 2 "${name//./\\.}: answers are written as text \(CSV\), or as \.gpkg"
     run star absent.off absent.csv -o $name; refused 2 'as text'
     run probe absent.off absent.csv -o $name; refused 2 'as text'
 done
@@ -21,6 +21,7 @@ END
 run sample square.off one.geojson
 if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
     refused 3 'one\.geojson: '
+    run sample absent.off absent.csv -o out.gpkg; refused 2 'out\.gpkg: '
     finish
 fi
 exits 0; says_nothing
@@ -79,6 +80,57 @@ printf 'SQLite format 3\0 and nothing more' >damaged.gpkg
 run sample square.off damaged.gpkg -o out.csv; refused 3 'damaged\.gpkg: GDAL says: '
 run sample square.off absent.gpkg -o out.csv; refused 3 'absent\.gpkg: No such file'
 absent out.csv
+
+# Answers as vector files: every column with its kind, missing values, rows without a point, in order.
+cat >wells.csv <<'END'
+site,code,depth,n,remark,x,y,fid
+B12,007,1.50,3,"dry, ""windy""",0.75,0.25,1
+B13,012,NA,,,NA,NA,2
+B14,100,-2e3,12,-,0.5,0.5,3
+END
+for ending in gpkg geojson geojsonl shp gml sqlite fgb; do
+    if [[ $ending == fgb ]]; then
+        run sample square.off wells.csv -o out.fgb; refused 3 'out\.fgb: row 2 has no point, which FlatGeobuf cannot hold'
+        absent out.fgb
+        sed -i /B13/d wells.csv
+    fi
+    run sample --status square.off wells.csv -o out.$ending; exits 0; says_nothing; prints ''
+    holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
+    run locate -q square.off out.$ending -o back.csv; exits 0
+    holds "$ending: the columns are there" grep -Eq '^x(_mw)?,y(_mw)?,(.*,)?site,code,depth,n,remark,' back.csv
+    holds "$ending: numbers, texts and points" grep -Eq '^0.75,0.25,(.*,)?B12,007,1.5,3,"dry, ""windy""",.*,1,inside,' back.csv
+    [[ $ending == fgb ]] || holds "$ending: missing values, and no point" grep -Eq '^,,(.*,)?B13,012,,,,.*,bad,.*bad,-1,,,$' back.csv
+    holds "$ending: the order" grep -Eq '^0.5,0.5,(.*,)?B14,100,-2000,12,-,.*,1,edge,' <(tail -n 1 back.csv)
+done
+run sample square.off wells.csv -o out.gpkg; exits 0 # over an older one
+run sample -q square.off out.gpkg; prints_line '^0.75,0.25,B12,007,1.5,3,.*,1,1,1$'
+printf 'id;x;y\nA;0,75;0,25\n' >comma.csv
+run locate --only-answers square.off comma.csv -o comma.geojson; exits 0
+run sample square.off comma.geojson; exits 0; prints $'x,y,status,triangle,w0,w1,w2,z\n0.75,0.25,inside,0,0.25,0.5,0.25,1'
+run sample square.off comma.csv -o comma.fgb; exits 0
+run sample square.off comma.fgb; exits 0; prints $'x_mw,y_mw,id,x,y,z,z_mw\n0.75,0.25,A,0.75,0.25,1,1'
+: >none.csv
+run sample square.off none.csv -o none.gpkg; exits 0
+run sample square.off none.gpkg; exits 0; prints x_mw,y_mw,x,y,z,z_mw
+run star --lonlat tetra.off none.csv -o none.gpkg; exits 0
+run star tetra.off heights.geojson -o rays.gpkg; exits 0
+run star tetra.off rays.gpkg; exits 0; prints_line '^x,y,z,k,status,triangle,w0,w1,w2,status_mw,'; prints_line '^0,0,2,1,edge,'
+# The coordinate system goes along.
+run sample -q square.off tracks.gpx --layer waypoints -o crs.gpkg; exits 0
+holds "the coordinate system is kept" grep -q 'WGS 84' crs.gpkg
+# A column of numbers with a text far behind; a name that the format has no room for.
+if (ulimit -v 4000000; "$meshwalk" --version) >/dev/null 2>&1; then # a sanitizer takes more, and long
+    { echo id,x,y; yes 1,0,0 | head -n 262144; echo B7,0,0; } >late.csv
+    run sample square.off late.csv -o late.fgb
+    exits 3; says "row 262145: the column 'id' had numbers only, but here 'B7'"; absent late.fgb
+fi
+run_on $'measured_depth,x,y\n1,0,0\n' sample square.off - -o long.shp; exits 0
+says "long\.shp: remark: the column 'measured_depth' is called 'measured_d' in this format"
+run_on $'500000,4000000\n' sample square.off - -o utm.geojson; exits 0
+says 'utm\.geojson: warning: GeoJSON means longitudes and latitudes, and row 1 has others'
+run sample square.off wells.csv -o absent/out.gpkg; refused 4 'absent/out\.gpkg: No such file'
+holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
+
 data=$source_tree/../shared/data/gis
 if [[ -d $data ]]; then
     gunzip -c "$data/track.gpx.gz" >real.gpx

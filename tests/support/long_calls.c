@@ -1,5 +1,6 @@
 #include "support/long_calls.h"
 
+#include <math.h>
 #include <meshwalk/io.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,6 +87,15 @@ static void inputs_write_file(call_inputs *in)
     free(points);
 }
 
+static mw_mesh *mesh_crowded(uint32_t n, uint64_t *random)
+{
+    double *points = malloc(2 * (size_t)n * sizeof *points);
+    for (uint32_t i = 0; i < 2 * n; i++) points[i] = pow(random_unit(random), 12);
+    mw_mesh *mesh = mesh_delaunay(points, n);
+    free(points);
+    return mesh;
+}
+
 call_inputs call_inputs_make(uint32_t n, uint64_t seed)
 {
     uint64_t random = seed;
@@ -106,6 +116,7 @@ call_inputs call_inputs_make(uint32_t n, uint64_t seed)
     }
     arrays_triangle(&in.damaged, 0, 1, 0);
     in.holed = arrays_mesh(&in.plain, alone);
+    in.crowded = mesh_crowded(n, &random);
     in.locator = mesh_locator(in.mesh, (mw_locator_options){.threads = 1});
     inputs_add_space(&in, n, &random);
     inputs_write_file(&in);
@@ -120,6 +131,7 @@ void call_inputs_release(call_inputs *in)
     mw_star_destroy(in->star);
     mw_surface_destroy(in->surface);
     mw_locator_destroy(in->locator);
+    mw_mesh_destroy(in->crowded);
     mw_mesh_destroy(in->holed);
     mw_mesh_destroy(in->mesh);
     star_shape_free(&in->ball);
@@ -273,6 +285,11 @@ static mw_status locator_run(const mw_mesh *mesh, mw_locator_options options, co
 static mw_status run_locator(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
 {
     return locator_run(in->mesh, (mw_locator_options){.border = 1, .areas = 1}, how, sum, error);
+}
+
+static mw_status run_locator_crowded(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return locator_run(in->crowded, (mw_locator_options){0}, how, sum, error);
 }
 
 static mw_status run_locator_filled(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
@@ -567,6 +584,7 @@ const long_call long_calls[] = {
     {"mw_check_arrays, damaged", run_check_damaged},
     {"mw_mesh_describe", run_describe},
     {"mw_locator_create", run_locator},
+    {"mw_locator_create, crowded", run_locator_crowded},
     {"mw_locator_create, filled", run_locator_filled},
     {"mw_locator_create, open", run_locator_open},
     {"mw_index_create, grid", run_index_grid},

@@ -14,7 +14,7 @@ typedef struct call_inputs {
     uint32_t *segments;    /* two points each; they cross nowhere */
     uint32_t segment_count;
     star_shape ball;
-    mw_mesh *mesh, *holed;
+    mw_mesh *mesh, *holed, *crowded; /* crowded: most vertices lie near one point */
     mw_locator *locator;
     mw_surface *surface;
     mw_star *star;

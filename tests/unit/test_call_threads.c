@@ -40,6 +40,14 @@ static int threads_now(void)
     return count;
 }
 
+/* A thread that has been joined may still be listed for a moment. */
+static bool threads_come_down_to(int count)
+{
+    enum { TRIES = 1000, PAUSE = 1000 /* microseconds */ };
+    for (int i = 0; i < TRIES && threads_now() > count; i++) usleep(PAUSE);
+    return threads_now() <= count;
+}
+
 static uint64_t call_sum(const long_call *call, const call_inputs *in, uint32_t threads)
 {
     uint64_t sum = 0;
@@ -63,12 +71,14 @@ static void test_one_makes_none(void **state)
 static void test_threads_end_with_the_call(void **state)
 {
     call_inputs in = call_inputs_make(POINTS, environment_print_seed("threads end", 2));
-    int before = threads_now();
     (void)state;
     allowed = INT32_MAX;
+    call_sum(&long_calls[0], &in, THREADS); /* a sanitizer makes a thread of its own at the first one */
+    usleep(100000);
+    int before = threads_now();
     for (size_t i = 0; i < long_call_count; i++) {
         call_sum(&long_calls[i], &in, THREADS);
-        if (threads_now() != before) fail_msg("%s leaves threads behind", long_calls[i].name);
+        if (!threads_come_down_to(before)) fail_msg("%s leaves threads behind", long_calls[i].name);
     }
     call_inputs_release(&in);
 }

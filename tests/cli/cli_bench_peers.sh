@@ -84,7 +84,7 @@ holds "the sets" test "$(column 2)" == 'clusters uniform '
 run bench scale uniform --sizes 100 --engines meshwalk-grid "${small[@]}"; exits 0; sound 1
 
 # Wrong usage, found before any work.
-run bench peers --engines meshwalk,embre; refused 2 "unknown engine 'embre'; there are meshwalk, .*, matplotlib$"
+run bench peers --engines meshwalk,embre; refused 2 "unknown engine 'embre'; there are meshwalk, .*matplotlib"
 run bench peers --tasks randon; refused 2 "unknown task 'randon'; there are random, sorted, .*connectivity$"
 run bench peers unifrom; refused 2 "unknown set 'unifrom'; did you mean 'uniform'\?"
 run bench peers uniform,; refused 2 "unknown set ''"

@@ -1,0 +1,515 @@
+#include "cli/gdal/gdal_rows.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/signals.h"
+#include "cli/gdal/gdal_library.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <meshwalk/meshwalk.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+typedef struct vector_format {
+    const char *ending, *driver;
+} vector_format;
+
+static const vector_format formats[] = {
+    {".gpkg", "GPKG"},       {".shp", "ESRI Shapefile"}, {".fgb", "FlatGeobuf"},
+    {".geojson", "GeoJSON"}, {".json", "GeoJSON"},       {".geojsonl", "GeoJSONSeq"},
+    {".gml", "GML"},         {".sqlite", "SQLite"},      {".parquet", "Parquet"},
+};
+
+static const vector_format *format_by_path(const char *path)
+{
+    size_t length = path ? strlen(path) : 0;
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        size_t end = strlen(formats[i].ending);
+        if (length > end && strcasecmp(path + length - end, formats[i].ending) == 0) return &formats[i];
+    }
+    return NULL;
+}
+
+bool gdal_rows_known(const char *path)
+{
+    return format_by_path(path) != NULL;
+}
+
+#ifdef MW_GDAL
+
+#define TRANSACTION ((uint64_t)1 << 17) /* rows */
+
+/* What a column holds, as far as its cells tell. */
+typedef enum column_kind { KIND_EMPTY = 0, KIND_INTEGER, KIND_REAL, KIND_TEXT } column_kind;
+
+typedef struct row_column {
+    char *name;
+    column_kind kind;
+    int field; /* of the layer; -1: not written */
+} row_column;
+
+/* A cell of a row, without its quotes. */
+typedef struct row_cell {
+    const char *text;
+    size_t length;
+    bool quoted;
+} row_cell;
+
+struct gdal_rows {
+    const gdal_functions *gdal;
+    char *path, *directory, *temporary; /* the file, and where it is written until it is complete */
+    gdal_rows_form form;
+    row_column *columns;
+    row_cell *cells;
+    size_t count;
+    char *buffer; /* a cell ended by NUL */
+    size_t room;
+    GDALDatasetH set;
+    OGRLayerH layer;
+    uint64_t written, committed;
+    bool warned;
+    bool points_needed; /* the format holds no rows without one */
+};
+
+/* --- rows ------------------------------------------------------------------------------------- */
+
+/* Take a cell off the row; *more tells whether the row goes on. Returns what follows. */
+static const char *cell_take(const char *p, const char *end, char separator, row_cell *cell, bool *more)
+{
+    while (p < end && *p == ' ') p++;
+    const char *begin = p;
+    bool quoted = p < end && *p == '"';
+    if (quoted)
+        for (p++; p < end && (*p != '"' || (p + 1 < end && p[1] == '"')); p++) p += *p == '"';
+    while (p < end && *p != separator && *p != '\n') p++;
+    size_t length = (size_t)(p - begin);
+    while (length > 0 && begin[length - 1] == ' ') length--;
+    if (quoted && length >= 2 && begin[length - 1] == '"')
+        begin++, length -= 2;
+    else
+        quoted = false;
+    *cell = (row_cell){begin, length, quoted};
+    *more = p < end && *p == separator;
+    return p < end ? p + 1 : p;
+}
+
+/* Take a row apart. Returns what follows it. */
+static const char *row_take(gdal_rows *r, const char *p, const char *end)
+{
+    bool more = true;
+    for (size_t i = 0; i < r->count; i++) {
+        r->cells[i] = (row_cell){0};
+        if (more) p = cell_take(p, end, r->form.separator, &r->cells[i], &more);
+    }
+    return p;
+}
+
+/* The cell as a text of C: "" in quotes is a quote. NULL if memory runs out. */
+static const char *cell_text(gdal_rows *r, const row_cell *cell)
+{
+    if (cell->length >= r->room) {
+        size_t room = 2 * cell->length + 64;
+        char *buffer = realloc(r->buffer, room);
+        if (!buffer) return NULL;
+        r->buffer = buffer;
+        r->room = room;
+    }
+    size_t size = 0;
+    for (size_t i = 0; i < cell->length; i++) {
+        r->buffer[size++] = cell->text[i];
+        if (cell->quoted && cell->text[i] == '"') i++;
+    }
+    r->buffer[size] = 0;
+    return r->buffer;
+}
+
+static bool cell_is_missing(const row_cell *cell)
+{
+    static const char *const words[] = {"", "-", "na", "n/a", "nan", "null"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == cell->length && strncasecmp(words[i], cell->text, cell->length) == 0) return true;
+    return false;
+}
+
+/* A number as programs write it. 007 and +5 are no numbers: they may be names. */
+static column_kind cell_kind(const gdal_rows *r, const row_cell *cell)
+{
+    const char *p = cell->text, *end = p + cell->length;
+    if (cell_is_missing(cell)) return KIND_EMPTY;
+    if (*p == '-') p++;
+    size_t digits = 0, decimals = 0;
+    for (const char *first = p; p < end && *p >= '0' && *p <= '9'; p++, digits++)
+        if (p > first && *first == '0') return KIND_TEXT;
+    if (p == end) return digits > 0 && digits <= 18 ? KIND_INTEGER : KIND_TEXT;
+    if (digits == 0 || digits > 15) return KIND_TEXT;
+    if (*p == '.' || (*p == ',' && r->form.decimal == ','))
+        for (p++; p < end && *p >= '0' && *p <= '9'; p++) decimals++;
+    else if (*p != 'e' && *p != 'E')
+        return KIND_TEXT;
+    if (p < end && decimals + digits > 0 && (*p == 'e' || *p == 'E')) {
+        p += p + 1 < end && (p[1] == '-' || p[1] == '+') ? 2 : 1;
+        if (p == end) return KIND_TEXT;
+        while (p < end && *p >= '0' && *p <= '9') p++;
+    }
+    return p == end ? KIND_REAL : KIND_TEXT;
+}
+
+int gdal_rows_learn(gdal_rows *r, const char *bytes, size_t size)
+{
+    const char *end = bytes + size;
+    size_t known = strlen(r->form.answers);
+    for (const char *p = bytes; p < end;) {
+        p = row_take(r, p, end);
+        for (size_t i = 0; i + known < r->count; i++) {
+            column_kind kind = cell_kind(r, &r->cells[i]);
+            if (kind > r->columns[i].kind) r->columns[i].kind = kind;
+        }
+    }
+    return 0;
+}
+
+/* --- the file --------------------------------------------------------------------------------- */
+
+static int rows_fail(const gdal_rows *r, const char *what)
+{
+    const char *message = r->gdal->CPLGetLastErrorMsg();
+    complain("%s: GDAL says: %.1000s", r->path, *message ? message : what);
+    return END_RESOURCE;
+}
+
+int gdal_rows_check(const char *path)
+{
+    const vector_format *format = format_by_path(path);
+    const gdal_functions *gdal = gdal_library_load();
+    if (!gdal) {
+        complain("%s: GDAL, which would write it, cannot be loaded (" MW_GDAL ")", path);
+        return END_USAGE;
+    }
+    if (gdal->GDALGetDriverByName(format->driver)) return files_try_output(path, NULL);
+    complain("%s: this GDAL does not write %s", path, format->driver);
+    return END_USAGE;
+}
+
+static int rows_read_header(gdal_rows *r)
+{
+    const char *p = r->form.header, *end = p + r->form.header_size, *answers = r->form.answers;
+    bool more = true;
+    row_cell cell;
+    for (const char *q = p; more; r->count++) q = cell_take(q, end, r->form.separator, &cell, &more);
+    r->columns = calloc(r->count, sizeof *r->columns);
+    r->cells = calloc(r->count, sizeof *r->cells);
+    if (!r->columns || !r->cells) return fail_memory();
+    row_take(r, p, end);
+    for (size_t i = 0; i < r->count; i++) {
+        const char *name = cell_text(r, &r->cells[i]);
+        r->columns[i].name = name ? strdup(name) : NULL;
+        if (!r->columns[i].name) return fail_memory();
+    }
+    for (size_t k = 0, first = r->count - strlen(answers); answers[k]; k++)
+        r->columns[first + k].kind = answers[k] == 'i' ? KIND_INTEGER : answers[k] == 'r' ? KIND_REAL : KIND_TEXT;
+    return 0;
+}
+
+/* GDAL writes into a directory beside the file, so that a file of that name stays until the new one is
+ * complete: some formats have several files. */
+static int rows_make_directory(gdal_rows *r)
+{
+    const char *slash = strrchr(r->path, '/');
+    const char *name = slash ? slash + 1 : r->path;
+    int length = (int)(name - r->path);
+    size_t size = strlen(r->path) + 64;
+    r->directory = malloc(size);
+    r->temporary = malloc(2 * size);
+    if (!r->directory || !r->temporary) return fail_memory();
+    snprintf(r->directory, size, "%.*s.meshwalk-XXXXXX", length, r->path);
+    if (!mkdtemp(r->directory)) {
+        complain("%s: %s", r->path, strerror(errno));
+        *r->directory = 0;
+        return END_RESOURCE;
+    }
+    signals_set_temporary(r->directory);
+    snprintf(r->temporary, 2 * size, "%s/%s", r->directory, name);
+    return 0;
+}
+
+int gdal_rows_open(gdal_rows **rows, const char *path, const gdal_rows_form *form)
+{
+    mw_error error;
+    gdal_rows *r = *rows = calloc(1, sizeof *r);
+    if (!r) return fail_memory();
+    r->gdal = gdal_library_load();
+    r->form = *form;
+    if (mw_output_resolve(path, &r->path, &error) != MW_OK) return fail_writing(&error);
+    int end = rows_read_header(r);
+    return end ? end : rows_make_directory(r);
+}
+
+static bool rows_have_column(const gdal_rows *r, const char *name)
+{
+    for (size_t i = r->form.dropped; i < r->count; i++)
+        if (strcasecmp(r->columns[i].name, name) == 0) return true;
+    return false;
+}
+
+static int rows_create_field(gdal_rows *r, row_column *column)
+{
+    static const OGRFieldType types[] = {
+        [KIND_EMPTY] = OFTString, [KIND_INTEGER] = OFTInteger64, [KIND_REAL] = OFTReal, [KIND_TEXT] = OFTString};
+    const gdal_functions *gdal = r->gdal;
+    OGRFieldDefnH definition = gdal->OGR_Fld_Create(column->name, types[column->kind]);
+    if (strcmp(format_by_path(r->path)->driver, "ESRI Shapefile") == 0 && types[column->kind] == OFTString)
+        gdal->OGR_Fld_SetWidth(definition, 254);
+    gdal->CPLErrorReset();
+    OGRErr failure = gdal->OGR_L_CreateField(r->layer, definition, TRUE);
+    gdal->OGR_Fld_Destroy(definition);
+    if (failure != OGRERR_NONE) return rows_fail(r, "a column cannot be written");
+    OGRFeatureDefnH layer = gdal->OGR_L_GetLayerDefn(r->layer);
+    column->field = gdal->OGR_FD_GetFieldCount(layer) - 1;
+    const char *name = gdal->OGR_Fld_GetNameRef(gdal->OGR_FD_GetFieldDefn(layer, column->field));
+    if (strcmp(name, column->name) != 0 && !r->form.quiet)
+        complain("%s: remark: the column '%.60s' is called '%s' in this format", r->path, column->name, name);
+    return 0;
+}
+
+static int rows_create_layer(gdal_rows *r)
+{
+    const gdal_functions *gdal = r->gdal;
+    const char *driver = format_by_path(r->path)->driver;
+    char name[256];
+    const char *base = strrchr(r->temporary, '/') + 1;
+    snprintf(name, sizeof name, "%.*s", (int)(strrchr(base, '.') - base), base);
+    char *fid[] = {"FID=mw_fid", NULL}, *digits[] = {"SIGNIFICANT_FIGURES=17", NULL};
+    char *ordered[] = {"SPATIAL_INDEX=NO", NULL}; /* an index sorts the rows */
+    char **options = strcmp(driver, "GPKG") == 0 && rows_have_column(r, "fid") ? fid
+                     : strncmp(driver, "GeoJSON", 7) == 0                      ? digits
+                     : strcmp(driver, "FlatGeobuf") == 0                       ? ordered
+                                                                               : NULL;
+    r->points_needed = strcmp(driver, "FlatGeobuf") == 0;
+    gdal->CPLSetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF"); /* it has no name yet */
+    OGRSpatialReferenceH crs = r->form.crs ? gdal->OSRNewSpatialReference(r->form.crs) : NULL;
+    gdal->CPLErrorReset();
+    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->temporary, 0, 0, 0, GDT_Unknown, NULL);
+    if (r->set)
+        r->layer =
+            gdal->GDALDatasetCreateLayer(r->set, name, crs, r->form.dimensions == 3 ? wkbPoint25D : wkbPoint, options);
+    if (crs) gdal->OSRRelease(crs);
+    if (!r->layer) return rows_fail(r, "it cannot be written");
+    int end = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        r->columns[i].field = -1;
+        if (end == 0 && i >= r->form.dropped) end = rows_create_field(r, &r->columns[i]);
+    }
+    return end;
+}
+
+/* --- features --------------------------------------------------------------------------------- */
+
+static int rows_fail_cell(gdal_rows *r, const row_column *column, const row_cell *cell)
+{
+    const char *value = cell_text(r, cell);
+    complain("%s: row %" PRIu64 ": the column '%.60s' had numbers only, but here '%.60s': a field of a vector file has "
+             "one kind of value; a table (CSV) can hold it",
+             r->path, r->written + 1, column->name, value ? value : "");
+    return END_INPUT;
+}
+
+static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column *column, const row_cell *cell)
+{
+    const gdal_functions *gdal = r->gdal;
+    column_kind kind = cell_kind(r, cell);
+    bool number = column->kind == KIND_INTEGER || column->kind == KIND_REAL;
+    if (cell->length == 0 || (number && kind == KIND_EMPTY)) {
+        gdal->OGR_F_SetFieldNull(feature, column->field);
+        return 0;
+    }
+    bool answer = column >= r->columns + (r->count - strlen(r->form.answers));
+    if (number && !answer && kind > column->kind) return rows_fail_cell(r, column, cell);
+    char *value = (char *)(uintptr_t)cell_text(r, cell);
+    if (!value) return fail_memory();
+    for (char *c = value; number && *c; c++)
+        if (*c == ',') *c = '.';
+    if (column->kind == KIND_INTEGER)
+        gdal->OGR_F_SetFieldInteger64(feature, column->field, strtoll(value, NULL, 10));
+    else if (column->kind == KIND_REAL)
+        gdal->OGR_F_SetFieldDouble(feature, column->field, strtod(value, NULL));
+    else
+        gdal->OGR_F_SetFieldString(feature, column->field, value);
+    return 0;
+}
+
+/* GeoJSON means longitudes and latitudes, unless it names another system. */
+static void rows_warn_of_lonlat(gdal_rows *r, const double *p)
+{
+    if (r->form.crs || r->warned || r->form.quiet || (fabs(p[0]) <= 360 && fabs(p[1]) <= 90)) return;
+    if (strncmp(format_by_path(r->path)->driver, "GeoJSON", 7) != 0) return;
+    complain("%s: warning: GeoJSON means longitudes and latitudes, and row %" PRIu64 " has others", r->path,
+             r->written + 1);
+    r->warned = true;
+}
+
+/* FlatGeobuf would lose a row without a point, and say nothing. */
+static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
+{
+    const gdal_functions *gdal = r->gdal;
+    bool finite = true;
+    for (size_t k = 0; k < r->form.dimensions; k++) finite = finite && isfinite(p[k]);
+    if (!finite && r->points_needed) {
+        complain("%s: row %" PRIu64 " has no point, which FlatGeobuf cannot hold; .gpkg can", r->path, r->written + 1);
+        return END_INPUT;
+    }
+    if (!finite) return 0;
+    rows_warn_of_lonlat(r, p);
+    OGRGeometryH point = gdal->OGR_G_CreateGeometry(r->form.dimensions == 3 ? wkbPoint25D : wkbPoint);
+    if (r->form.dimensions == 3)
+        gdal->OGR_G_SetPoint(point, 0, p[0], p[1], p[2]);
+    else
+        gdal->OGR_G_SetPoint_2D(point, 0, p[0], p[1]);
+    gdal->OGR_F_SetGeometryDirectly(feature, point);
+    return 0;
+}
+
+static int rows_write_feature(gdal_rows *r, const double *point)
+{
+    const gdal_functions *gdal = r->gdal;
+    OGRFeatureH feature = gdal->OGR_F_Create(gdal->OGR_L_GetLayerDefn(r->layer));
+    int end = feature ? 0 : fail_memory();
+    for (size_t i = r->form.dropped; end == 0 && i < r->count; i++)
+        end = feature_set_field(r, feature, &r->columns[i], &r->cells[i]);
+    if (end == 0) end = feature_set_point(r, feature, point);
+    if (end == 0) {
+        gdal->CPLErrorReset();
+        if (gdal->OGR_L_CreateFeature(r->layer, feature) != OGRERR_NONE) end = rows_fail(r, "a row cannot be written");
+    }
+    if (end == 0 && !r->warned && !r->form.quiet && gdal->CPLGetLastErrorType() >= CE_Warning) {
+        complain("%s: warning: row %" PRIu64 ": GDAL says: %.1000s", r->path, r->written + 1,
+                 gdal->CPLGetLastErrorMsg());
+        r->warned = true;
+    }
+    if (feature) gdal->OGR_F_Destroy(feature);
+    r->written++;
+    return end;
+}
+
+/* Databases are slow if every row is a transaction of its own. */
+static void rows_commit_transaction(gdal_rows *r)
+{
+    if (r->written > 0) r->gdal->GDALDatasetCommitTransaction(r->set);
+    r->gdal->GDALDatasetStartTransaction(r->set, FALSE);
+    r->committed = r->written;
+}
+
+int gdal_rows_write(gdal_rows *r, const char *bytes, size_t size, const double *points, size_t stride)
+{
+    const char *end = bytes + size;
+    int code = r->layer ? 0 : rows_create_layer(r);
+    if (code) return code;
+    if (r->written == 0) rows_commit_transaction(r);
+    for (const char *p = bytes; code == 0 && p < end; points += stride) {
+        p = row_take(r, p, end);
+        code = rows_write_feature(r, points);
+    }
+    if (r->written - r->committed >= TRANSACTION) rows_commit_transaction(r);
+    return code;
+}
+
+/* Files beside an older Shapefile would be taken for some of the new one. */
+static void rows_remove_sidecars(const gdal_rows *r)
+{
+    static const char *const endings[] = {"prj", "cpg", "qix", "sbn", "sbx"};
+    if (strcmp(format_by_path(r->path)->driver, "ESRI Shapefile") != 0) return;
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        char name[4096];
+        int stem = (int)strlen(r->path) - 3;
+        if (snprintf(name, sizeof name, "%.*s%s", stem, r->path, endings[i]) < (int)sizeof name) unlink(name);
+    }
+}
+
+/* Give the files their names. */
+static int rows_commit(const gdal_rows *r)
+{
+    DIR *directory = opendir(r->directory);
+    int end = directory ? 0 : END_RESOURCE;
+    int stem = (int)(strlen(r->path) - strlen(strrchr(r->temporary, '/') + 1));
+    if (end == 0) rows_remove_sidecars(r);
+    for (struct dirent *entry; end == 0 && (entry = readdir(directory));) {
+        char from[4096], to[4096];
+        if (entry->d_name[0] == '.') continue;
+        bool fits = snprintf(from, sizeof from, "%s/%s", r->directory, entry->d_name) < (int)sizeof from &&
+                    snprintf(to, sizeof to, "%.*s%s", stem, r->path, entry->d_name) < (int)sizeof to;
+        if (!fits || rename(from, to) != 0) end = END_RESOURCE;
+    }
+    if (end) complain("%s: %s", r->path, strerror(errno));
+    if (directory) closedir(directory);
+    return end;
+}
+
+int gdal_rows_close(gdal_rows *r, bool commit)
+{
+    int end = 0;
+    if (!r) return 0;
+    if (commit && !r->layer) end = rows_create_layer(r);
+    if (r->set) {
+        r->gdal->CPLErrorReset();
+        if (commit && r->written > 0) r->gdal->GDALDatasetCommitTransaction(r->set);
+        r->gdal->GDALClose(r->set);
+        if (commit && end == 0 && r->gdal->CPLGetLastErrorType() >= CE_Failure) end = rows_fail(r, "it is incomplete");
+    }
+    if (commit && end == 0) end = rows_commit(r);
+    if (r->directory && *r->directory) signals_remove_temporaries();
+    for (size_t i = 0; r->columns && i < r->count; i++) free(r->columns[i].name);
+    free(r->columns);
+    free(r->cells);
+    free(r->buffer);
+    free(r->temporary);
+    free(r->directory);
+    free(r->path);
+    free(r);
+    return end;
+}
+
+#else
+
+int gdal_rows_check(const char *path)
+{
+    complain("%s: a program that was built with GDAL writes it", path);
+    return END_USAGE;
+}
+
+int gdal_rows_open(gdal_rows **rows, const char *path, const gdal_rows_form *form)
+{
+    (void)form;
+    *rows = NULL;
+    return gdal_rows_check(path);
+}
+
+int gdal_rows_learn(gdal_rows *rows, const char *bytes, size_t size)
+{
+    (void)rows;
+    (void)bytes;
+    (void)size;
+    return END_USAGE;
+}
+
+int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const double *points, size_t stride)
+{
+    (void)rows;
+    (void)bytes;
+    (void)size;
+    (void)points;
+    (void)stride;
+    return END_USAGE;
+}
+
+int gdal_rows_close(gdal_rows *rows, bool commit)
+{
+    (void)rows;
+    (void)commit;
+    return 0;
+}
+
+#endif
