@@ -14,6 +14,9 @@ import pytest
 import meshwalk
 
 POINTS = np.random.default_rng(5).uniform(size=(60_000, 2))
+MESH = meshwalk.delaunay(POINTS)
+TRIANGLES = MESH.triangles
+LOCATOR = meshwalk.Locator(MESH)
 CALLS: dict[str, Callable[[Any], Any]] = {
     "delaunay": lambda watch: meshwalk.delaunay(POINTS, progress=watch),
     "greedy": lambda watch: meshwalk.triangulate(POINTS[:5000], "greedy", progress=watch),
@@ -22,9 +25,6 @@ CALLS: dict[str, Callable[[Any], Any]] = {
     "locator": lambda watch: meshwalk.Locator(MESH, progress=watch),
     "locate": lambda watch: LOCATOR.locate(POINTS, progress=watch),
 }
-MESH = meshwalk.delaunay(POINTS)
-TRIANGLES = MESH.triangles
-LOCATOR = meshwalk.Locator(MESH)
 
 
 @pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
