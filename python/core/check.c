@@ -65,8 +65,10 @@ static PyObject *check_arrays(PyObject *module, PyObject *args)
                           &centre[0], &centre[1], &centre[2]) ||
         buffer_get_mesh(points, triangles, strcmp(request.kind, "mesh") == 0 ? 2 : 3, &given))
         return NULL;
-    Py_BEGIN_ALLOW_THREADS status = check_run(&request, &given.arrays, &check, &error);
-    Py_END_ALLOW_THREADS buffer_release_mesh(&given);
+    Py_BEGIN_ALLOW_THREADS
+    status = check_run(&request, &given.arrays, &check, &error);
+    Py_END_ALLOW_THREADS
+    buffer_release_mesh(&given);
     if (status) return errors_raise(PyModule_GetState(module), &error);
     list = check_defect_list(&check);
     valid = check.valid;

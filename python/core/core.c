@@ -10,12 +10,13 @@ static int core_add_numbers(PyObject *module)
 static int core_exec(PyObject *module)
 {
     core_state *state = PyModule_GetState(module);
+    state->main_thread = PyThread_get_thread_ident();
     return errors_init(state) || memory_init(module, state) || mesh_init(module, state) ||
                    location_init(module, state) || locator_init(module, state) ||
                    surface_init(module, state) || star_init(module, state) ||
                    prober_init(module, state) || editor_init(module, state) || check_init(module) ||
                    layouts_init(module) || triangulation_init(module) || files_init(module) ||
-                   core_add_numbers(module)
+                   points_init(module) || core_add_numbers(module)
                ? -1
                : 0;
 }

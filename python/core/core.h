@@ -19,28 +19,33 @@ typedef struct core_state {
     PyTypeObject *mesh_type, *locator_type, *location_type, *memory_type;
     PyTypeObject *surface_type, *star_type, *prober_type, *editor_type;
     PyObject *input_error, *limit_error;
-    PyObject *where_members; /* a tuple: the members of meshwalk.Where, by their numbers */
+    unsigned long main_thread; /* the one that imported the module */
+    PyObject *where_members;   /* a tuple: the members of meshwalk.Where, by their numbers */
 } core_state;
 
 typedef struct mesh_object {
-    PyObject_HEAD core_state *state;
+    PyObject_HEAD
+    core_state *state;
     mw_mesh *mesh;
 } mesh_object;
 
 typedef struct surface_object {
-    PyObject_HEAD core_state *state;
+    PyObject_HEAD
+    core_state *state;
     mw_surface *surface;
 } surface_object;
 
 /* What is kept beside a surface keeps it alive. */
 typedef struct star_object {
-    PyObject_HEAD core_state *state;
+    PyObject_HEAD
+    core_state *state;
     PyObject *surface;
     mw_star *star;
 } star_object;
 
 typedef struct prober_object {
-    PyObject_HEAD core_state *state;
+    PyObject_HEAD
+    core_state *state;
     PyObject *surface;
     mw_prober *prober;
 } prober_object;
@@ -107,6 +112,13 @@ void buffer_release_mesh(buffer_mesh *mesh);
 int option_uint32(PyObject *object, void *number);
 int option_uint64(PyObject *object, void *number);
 
+/* --- progress.c: long calls are watched --- */
+
+/* Fill *progress for a call: `function` is called with a stage and a fraction, unless it is None;
+ * Ctrl-C is looked for in any case. NULL where nobody watches. */
+const mw_progress *progress_begin(const core_state *state, PyObject *function,
+                                  mw_progress *progress);
+
 /* --- memory.c: memory of the library, as a buffer --- */
 
 /* A memoryview whose object frees the memory with free(); takes it over also on failure, which is
@@ -130,5 +142,6 @@ int check_init(PyObject *module);
 int layouts_init(PyObject *module);
 int triangulation_init(PyObject *module);
 int files_init(PyObject *module);
+int points_init(PyObject *module);
 
 #endif

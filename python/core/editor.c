@@ -3,7 +3,8 @@
 #include "core.h"
 
 typedef struct editor_object {
-    PyObject_HEAD core_state *state;
+    PyObject_HEAD
+    core_state *state;
     mw_editor *editor;
     mw_cursor cursor; /* of single queries */
 } editor_object;
@@ -70,9 +71,10 @@ static PyObject *editor_from_mesh(PyObject *module, PyObject *args)
     options.delaunay = (mw_delaunay_mode)mode;
     options.undo = (size_t)undo;
     options.constrained_edges = edge_view.buf;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_editor_create(((mesh_object *)mesh)->mesh, &options, &editor, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&edge_view);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_editor_create(((mesh_object *)mesh)->mesh, &options, &editor, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&edge_view);
     return status ? errors_raise(state, &error) : editor_new(state, class, editor);
 }
 
@@ -114,9 +116,10 @@ static PyObject *editor_apply(PyObject *self, PyObject *args)
                           &edit.other, option_uint32, &edit.field, &edit.x, &edit.y, &edit.value))
         return NULL;
     edit.kind = (mw_edit_kind)kind;
-    Py_BEGIN_ALLOW_THREADS status = mw_edit_apply(object->editor, &edit, &change, &error);
-    Py_END_ALLOW_THREADS return status ? errors_raise(object->state, &error)
-                                       : editor_change_tuple(&change);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_edit_apply(object->editor, &edit, &change, &error);
+    Py_END_ALLOW_THREADS
+    return status ? errors_raise(object->state, &error) : editor_change_tuple(&change);
 }
 
 /* _insert_points(points, vertices): fill the number of the vertex at each point */
@@ -134,9 +137,11 @@ static PyObject *editor_insert_points(PyObject *self, PyObject *args)
         PyBuffer_Release(&given.view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS status = mw_edit_insert_points(object->editor, given.points, given.count,
-                                                          given.stride, numbers.buf, NULL, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&numbers);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_edit_insert_points(object->editor, given.points, given.count, given.stride,
+                                   numbers.buf, NULL, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&numbers);
     PyBuffer_Release(&given.view);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
@@ -149,9 +154,10 @@ static PyObject *editor_undo(PyObject *self, PyObject *unused)
     mw_error error;
     mw_status status;
     (void)unused;
-    Py_BEGIN_ALLOW_THREADS status = mw_edit_undo(object->editor, &change, &error);
-    Py_END_ALLOW_THREADS return status ? errors_raise(object->state, &error)
-                                       : editor_change_tuple(&change);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_edit_undo(object->editor, &change, &error);
+    Py_END_ALLOW_THREADS
+    return status ? errors_raise(object->state, &error) : editor_change_tuple(&change);
 }
 
 /* _log(): [(kind, vertex, other, field, x, y, value)] */
@@ -208,9 +214,10 @@ static PyObject *editor_compact(PyObject *self, PyObject *args)
     mw_error error;
     mw_status status;
     if (editor_get_maps(self, args, &maps)) return NULL;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_editor_compact(object->editor, maps.triangles.buf, maps.vertices.buf, &error);
-    Py_END_ALLOW_THREADS editor_release_maps(&maps);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_editor_compact(object->editor, maps.triangles.buf, maps.vertices.buf, &error);
+    Py_END_ALLOW_THREADS
+    editor_release_maps(&maps);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
@@ -227,9 +234,10 @@ static PyObject *editor_mesh(PyObject *self, PyObject *args)
     if (!PyArg_ParseTuple(args, "OO!", &class, &PyTuple_Type, &arrays) ||
         editor_get_maps(self, arrays, &maps))
         return NULL;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_editor_mesh(object->editor, maps.triangles.buf, maps.vertices.buf, &mesh, &error);
-    Py_END_ALLOW_THREADS editor_release_maps(&maps);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_editor_mesh(object->editor, maps.triangles.buf, maps.vertices.buf, &mesh, &error);
+    Py_END_ALLOW_THREADS
+    editor_release_maps(&maps);
     return status ? errors_raise(object->state, &error) : mesh_new(object->state, class, mesh);
 }
 
@@ -345,10 +353,11 @@ static PyObject *editor_locate(PyObject *self, PyObject *args)
         PyBuffer_Release(&given.view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_locate_batch(mw_editor_locator(object->editor), given.points, given.count, given.stride,
-                        &options, locations.buf, NULL, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&locations);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_locate_batch(mw_editor_locator(object->editor), given.points, given.count,
+                             given.stride, &options, locations.buf, NULL, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&locations);
     PyBuffer_Release(&given.view);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
@@ -379,9 +388,10 @@ static PyObject *editor_interpolate(PyObject *self, PyObject *args)
         PyBuffer_Release(&location_view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS mw_editor_interpolate(editor_of(self), field, location_view.buf, count,
-                                                 out_view.buf);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&out_view);
+    Py_BEGIN_ALLOW_THREADS
+    mw_editor_interpolate(editor_of(self), field, location_view.buf, count, out_view.buf);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&out_view);
     PyBuffer_Release(&location_view);
     Py_RETURN_NONE;
 }

@@ -60,6 +60,8 @@ PyObject *errors_raise(core_state *state, const mw_error *error)
     switch (error->status) {
     case MW_ERROR_INPUT: return errors_raise_placed(state->input_error, error);
     case MW_ERROR_LIMIT: return errors_raise_placed(state->limit_error, error);
+    case MW_CANCELLED: /* by the exception that a report has left */
+        return PyErr_Occurred() ? NULL : errors_raise_plain(PyExc_RuntimeError, error);
     case MW_ERROR_MEMORY: return PyErr_NoMemory();
     case MW_ERROR_SYSTEM: return errors_raise_plain(PyExc_OSError, error);
     default: return errors_raise_plain(PyExc_ValueError, error);

@@ -57,8 +57,10 @@ static PyObject *file_read_mesh(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
-    Py_BEGIN_ALLOW_THREADS status = mw_read_mesh(path, NULL, &file, &error);
-    Py_END_ALLOW_THREADS if (status) return errors_raise(state, &error);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_read_mesh(path, NULL, &file, &error);
+    Py_END_ALLOW_THREADS
+    if (status) return errors_raise(state, &error);
     result = file_take_all(state, &file);
     mw_mesh_file_release(&file);
     return result;
@@ -141,7 +143,8 @@ static PyObject *file_write_mesh(PyObject *module, PyObject *args)
         failed = -1;
     }
     if (!failed) {
-        Py_BEGIN_ALLOW_THREADS status = file_write(path, &mesh, has_z, &fields, format, &error);
+        Py_BEGIN_ALLOW_THREADS
+        status = file_write(path, &mesh, has_z, &fields, format, &error);
         Py_END_ALLOW_THREADS
     }
     file_release_fields(&fields);

@@ -2,7 +2,8 @@
 #include "core.h"
 
 typedef struct location_object {
-    PyObject_HEAD core_state *state;
+    PyObject_HEAD
+    core_state *state;
     mw_location location;
 } location_object;
 

@@ -4,7 +4,8 @@
 #include <stdlib.h>
 
 typedef struct locator_object {
-    PyObject_HEAD core_state *state;
+    PyObject_HEAD
+    core_state *state;
     PyObject *mesh;
     mw_locator *locator;
     mw_cursor cursor; /* of single queries: used only under the interpreter lock */
@@ -49,25 +50,27 @@ static PyObject *locator_wrap(core_state *state, PyObject *class, PyObject *mesh
     return (PyObject *)object;
 }
 
-/* locator_from_mesh(cls, mesh, any, border, areas, fill, queries, threads) */
+/* locator_from_mesh(cls, mesh, any, border, areas, fill, queries, threads, progress) */
 static PyObject *locator_from_mesh(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *mesh;
+    PyObject *class, *mesh, *function;
     mw_locator_options options = {0};
+    mw_progress progress;
     int fill;
     mw_locator *locator;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!pppiO&O&", &class, state->mesh_type, &mesh, &options.any,
+    if (!PyArg_ParseTuple(args, "OO!pppiO&O&O", &class, state->mesh_type, &mesh, &options.any,
                           &options.border, &options.areas, &fill, option_uint64, &options.queries,
-                          option_uint32, &options.threads))
+                          option_uint32, &options.threads, &function))
         return NULL;
     options.fill = (mw_fill_mode)fill;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_locator_create(((mesh_object *)mesh)->mesh, &options, &locator, &error);
-    Py_END_ALLOW_THREADS return status ? errors_raise(state, &error)
-                                       : locator_wrap(state, class, mesh, locator);
+    options.progress = progress_begin(state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_locator_create(((mesh_object *)mesh)->mesh, &options, &locator, &error);
+    Py_END_ALLOW_THREADS
+    return status ? errors_raise(state, &error) : locator_wrap(state, class, mesh, locator);
 }
 
 static int locator_traverse(PyObject *self, visitproc visit, void *arg)
@@ -87,30 +90,33 @@ static void locator_dealloc(PyObject *self)
     objects_free(self);
 }
 
-/* _locate(points, out, walk, start, tolerance, lanes, threads) */
+/* _locate(points, out, walk, start, tolerance, lanes, threads, progress) */
 static PyObject *locator_locate(PyObject *self, PyObject *args)
 {
     locator_object *object = (locator_object *)self;
-    PyObject *points, *out;
+    PyObject *points, *out, *function;
+    mw_progress progress;
     locator_query query = {0};
     mw_query_options *options = &query.options;
     buffer_points given;
     Py_buffer locations;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOssdO&O&", &points, &out, &query.walk, &query.start,
+    if (!PyArg_ParseTuple(args, "OOssdO&O&O", &points, &out, &query.walk, &query.start,
                           &options->tolerance, option_uint32, &options->lanes, option_uint32,
-                          &options->threads) ||
+                          &options->threads, &function) ||
         locator_resolve_names(&query) || buffer_get_points(points, 2, &given))
         return NULL;
     if (buffer_get_writable(out, sizeof(mw_location), given.count, &locations)) {
         PyBuffer_Release(&given.view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_locate_batch(object->locator, given.points, given.count, given.stride, options,
-                        locations.buf, NULL, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&locations);
+    options->progress = progress_begin(object->state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_locate_batch(object->locator, given.points, given.count, given.stride, options,
+                             locations.buf, NULL, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&locations);
     PyBuffer_Release(&given.view);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
@@ -150,8 +156,10 @@ static PyObject *locator_nearest_border(PyObject *self, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "dd", &x, &y)) return NULL;
-    Py_BEGIN_ALLOW_THREADS status = mw_nearest_border(object->locator, x, y, &nearest, &error);
-    Py_END_ALLOW_THREADS if (status) return errors_raise(object->state, &error);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_nearest_border(object->locator, x, y, &nearest, &error);
+    Py_END_ALLOW_THREADS
+    if (status) return errors_raise(object->state, &error);
     return Py_BuildValue("IId(dd)(ddd)", nearest.triangle, nearest.edge, nearest.distance,
                          nearest.point[0], nearest.point[1], nearest.weight[0], nearest.weight[1],
                          nearest.weight[2]);
@@ -188,10 +196,11 @@ static PyObject *locator_walk_path(PyObject *self, PyObject *args)
         return NULL;
     if (mw_cursor_init(object->locator, &query.options, &cursor, &error))
         return errors_raise(object->state, &error);
-    Py_BEGIN_ALLOW_THREADS triangles = locator_walk(object->locator, &cursor, point, &count);
-    Py_END_ALLOW_THREADS return triangles
-        ? memory_new(object->state, triangles, count * sizeof *triangles)
-        : PyErr_NoMemory();
+    Py_BEGIN_ALLOW_THREADS
+    triangles = locator_walk(object->locator, &cursor, point, &count);
+    Py_END_ALLOW_THREADS
+    return triangles ? memory_new(object->state, triangles, count * sizeof *triangles)
+                     : PyErr_NoMemory();
 }
 
 /* describe(): a dictionary of the members of mw_locator_info, and of the void promise, or None */

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 
 typedef struct memory_object {
-    PyObject_HEAD void *bytes;
+    PyObject_HEAD
+    void *bytes;
     size_t size;
 } memory_object;
 

@@ -21,24 +21,28 @@ static void mesh_dealloc(PyObject *self)
     objects_free(self);
 }
 
-/* mesh_from_arrays(cls, points, triangles, tolerant, layout, threads) */
+/* mesh_from_arrays(cls, points, triangles, tolerant, layout, threads, progress) */
 static PyObject *mesh_from_arrays(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *points, *triangles;
+    PyObject *class, *points, *triangles, *function;
     mw_mesh_options options = {0};
+    mw_progress progress;
     int layout;
     buffer_mesh given;
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOpiO&", &class, &points, &triangles, &options.tolerant, &layout,
-                          option_uint32, &options.threads))
+    if (!PyArg_ParseTuple(args, "OOOpiO&O", &class, &points, &triangles, &options.tolerant, &layout,
+                          option_uint32, &options.threads, &function))
         return NULL;
     options.layout = (mw_mesh_layout)layout;
+    options.progress = progress_begin(state, function, &progress);
     if (buffer_get_mesh(points, triangles, 2, &given)) return NULL;
-    Py_BEGIN_ALLOW_THREADS status = mw_mesh_create(&given.arrays, &options, &mesh, &error);
-    Py_END_ALLOW_THREADS buffer_release_mesh(&given);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_mesh_create(&given.arrays, &options, &mesh, &error);
+    Py_END_ALLOW_THREADS
+    buffer_release_mesh(&given);
     return status ? errors_raise(state, &error) : mesh_new(state, class, mesh);
 }
 
@@ -49,9 +53,11 @@ static PyObject *mesh_copy_points(PyObject *self, PyObject *out)
     uint32_t count = mw_mesh_vertex_count(mesh);
     Py_buffer view;
     if (buffer_get_writable(out, sizeof(double), 2 * (size_t)count, &view)) return NULL;
-    Py_BEGIN_ALLOW_THREADS for (uint32_t i = 0; i < count; i++)
+    Py_BEGIN_ALLOW_THREADS
+    for (uint32_t i = 0; i < count; i++)
         mw_mesh_vertex(mesh, i, (double *)view.buf + 2 * (size_t)i);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
     Py_RETURN_NONE;
 }
 
@@ -62,9 +68,11 @@ static PyObject *mesh_copy_triangles(PyObject *self, PyObject *out)
     uint32_t count = mw_mesh_triangle_count(mesh);
     Py_buffer view;
     if (buffer_get_writable(out, sizeof(uint32_t), 3 * (size_t)count, &view)) return NULL;
-    Py_BEGIN_ALLOW_THREADS for (uint32_t t = 0; t < count; t++)
+    Py_BEGIN_ALLOW_THREADS
+    for (uint32_t t = 0; t < count; t++)
         mw_mesh_triangle(mesh, t, (uint32_t *)view.buf + 3 * (size_t)t);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
     Py_RETURN_NONE;
 }
 
@@ -75,10 +83,12 @@ static PyObject *mesh_copy_neighbours(PyObject *self, PyObject *out)
     uint32_t count = mw_mesh_triangle_count(mesh);
     Py_buffer view;
     if (buffer_get_writable(out, sizeof(uint32_t), 3 * (size_t)count, &view)) return NULL;
-    Py_BEGIN_ALLOW_THREADS for (uint32_t t = 0; t < count; t++) for (unsigned edge = 0; edge < 3;
-                                                                     edge++)(
-        (uint32_t *)view.buf)[3 * (size_t)t + edge] = mw_mesh_neighbour(mesh, t, edge, NULL);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_BEGIN_ALLOW_THREADS
+    for (uint32_t t = 0; t < count; t++)
+        for (unsigned edge = 0; edge < 3; edge++)
+            ((uint32_t *)view.buf)[3 * (size_t)t + edge] = mw_mesh_neighbour(mesh, t, edge, NULL);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
     Py_RETURN_NONE;
 }
 
@@ -94,9 +104,10 @@ static PyObject *mesh_interpolate(PyObject *self, PyObject *args)
         return NULL;
     if (buffer_get_all(locations, sizeof(mw_location), &location_view, &count)) goto release_values;
     if (buffer_get_writable(out, sizeof(double), count, &out_view)) goto release_locations;
-    Py_BEGIN_ALLOW_THREADS mw_interpolate(mesh, value_view.buf, location_view.buf, count,
-                                          out_view.buf);
-    Py_END_ALLOW_THREADS result = Py_NewRef(Py_None);
+    Py_BEGIN_ALLOW_THREADS
+    mw_interpolate(mesh, value_view.buf, location_view.buf, count, out_view.buf);
+    Py_END_ALLOW_THREADS
+    result = Py_NewRef(Py_None);
     PyBuffer_Release(&out_view);
 release_locations:
     PyBuffer_Release(&location_view);
@@ -129,9 +140,11 @@ static PyObject *mesh_interpolate_table(PyObject *self, PyObject *args)
         PyBuffer_Release(&table.view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS status = mw_interpolate_table(
-        object->mesh, &table.table, location_view.buf, count, out_view.buf, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&out_view);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_interpolate_table(object->mesh, &table.table, location_view.buf, count,
+                                  out_view.buf, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&out_view);
     PyBuffer_Release(&location_view);
     PyBuffer_Release(&table.view);
     if (status) return errors_raise(object->state, &error);
@@ -177,9 +190,10 @@ static PyObject *mesh_describe(PyObject *self, PyObject *unused)
     mw_error error;
     mw_status status;
     (void)unused;
-    Py_BEGIN_ALLOW_THREADS status = mw_mesh_describe(object->mesh, NULL, &info, &error);
-    Py_END_ALLOW_THREADS return status ? errors_raise(object->state, &error)
-                                       : mesh_info_dict(&info);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_mesh_describe(object->mesh, NULL, &info, &error);
+    Py_END_ALLOW_THREADS
+    return status ? errors_raise(object->state, &error) : mesh_info_dict(&info);
 }
 
 static PyObject *mesh_vertex_count(PyObject *self, void *unused)

@@ -15,9 +15,10 @@ static PyObject *prober_from_surface(PyObject *module, PyObject *args)
     mw_status status;
     if (!PyArg_ParseTuple(args, "OO!p", &class, state->surface_type, &surface, &options.boxes))
         return NULL;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_prober_create(((surface_object *)surface)->surface, &options, &prober, &error);
-    Py_END_ALLOW_THREADS if (status) return errors_raise(state, &error);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_prober_create(((surface_object *)surface)->surface, &options, &prober, &error);
+    Py_END_ALLOW_THREADS
+    if (status) return errors_raise(state, &error);
     object = objects_new(class, state->prober_type);
     if (!object) {
         mw_prober_destroy(prober);
@@ -77,10 +78,11 @@ static PyObject *prober_probe(PyObject *self, PyObject *args)
         PyBuffer_Release(&given.view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_probe_batch(object->prober, given.points, given.count, given.stride, &options,
-                       touches.buf, NULL, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&touches);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_probe_batch(object->prober, given.points, given.count, given.stride, &options,
+                            touches.buf, NULL, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&touches);
     PyBuffer_Release(&given.view);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
@@ -103,10 +105,13 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
         PyBuffer_Release(&given.view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS for (size_t i = 0; i < given.count && !status; i++) status =
-        mw_nearest_on_surface(object->prober, given.points + i * given.stride, max_distance,
-                              (mw_nearest_surface_point *)nearest.buf + i, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&nearest);
+    Py_BEGIN_ALLOW_THREADS
+    for (size_t i = 0; i < given.count && !status; i++)
+        status =
+            mw_nearest_on_surface(object->prober, given.points + i * given.stride, max_distance,
+                                  (mw_nearest_surface_point *)nearest.buf + i, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&nearest);
     PyBuffer_Release(&given.view);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;

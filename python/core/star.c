@@ -14,9 +14,10 @@ static PyObject *star_from_surface(PyObject *module, PyObject *args)
     if (!PyArg_ParseTuple(args, "OO!ddd", &class, state->surface_type, &surface, &options.centre[0],
                           &options.centre[1], &options.centre[2]))
         return NULL;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_star_create(((surface_object *)surface)->surface, &options, &star, &error);
-    Py_END_ALLOW_THREADS if (status) return errors_raise(state, &error);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_star_create(((surface_object *)surface)->surface, &options, &star, &error);
+    Py_END_ALLOW_THREADS
+    if (status) return errors_raise(state, &error);
     object = objects_new(class, state->star_type);
     if (!object) {
         mw_star_destroy(star);
@@ -69,10 +70,11 @@ static PyObject *star_locate(PyObject *self, PyObject *args)
         PyBuffer_Release(&given.view);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_star_locate_batch(object->star, given.points, given.count, given.stride, &options,
-                             locations.buf, NULL, &error);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&locations);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_star_locate_batch(object->star, given.points, given.count, given.stride, &options,
+                                  locations.buf, NULL, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&locations);
     PyBuffer_Release(&given.view);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
@@ -125,12 +127,13 @@ static PyObject *star_from_lonlat(PyObject *module, PyObject *args)
     star_rows rows;
     (void)module;
     if (star_get_rows(args, 2, 3, &rows)) return NULL;
-    Py_BEGIN_ALLOW_THREADS for (size_t i = 0; i < rows.from.count; i++)
-    {
+    Py_BEGIN_ALLOW_THREADS
+    for (size_t i = 0; i < rows.from.count; i++) {
         const double *lonlat = rows.from.points + i * rows.from.stride;
         mw_lonlat_to_direction(lonlat[0], lonlat[1], (double *)rows.to.buf + 3 * i);
     }
-    Py_END_ALLOW_THREADS return star_release_rows(&rows);
+    Py_END_ALLOW_THREADS
+    return star_release_rows(&rows);
 }
 
 /* direction_to_lonlat(directions, out) */
@@ -139,12 +142,13 @@ static PyObject *star_to_lonlat(PyObject *module, PyObject *args)
     star_rows rows;
     (void)module;
     if (star_get_rows(args, 3, 2, &rows)) return NULL;
-    Py_BEGIN_ALLOW_THREADS for (size_t i = 0; i < rows.from.count; i++)
-    {
+    Py_BEGIN_ALLOW_THREADS
+    for (size_t i = 0; i < rows.from.count; i++) {
         double *lonlat = (double *)rows.to.buf + 2 * i;
         mw_direction_to_lonlat(rows.from.points + i * rows.from.stride, &lonlat[0], &lonlat[1]);
     }
-    Py_END_ALLOW_THREADS return star_release_rows(&rows);
+    Py_END_ALLOW_THREADS
+    return star_release_rows(&rows);
 }
 
 static PyMethodDef star_methods[] = {

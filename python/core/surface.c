@@ -21,8 +21,10 @@ static PyObject *surface_from_arrays(PyObject *module, PyObject *args)
                           &options.weld) ||
         buffer_get_mesh(points, triangles, 3, &given))
         return NULL;
-    Py_BEGIN_ALLOW_THREADS status = mw_surface_create(&given.arrays, &options, &surface, &error);
-    Py_END_ALLOW_THREADS buffer_release_mesh(&given);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_surface_create(&given.arrays, &options, &surface, &error);
+    Py_END_ALLOW_THREADS
+    buffer_release_mesh(&given);
     if (status) return errors_raise(state, &error);
     object = objects_new(class, state->surface_type);
     if (!object) {
@@ -47,9 +49,10 @@ static PyObject *surface_copy_points(PyObject *self, PyObject *out)
     const size_t count = 3 * (size_t)mw_surface_vertex_count(surface);
     Py_buffer view;
     if (buffer_get_writable(out, sizeof(double), count, &view)) return NULL;
-    Py_BEGIN_ALLOW_THREADS if (count)
-        memcpy(view.buf, mw_surface_points(surface), count * sizeof(double));
-    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_BEGIN_ALLOW_THREADS
+    if (count) memcpy(view.buf, mw_surface_points(surface), count * sizeof(double));
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
     Py_RETURN_NONE;
 }
 
@@ -60,9 +63,11 @@ static PyObject *surface_copy_triangles(PyObject *self, PyObject *out)
     uint32_t count = mw_surface_triangle_count(surface);
     Py_buffer view;
     if (buffer_get_writable(out, sizeof(uint32_t), 3 * (size_t)count, &view)) return NULL;
-    Py_BEGIN_ALLOW_THREADS for (uint32_t t = 0; t < count; t++)
+    Py_BEGIN_ALLOW_THREADS
+    for (uint32_t t = 0; t < count; t++)
         mw_surface_triangle(surface, t, (uint32_t *)view.buf + 3 * (size_t)t);
-    Py_END_ALLOW_THREADS PyBuffer_Release(&view);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
     Py_RETURN_NONE;
 }
 
@@ -148,7 +153,8 @@ static PyObject *surface_move(PyObject *self, PyObject *args)
     if (!failed) {
         failed = surface_sort_kept(object->state, list, &kept);
         if (!failed) {
-            Py_BEGIN_ALLOW_THREADS mw_surface_begin_update(object->surface);
+            Py_BEGIN_ALLOW_THREADS
+            mw_surface_begin_update(object->surface);
             surface_overwrite(object->surface, point_view.buf, number_view.buf, count);
             status = surface_update_kept(&kept, moved, threads, &error);
             mw_surface_end_update(object->surface);
@@ -179,7 +185,8 @@ static PyObject *surface_flip(PyObject *self, PyObject *args)
         surface_release_kept(&kept);
         return NULL;
     }
-    Py_BEGIN_ALLOW_THREADS mw_surface_begin_update(object->surface);
+    Py_BEGIN_ALLOW_THREADS
+    mw_surface_begin_update(object->surface);
     status = mw_surface_flip(object->surface, triangle, edge, &error);
     {
         mw_error later;
@@ -190,7 +197,8 @@ static PyObject *surface_flip(PyObject *self, PyObject *args)
         }
     }
     mw_surface_end_update(object->surface);
-    Py_END_ALLOW_THREADS surface_release_kept(&kept);
+    Py_END_ALLOW_THREADS
+    surface_release_kept(&kept);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
@@ -216,9 +224,10 @@ static PyObject *surface_describe(PyObject *self, PyObject *unused)
     mw_error error;
     mw_status status;
     (void)unused;
-    Py_BEGIN_ALLOW_THREADS status = mw_surface_describe(object->surface, &info, &error);
-    Py_END_ALLOW_THREADS return status ? errors_raise(object->state, &error)
-                                       : surface_info_dict(&info);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_surface_describe(object->surface, &info, &error);
+    Py_END_ALLOW_THREADS
+    return status ? errors_raise(object->state, &error) : surface_info_dict(&info);
 }
 
 static PyObject *surface_vertex_count(PyObject *self, void *unused)

@@ -24,25 +24,28 @@ static void triangulation_release_input(triangulation_input *in)
     PyBuffer_Release(&in->duplicate_of);
 }
 
-/* delaunay(cls, points, duplicate_of, threads): a mesh and the number of duplicates */
+/* delaunay(cls, points, duplicate_of, threads, progress): a mesh and the number of duplicates */
 static PyObject *triangulation_delaunay(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *points, *duplicates, *object;
+    mw_progress progress;
+    PyObject *function, *class, *points, *duplicates, *object;
     mw_delaunay_options options = {0};
     mw_delaunay_report report;
     triangulation_input in;
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOO&", &class, &points, &duplicates, option_uint32,
-                          &options.threads) ||
+    if (!PyArg_ParseTuple(args, "OOOO&O", &class, &points, &duplicates, option_uint32,
+                          &options.threads, &function) ||
         triangulation_get_input(points, duplicates, &in))
         return NULL;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_delaunay(in.points.points, in.points.count, in.points.stride, &options,
-                    in.duplicate_of.buf, &report, &mesh, &error);
-    Py_END_ALLOW_THREADS triangulation_release_input(&in);
+    options.progress = progress_begin(state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_delaunay(in.points.points, in.points.count, in.points.stride, &options,
+                         in.duplicate_of.buf, &report, &mesh, &error);
+    Py_END_ALLOW_THREADS
+    triangulation_release_input(&in);
     if (status) return errors_raise(state, &error);
     object = mesh_new(state, class, mesh);
     return object ? Py_BuildValue("Nn", object, (Py_ssize_t)report.duplicates) : NULL;
@@ -58,12 +61,13 @@ static mw_triangulation_kind triangulation_kind_by_name(const char *name)
     return MW_KIND_COUNT;
 }
 
-/* triangulate(cls, points, duplicate_of, kind, limit, threads): a mesh, the number of duplicates,
- * and whether it is optimal */
+/* triangulate(cls, points, duplicate_of, kind, limit, threads, progress): a mesh, the number of
+ * duplicates, and whether it is optimal */
 static PyObject *triangulation_of_kind(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *points, *duplicates, *object;
+    mw_progress progress;
+    PyObject *function, *class, *points, *duplicates, *object;
     const char *name;
     mw_triangulation_kind kind;
     mw_kind_options options = {0};
@@ -72,15 +76,17 @@ static PyObject *triangulation_of_kind(PyObject *module, PyObject *args)
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOsO&O&", &class, &points, &duplicates, &name, option_uint32,
-                          &options.limit, option_uint32, &options.threads) ||
+    if (!PyArg_ParseTuple(args, "OOOsO&O&O", &class, &points, &duplicates, &name, option_uint32,
+                          &options.limit, option_uint32, &options.threads, &function) ||
         (kind = triangulation_kind_by_name(name)) == MW_KIND_COUNT ||
         triangulation_get_input(points, duplicates, &in))
         return NULL;
-    Py_BEGIN_ALLOW_THREADS status =
-        mw_triangulate(kind, in.points.points, in.points.count, in.points.stride, &options,
-                       in.duplicate_of.buf, &report, &mesh, &error);
-    Py_END_ALLOW_THREADS triangulation_release_input(&in);
+    options.progress = progress_begin(state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_triangulate(kind, in.points.points, in.points.count, in.points.stride, &options,
+                            in.duplicate_of.buf, &report, &mesh, &error);
+    Py_END_ALLOW_THREADS
+    triangulation_release_input(&in);
     if (status) return errors_raise(state, &error);
     object = mesh_new(state, class, mesh);
     if (!object) return NULL;
@@ -190,11 +196,12 @@ static PyObject *triangulation_constrained_result(core_state *state, PyObject *c
 }
 
 /* constrained_delaunay(cls, points, duplicate_of, segments, polygons or None, seeds, keep, split,
- * threads) */
+ * threads, progress) */
 static PyObject *triangulation_constrained(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *objects[5];
+    mw_progress progress;
+    PyObject *function, *class, *objects[5];
     int keep;
     mw_constrain_options options = {0};
     mw_constrain_report report = {.crossing_segments = {MW_NONE, MW_NONE}};
@@ -203,15 +210,18 @@ static PyObject *triangulation_constrained(PyObject *module, PyObject *args)
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOOOOipO&", &class, &objects[0], &objects[1], &objects[2],
+    if (!PyArg_ParseTuple(args, "OOOOOOipO&O", &class, &objects[0], &objects[1], &objects[2],
                           &objects[3], &objects[4], &keep, &options.split, option_uint32,
-                          &options.threads) ||
+                          &options.threads, &function) ||
         triangulation_get_constraints(objects, &c))
         return NULL;
     options.keep = (mw_keep)keep;
-    Py_BEGIN_ALLOW_THREADS status = mw_constrained_delaunay(
-        &c.given, &options, c.in.duplicate_of.buf, &report, &edges, &mesh, &error);
-    Py_END_ALLOW_THREADS triangulation_release_constraints(&c);
+    options.progress = progress_begin(state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_constrained_delaunay(&c.given, &options, c.in.duplicate_of.buf, &report, &edges,
+                                     &mesh, &error);
+    Py_END_ALLOW_THREADS
+    triangulation_release_constraints(&c);
     if (status) return triangulation_raise(state, &error, &report);
     return triangulation_constrained_result(state, class, mesh, &report, &edges);
 }

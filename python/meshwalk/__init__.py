@@ -28,7 +28,7 @@ from meshwalk._editor import (
     EditorLocations,
 )
 from meshwalk._errors import Error, InputError, LimitError
-from meshwalk._files import mesh_formats, read, write
+from meshwalk._files import mesh_formats, read, read_points, write
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
@@ -88,6 +88,7 @@ __all__ = [
     "mesh_formats",
     "plot",
     "read",
+    "read_points",
     "triangulate",
     "write",
 ]

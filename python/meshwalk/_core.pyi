@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from typing import Any, SupportsFloat, TypeAlias, TypeVar, final
 
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ MESH_FORMATS: tuple[str, ...]
 version: str
 
 Buffer: TypeAlias = NDArray[Any]
+Progress: TypeAlias = Callable[[str, float], object]
 
 class Mesh:
     @property
@@ -68,6 +70,7 @@ class Locator:
         tolerance: float,
         lanes: int,
         threads: int,
+        progress: Progress | None,
         /,
     ) -> None: ...
     def _walk_path(self, x: float, y: float, walk: str, start: str, seed: int, /) -> memoryview: ...
@@ -86,6 +89,7 @@ def mesh_from_arrays(
     tolerant: bool,
     layout: int,
     threads: int,
+    progress: Progress | None,
     /,
 ) -> _Mesh: ...
 def locator_from_mesh(
@@ -97,6 +101,7 @@ def locator_from_mesh(
     fill: int,
     queries: int,
     threads: int,
+    progress: Progress | None,
     /,
 ) -> _Locator: ...
 
@@ -202,7 +207,12 @@ def check_arrays(
     /,
 ) -> tuple[bool, list[tuple[str, str, int, int, int, int, int]]]: ...
 def delaunay(
-    cls: type[_Mesh], points: Buffer, duplicate_of: Buffer, threads: int, /
+    cls: type[_Mesh],
+    points: Buffer,
+    duplicate_of: Buffer,
+    threads: int,
+    progress: Progress | None,
+    /,
 ) -> tuple[_Mesh, int]: ...
 def triangulate(
     cls: type[_Mesh],
@@ -211,6 +221,7 @@ def triangulate(
     kind: str,
     limit: int,
     threads: int,
+    progress: Progress | None,
     /,
 ) -> tuple[_Mesh, int, bool]: ...
 def constrained_delaunay(
@@ -223,9 +234,13 @@ def constrained_delaunay(
     keep: int,
     split: bool,
     threads: int,
+    progress: Progress | None,
     /,
 ) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(path: bytes, /) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]: ...
+def read_points(
+    path: bytes, columns: str | None, classes: bytes, /
+) -> tuple[memoryview, list[str]]: ...
 def write_mesh(
     path: bytes,
     format: str | None,

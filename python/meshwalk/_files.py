@@ -1,4 +1,4 @@
-"""Meshes in files."""
+"""Meshes and points in files."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from meshwalk._mesh import Mesh
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
@@ -72,11 +73,93 @@ def _read(name: bytes) -> tuple[memoryview, memoryview, int, dict[str, memoryvie
     try:
         return _core.read_mesh(name)
     except OSError as error:
-        import os
+        raise _found(error, name) from None
 
-        if os.path.exists(name):
-            raise
-        raise FileNotFoundError(*error.args) from None
+
+def _found(error: OSError, name: bytes) -> OSError:
+    """The same error, or FileNotFoundError where there is no such file."""
+    import os
+
+    return error if os.path.exists(name) else FileNotFoundError(*error.args)
+
+
+def read_points(
+    path: str | os.PathLike[str],
+    columns: str | None = None,
+    classes: Iterable[int] = (),
+) -> tuple[NDArray[np.float64], list[str]]:
+    r"""Read points from a table of text or from LAS; from LAZ where laspy is installed.
+
+    Parameters
+    ----------
+    path : str or path-like
+        CSV or columns separated by semicolons, tabs or blanks, with or without a header, gzipped or
+        not; LAS; LAZ.
+    columns : str, optional
+        Names or numbers from 1 of the columns wanted, such as ``"x,y,z"``. By default those that
+        hold numbers in the first row; x and y (or lon and lat) and z first where a header has them;
+        of LAS and LAZ x, y, z.
+    classes : iterable of int, optional
+        Of LAS and LAZ: only points of these classes; by default all.
+
+    Returns
+    -------
+    points : ndarray, shape (n, number of columns)
+        A row for each point. An empty field is NaN.
+    names : list of str
+        Of the columns.
+
+    Raises
+    ------
+    OSError
+        The file cannot be opened or read; ``FileNotFoundError`` where there is none.
+    InputError
+        It is malformed; the exception's `line` tells where.
+    ImportError
+        The file is LAZ, and ``laspy[lazrs]`` is not installed.
+
+    Examples
+    --------
+    >>> import meshwalk, os, tempfile
+    >>> name = os.path.join(tempfile.mkdtemp(), "points.csv")
+    >>> with open(name, "w") as file:
+    ...     _ = file.write("z,x,y\n7,1,2\n8,3,4\n")
+    >>> points, names = meshwalk.read_points(name)
+    >>> names
+    ['x', 'y', 'z']
+    >>> points
+    array([[1., 2., 7.],
+           [3., 4., 8.]])
+    """
+    name = _arrays.path(path)
+    wanted = bytearray(256)
+    for number in classes:
+        if not 0 <= number < 256:
+            raise ValueError(f"there is no class {number}")
+        wanted[number] = 1
+    if name.lower().endswith(b".laz"):
+        return _read_laz(name, columns, wanted)
+    try:
+        values, names = _core.read_points(name, columns, bytes(wanted))
+    except OSError as error:
+        raise _found(error, name) from None
+    return np.frombuffer(values, np.float64).reshape(-1, len(names)), names
+
+
+def _read_laz(
+    name: bytes, columns: str | None, classes: bytearray
+) -> tuple[NDArray[np.float64], list[str]]:
+    try:
+        import laspy
+    except ImportError:
+        raise ImportError("to read LAZ, install laspy[lazrs]; or unpack it to LAS") from None
+    import os
+
+    las = laspy.read(os.fsdecode(name))
+    names = [column.strip() for column in (columns or "x,y,z").split(",")]
+    chosen = np.asarray(classes, bool)[las.classification] if any(classes) else slice(None)
+    table = [np.asarray(las[column], np.float64)[chosen] for column in names]
+    return np.column_stack(table), names
 
 
 def write(path: str | os.PathLike[str], mesh: Mesh, format: str | None = None) -> None:

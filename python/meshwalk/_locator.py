@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from meshwalk._core import Progress
+
 _FILLS = {"auto": 0, "yes": 1, "no": 2}
 
 
@@ -81,6 +83,9 @@ class Locator(_core.Locator):
         Store twice the area of each triangle, for the walk ``"direct"``.
     threads : int, optional
         How many threads build it; 0 lets the library choose.
+    progress : callable, optional
+        Called now and then with what is being done (str) and how much of it is done (from 0
+        to 1), at most 300 times. An exception in it ends the call, as Ctrl-C does.
 
     Raises
     ------
@@ -118,6 +123,7 @@ class Locator(_core.Locator):
         queries: int = 0,
         areas: bool = False,
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> Self:
         if not isinstance(mesh, Mesh):
             raise TypeError(f"mesh must be a meshwalk.Mesh, not {type(mesh).__name__}")
@@ -125,7 +131,7 @@ class Locator(_core.Locator):
             raise ValueError(f"fill must be one of {', '.join(_FILLS)}, not {fill!r}")
         try:
             locator = _core.locator_from_mesh(
-                cls, mesh, any, border, areas, _FILLS[fill], queries, threads
+                cls, mesh, any, border, areas, _FILLS[fill], queries, threads, progress
             )
         except InputError as error:
             defects = mesh.check().defects
@@ -150,6 +156,7 @@ class Locator(_core.Locator):
         walk: str = "auto",
         start: str = "auto",
         lanes: int = 0,
+        progress: Progress | None = None,
     ) -> Locations:
         """Find the triangles that contain points.
 
@@ -171,6 +178,9 @@ class Locator(_core.Locator):
             `start_names`). The answers are the same.
         lanes : int, optional
             Walks in flight at a time; 0 lets the library choose.
+        progress : callable, optional
+            Called now and then with what is being done (str) and how much of it is done (from 0
+            to 1), at most 300 times. An exception in it ends the call, as Ctrl-C does.
 
         Returns
         -------
@@ -190,7 +200,7 @@ class Locator(_core.Locator):
             raise NotImplementedError("hints are not in this version")
         points, shape = _arrays.queries(xy, "xy", 2)
         records = np.empty(len(points), LOCATION)
-        self._locate(points, records, walk, start, tolerance, lanes, threads)
+        self._locate(points, records, walk, start, tolerance, lanes, threads, progress)
         return Locations(self.mesh, records.reshape(shape))
 
     def nearest_border(self, x: float, y: float) -> NearestBorder:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+if TYPE_CHECKING:
+    from meshwalk._core import Progress
+
 _LAYOUTS = {"auto": 0, "hilbert": 1, "as-given": 2}
 
 
@@ -83,6 +86,9 @@ class Mesh(_core.Mesh):
         How the mesh lies in memory. No number shows it.
     threads : int, optional
         How many threads build it; 0 lets the library choose.
+    progress : callable, optional
+        Called now and then with what is being done (str) and how much of it is done (from 0
+        to 1), at most 300 times. An exception in it ends the call, as Ctrl-C does.
 
     Raises
     ------
@@ -131,6 +137,7 @@ class Mesh(_core.Mesh):
         tolerant: bool = False,
         layout: Literal["auto", "hilbert", "as-given"] = "auto",
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> Self:
         rows, width = _arrays.vertices(points, "points", (2, 3))
         numbers = _arrays.triangles(triangles, "triangles", _core.MAX_TRIANGLES)
@@ -138,7 +145,7 @@ class Mesh(_core.Mesh):
             raise ValueError(f"layout must be one of {', '.join(_LAYOUTS)}, not {layout!r}")
         try:
             mesh = _core.mesh_from_arrays(
-                cls, rows[:, :2], numbers, tolerant, _LAYOUTS[layout], threads
+                cls, rows[:, :2], numbers, tolerant, _LAYOUTS[layout], threads, progress
             )
         except InputError as error:
             error.defect = next(iter(check(rows, numbers).defects), None)

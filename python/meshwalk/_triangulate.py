@@ -13,6 +13,8 @@ from meshwalk._mesh import Mesh
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from meshwalk._core import Progress
+
 _KEEPS = {"auto": 0, "hull": 1, "inside": 2}
 
 
@@ -35,7 +37,7 @@ def _warn(duplicates: int, duplicate_of: NDArray[np.uint32]) -> None:
         )
 
 
-def delaunay(points: ArrayLike, threads: int = 0) -> Mesh:
+def delaunay(points: ArrayLike, threads: int = 0, *, progress: Progress | None = None) -> Mesh:
     """Delaunay triangulation of points: exact, and the same for any number of threads.
 
     Parameters
@@ -44,6 +46,9 @@ def delaunay(points: ArrayLike, threads: int = 0) -> Mesh:
         x, y of each point. A third column becomes the field ``"z"``.
     threads : int, optional
         How many threads work on it; 0 lets the library choose.
+    progress : callable, optional
+        Called now and then with what is being done (str) and how much of it is done (from 0
+        to 1), at most 300 times. An exception in it ends the call, as Ctrl-C does.
 
     Returns
     -------
@@ -77,7 +82,7 @@ def delaunay(points: ArrayLike, threads: int = 0) -> Mesh:
     """
     rows, width = _arrays.vertices(points, "points", (2, 3))
     duplicate_of = np.empty(len(rows), np.uint32)
-    mesh, duplicates = _core.delaunay(Mesh, rows[:, :2], duplicate_of, threads)
+    mesh, duplicates = _core.delaunay(Mesh, rows[:, :2], duplicate_of, threads, progress)
     mesh._set_fields(rows[:, 2] if width == 3 else None, None)
     _warn(duplicates, duplicate_of)
     return mesh
@@ -88,6 +93,8 @@ def triangulate(
     kind: Literal["delaunay", "greedy", "min-weight", "min-max-angle"] = "delaunay",
     limit: int = 0,
     threads: int = 0,
+    *,
+    progress: Progress | None = None,
 ) -> Mesh:
     """Triangulation of points of any kind that the library has.
 
@@ -103,6 +110,9 @@ def triangulate(
         ``"min-max-angle"`` for so many points. 0 ends after about half a minute.
     threads : int, optional
         For the Delaunay triangulation that each kind begins with; 0 lets the library choose.
+    progress : callable, optional
+        Called now and then with what is being done (str) and how much of it is done (from 0
+        to 1), at most 300 times. An exception in it ends the call, as Ctrl-C does.
 
     Returns
     -------
@@ -131,7 +141,7 @@ def triangulate(
     rows, width = _arrays.vertices(points, "points", (2, 3))
     duplicate_of = np.empty(len(rows), np.uint32)
     mesh, duplicates, optimal = _core.triangulate(
-        Mesh, rows[:, :2], duplicate_of, kind, limit, threads
+        Mesh, rows[:, :2], duplicate_of, kind, limit, threads, progress
     )
     mesh._set_fields(rows[:, 2] if width == 3 else None, None)
     _warn(duplicates, duplicate_of)
@@ -153,6 +163,7 @@ def constrained_delaunay(
     keep: Literal["auto", "hull", "inside"] = "auto",
     split: bool = False,
     threads: int = 0,
+    progress: Progress | None = None,
 ) -> Mesh:
     """Constrained Delaunay triangulation: every segment is an edge, or a chain of edges.
 
@@ -177,6 +188,9 @@ def constrained_delaunay(
         points, and has NaN as ``"z"``.
     threads : int, optional
         For the Delaunay triangulation of the points; 0 lets the library choose.
+    progress : callable, optional
+        Called now and then with what is being done (str) and how much of it is done (from 0
+        to 1), at most 300 times. An exception in it ends the call, as Ctrl-C does.
 
     Returns
     -------
@@ -222,7 +236,7 @@ def constrained_delaunay(
     seeds = np.ascontiguousarray(_arrays.queries(holes, "holes", 2)[0])
     duplicate_of = np.empty(len(rows), np.uint32)
     mesh, duplicates, edges, edge_segments = _core.constrained_delaunay(
-        Mesh, rows[:, :2], duplicate_of, ends, rings, seeds, _KEEPS[keep], split, threads
+        Mesh, rows[:, :2], duplicate_of, ends, rings, seeds, _KEEPS[keep], split, threads, progress
     )
     mesh._set_fields(_heights(rows, mesh.vertex_count) if width == 3 else None, None)
     mesh._set_constraints(

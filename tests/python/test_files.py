@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -68,3 +69,33 @@ def test_names_that_are_no_text(tmp_path: Path) -> None:
     assert len(meshwalk.read(path)) == 8
     with pytest.raises(OSError, match=r"n\\xe9none\.off"):
         meshwalk.read(tmp_path / "n\udce9none.off")
+
+
+def test_points(tmp_path: Path, random: np.random.Generator) -> None:
+    path = tmp_path / "points.csv"
+    table = random.uniform(size=(70_000, 3))
+    np.savetxt(path, table, "%.17g", ",", header="z,x,y", comments="")
+    points, names = meshwalk.read_points(path)
+    assert names == ["x", "y", "z"]
+    np.testing.assert_array_equal(points, table[:, [1, 2, 0]])
+    points, names = meshwalk.read_points(path, "z,2")
+    assert names == ["z", "x"]
+    np.testing.assert_array_equal(points, table[:, :2])
+    path.write_text("x,y\n")
+    assert meshwalk.read_points(path)[0].shape == (0, 2)
+    path.write_text("x,y\n1,2\n3,four\n")
+    with pytest.raises(meshwalk.InputError, match=r"points\.csv:3:") as raised:
+        meshwalk.read_points(path)
+    assert raised.value.line == 3
+    with pytest.raises(FileNotFoundError):
+        meshwalk.read_points(tmp_path / "none.csv")
+    with pytest.raises((ValueError, meshwalk.InputError), match="height"):
+        meshwalk.read_points(path, "x,height")
+    with pytest.raises(ValueError, match="no class 256"):
+        meshwalk.read_points(path, classes=[2, 256])
+
+
+def test_laz_needs_laspy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "laspy", None)
+    with pytest.raises(ImportError, match=r"laspy\[lazrs\]"):
+        meshwalk.read_points(tmp_path / "points.laz")

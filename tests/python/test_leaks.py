@@ -93,7 +93,7 @@ def _failures(folder: Path) -> list[Callable[[], Any]]:
         lambda: locator.locate(POINTS[:, :1]),
         lambda: locator.locate_one(wrong, 1),
         lambda: locator.nearest_border(1, 1),
-        lambda: locator._locate(POINTS, np.empty(3), "auto", "auto", 0, 0, 0),
+        lambda: locator._locate(POINTS, np.empty(3), "auto", "auto", 0, 0, 0, None),
         lambda: mesh._copy_points(np.empty(3)),
         lambda: mesh._interpolate(np.empty(400), POINTS, np.empty(3)),
         lambda: editor.remove(10**7),
