@@ -147,10 +147,11 @@ MW_API int mw_axis_name_matches(const char *column, const char *name);
  *
  * Text: columns separated by semicolons, tabs, commas or blanks (what the first row has, in this order of preference).
  * The first row is a header if none of its fields is a number, or if two of them name coordinates (mw_axis_names_at).
- * Empty lines and lines that begin with # are skipped (but see mw_point_reader_table). Rows all have the same number of columns. A field that begins
- * with a double quote ends with one, and may hold separators, line ends and "" for a quote. "inf" is a number; NaN, NA,
- * N/A, NULL (in letters of any case), "-" and an empty field are missing values, NaN. Decimal commas are taken where semicolons or tabs separate, and refused elsewhere, and beside decimal
- * points. Triangle's .node is read too, without its numbers and markers.
+ * Empty lines and lines that begin with # are skipped (but see mw_point_reader_table). Rows all have
+ * the same number of columns. A field that begins with a double quote ends with one, and may hold
+ * separators, line ends and "" for a quote. "inf" is a number; NaN, NA, N/A, NULL (in letters of any
+ * case), "-" and an empty field are missing values, NaN. Decimal commas are taken where semicolons or
+ * tabs separate, and refused elsewhere, and beside decimal points. Triangle's .node is read too, without its numbers and markers.
  *
  * Columns: those selected, in the order given. With `columns` NULL: all columns that hold numbers in the first row;
  * where a header names x and y as a set of mw_axis_names_at does, these, and z, come first.
@@ -188,8 +189,9 @@ typedef struct mw_point_table {
     uint32_t reserved[4];
 } mw_point_table;
 
-/** Describe the table that a reader reads. A line that begins with # is a row of it, not a comment, if it has as many
- * columns as the rows before, a column that is not read begins it, and blanks do not separate them: #12 is an id. LAS is a table with commas of all the values that its points have.
+/** Describe the table that a reader reads. A line that begins with # is a row of it, not a comment, if
+ * it has as many columns as the header, a column that is not read begins it, and blanks do not separate
+ * them: #12 is an id. LAS is a table with commas of all the values that its points have.
  * @param table  is filled in; its texts last until mw_point_reader_close
  * @return MW_OK; MW_ERROR_ARGUMENT: NULL. Thread-safe on different readers. */
 MW_API mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table, mw_error *error);
