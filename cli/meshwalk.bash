@@ -49,6 +49,7 @@ _meshwalk_names() {
             echo 'auto lawson remembering stochastic forgetful fast-stochastic barycentric direct straight'
             echo 'normal-straight normal-straight-turn orthogonal improved-orthogonal improved-orthogonal-vertex'
             echo 'hybrid celestial border'
+            [[ $1 == walk ]] && echo all
             ;;
         --start)
             case $1 in
