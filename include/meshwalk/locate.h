@@ -327,6 +327,29 @@ MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y
 MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations, size_t n,
                            double *result);
 
+typedef enum mw_value_type { MW_FLOAT64 = 0, MW_FLOAT32 } mw_value_type;
+
+/** Many values at each vertex, such as those of all time steps: value k of vertex v at values[v * stride + k]. */
+typedef struct mw_value_table {
+    const void *values; /**< of one double (MW_FLOAT64) or float (MW_FLOAT32) each              */
+    mw_value_type type;
+    size_t count;  /**< values of each vertex                                              */
+    size_t stride; /**< from one vertex to the next, in values; 0 = count                  */
+} mw_value_table;
+
+/** Interpolate many values at each point: as mw_interpolate each of them, but looking up each triangle once.
+ *
+ * @param mesh       in which the points were located
+ * @param table      read during the call only; a row for each vertex of the mesh
+ * @param locations  n of them
+ * @param result     n rows of table->count values of the table's type, packed; floats are summed as doubles and rounded
+ *                   once. NaN where the location has no triangle
+ * @return MW_ERROR_ARGUMENT: NULL, an unknown type, a stride that is less than count
+ *
+ * Thread-safe; no allocation. */
+MW_API mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table, const mw_location *locations,
+                                      size_t n, void *result, mw_error *error);
+
 #ifdef __cplusplus
 }
 #endif

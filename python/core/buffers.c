@@ -12,22 +12,57 @@ static char buffer_letter(const Py_buffer *view)
     return format[0] && !format[1] ? format[0] : 0;
 }
 
+/* A two-dimensional array of `letter`, whose rows the library can step over. */
+static int buffer_get_rows(PyObject *object, char letter, Py_ssize_t size, Py_buffer *view)
+{
+    if (PyObject_GetBuffer(object, view, PyBUF_STRIDES | PyBUF_FORMAT)) return -1;
+    if (view->ndim == 2 && buffer_letter(view) == letter &&
+        (view->shape[0] == 0 || view->shape[1] <= 1 || view->strides[1] == size) &&
+        (view->shape[0] <= 1 ||
+         (view->strides[0] % size == 0 && view->strides[0] >= size * view->shape[1])))
+        return 0;
+    PyErr_Format(PyExc_ValueError, "expected rows of '%c' side by side", letter);
+    PyBuffer_Release(view);
+    return -1;
+}
+
+/* From one row to the next, in members. */
+static size_t buffer_row_stride(const Py_buffer *view)
+{
+    return (size_t)(view->shape[0] > 1 ? view->strides[0] / view->itemsize : view->shape[1]);
+}
+
 int buffer_get_points(PyObject *object, size_t width, buffer_points *points)
 {
-    const Py_ssize_t size = (Py_ssize_t)sizeof(double);
     Py_buffer *view = &points->view;
-    if (PyObject_GetBuffer(object, view, PyBUF_STRIDES | PyBUF_FORMAT)) return -1;
-    if (view->ndim != 2 || buffer_letter(view) != 'd' || view->shape[1] != (Py_ssize_t)width ||
-        (view->shape[0] > 0 && view->strides[1] != size) ||
-        (view->shape[0] > 1 &&
-         (view->strides[0] % size || view->strides[0] < size * view->shape[1]))) {
+    if (buffer_get_rows(object, 'd', sizeof(double), view)) return -1;
+    if (view->shape[1] != (Py_ssize_t)width) {
         PyErr_Format(PyExc_ValueError, "expected rows of %zu doubles", width);
         PyBuffer_Release(view);
         return -1;
     }
     points->points = view->buf;
     points->count = (size_t)view->shape[0];
-    points->stride = points->count > 1 ? (size_t)(view->strides[0] / size) : width;
+    points->stride = buffer_row_stride(view);
+    return 0;
+}
+
+int buffer_get_table(PyObject *object, int narrow, size_t count, buffer_table *table)
+{
+    Py_buffer *view = &table->view;
+    table->size = narrow ? sizeof(float) : sizeof(double);
+    if (buffer_get_rows(object, narrow ? 'f' : 'd', (Py_ssize_t)table->size, view)) return -1;
+    if (view->shape[0] != (Py_ssize_t)count) {
+        PyErr_Format(PyExc_ValueError, "expected %zu rows", count);
+        PyBuffer_Release(view);
+        return -1;
+    }
+    table->table = (mw_value_table){
+        .values = view->buf,
+        .type = narrow ? MW_FLOAT32 : MW_FLOAT64,
+        .count = (size_t)view->shape[1],
+        .stride = buffer_row_stride(view),
+    };
     return 0;
 }
 

@@ -80,6 +80,16 @@ int buffer_get_writable(PyObject *object, size_t size, size_t count, Py_buffer *
 /* Members in a buffer of members of `size` bytes without gaps; their number goes to *count. */
 int buffer_get_all(PyObject *object, size_t size, Py_buffer *view, size_t *count);
 
+/* Rows of values: the buffer of a two-dimensional array. */
+typedef struct buffer_table {
+    Py_buffer view;
+    mw_value_table table;
+    size_t size; /* of a value, in bytes */
+} buffer_table;
+
+/* `count` rows of doubles, or of floats if `narrow`; there may be gaps between rows. */
+int buffer_get_table(PyObject *object, int narrow, size_t count, buffer_table *table);
+
 /* Points and triangles as the library takes them. */
 typedef struct buffer_mesh {
     buffer_points points;

@@ -105,6 +105,39 @@ release_values:
     return result;
 }
 
+/* interpolate_table(values, narrow, locations, out): rows of doubles, or of floats if `narrow`, for
+ * each vertex and answer; the values may have gaps between rows */
+static PyObject *mesh_interpolate_table(PyObject *self, PyObject *args)
+{
+    mesh_object *object = (mesh_object *)self;
+    PyObject *values, *locations, *out;
+    int narrow;
+    buffer_table table;
+    Py_buffer location_view, out_view;
+    size_t count;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OpOO", &values, &narrow, &locations, &out) ||
+        buffer_get_table(values, narrow, mw_mesh_vertex_count(object->mesh), &table))
+        return NULL;
+    if (buffer_get_all(locations, sizeof(mw_location), &location_view, &count)) {
+        PyBuffer_Release(&table.view);
+        return NULL;
+    }
+    if (buffer_get_writable(out, table.size, count * table.table.count, &out_view)) {
+        PyBuffer_Release(&location_view);
+        PyBuffer_Release(&table.view);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS status = mw_interpolate_table(
+        object->mesh, &table.table, location_view.buf, count, out_view.buf, &error);
+    Py_END_ALLOW_THREADS PyBuffer_Release(&out_view);
+    PyBuffer_Release(&location_view);
+    PyBuffer_Release(&table.view);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
 /* copy_field(name as bytes, out): fill one double a vertex */
 static PyObject *mesh_copy_field(PyObject *self, PyObject *args)
 {
@@ -171,6 +204,7 @@ static PyMethodDef mesh_methods[] = {
     {"_copy_points", mesh_copy_points, METH_O, NULL},
     {"_copy_triangles", mesh_copy_triangles, METH_O, NULL},
     {"_copy_neighbours", mesh_copy_neighbours, METH_O, NULL},
+    {"_interpolate_table", mesh_interpolate_table, METH_VARARGS, NULL},
     {"_copy_field", mesh_copy_field, METH_VARARGS, NULL},
     {"_interpolate", mesh_interpolate, METH_VARARGS, NULL},
     {"_describe", mesh_describe, METH_NOARGS, NULL},

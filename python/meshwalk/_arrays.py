@@ -178,6 +178,15 @@ def _integer_type(array: NDArray[Any], name: str) -> type[np.integer[Any]]:
     return np.uint32 if array.dtype.kind == "u" and array.dtype.itemsize == 4 else np.int32
 
 
+def rows_lie_side_by_side(array: NDArray[Any]) -> bool:
+    """Whether what belongs to one vertex of a two-dimensional array lies together in memory."""
+    size = array.itemsize
+    across, along = array.strides
+    return array.shape[1] <= 1 or (
+        along == size and across % size == 0 and across >= size * array.shape[1]
+    )
+
+
 def values(given: ArrayLike, name: str, count: int) -> NDArray[Any]:
     """Values at vertices, of any real type, as they are: ``(count, ...)``; masked ones are NaN."""
     array = _as_array(given, name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -221,14 +222,22 @@ class Locations:
 
     def _interpolate_array(self, values: NDArray[Any]) -> NDArray[Any]:
         narrow = values.dtype.kind == "f" and values.dtype.itemsize <= 4
-        columns = values.reshape(values.shape[0], -1)
+        kind = np.float32 if narrow else np.float64
+        columns = values.reshape(len(values), math.prod(values.shape[1:]))
         records = np.ascontiguousarray(self.records).reshape(-1)
-        out = np.empty((records.size, columns.shape[1]), np.float32 if narrow else np.float64)
-        for k in range(columns.shape[1]):
-            column = np.empty(records.size)
-            self.mesh._interpolate(np.ascontiguousarray(columns[:, k], np.float64), records, column)
-            out[:, k] = column
-        return out.reshape(self.shape + values.shape[1:])
+        shape = self.shape + values.shape[1:]
+        if _arrays.rows_lie_side_by_side(columns):
+            out = np.empty((records.size, columns.shape[1]), kind)
+            table = np.require(columns, kind, ("A",))
+            self.mesh._interpolate_table(table, narrow, records, out)
+            return out.reshape(shape)
+        # Values lie time by time: so does the result.
+        by_column = np.empty((columns.shape[1], records.size), kind)
+        one = np.empty(records.size)
+        for k, column in enumerate(columns.T):
+            self.mesh._interpolate(np.ascontiguousarray(column, np.float64), records, one)
+            by_column[k] = one
+        return by_column.T.reshape(shape)
 
     def __getitem__(self, index: Any) -> Locations:
         chosen = self.records[index]

@@ -317,6 +317,18 @@ class Surface(_core.Surface):
         out.fill(np.nan)
         out[there] = total
 
+    def _interpolate_table(
+        self,
+        values: NDArray[Any],
+        narrow: bool,
+        records: NDArray[Any],
+        out: NDArray[Any],
+    ) -> None:
+        one = np.empty(len(records))
+        for k in range(values.shape[1]):
+            self._interpolate(values[:, k], records, one)
+            out[:, k] = one
+
     def __len__(self) -> int:
         """Number of triangles."""
         return self.triangle_count

@@ -160,6 +160,23 @@ def test_interpolation_of_columns(scattered: meshwalk.Mesh, random: np.random.Ge
     np.testing.assert_allclose(result, expected, rtol=1e-14)
 
 
+def test_interpolation_of_layouts(scattered: meshwalk.Mesh, random: np.random.Generator) -> None:
+    hit = meshwalk.Locator(scattered).locate(random.uniform(-1, 12, (50, 2)))
+    wide = random.uniform(size=(scattered.vertex_count, 14))
+    for kind in ("f2", "f4", "f8", ">f4", ">f8", "g"):
+        values = wide.astype(kind)
+        narrow = kind in ("f2", "f4", ">f4")
+        every = [hit.interpolate(values[:, k].astype(float)) for k in range(14)]
+        expected = np.column_stack(every).astype(np.float32 if narrow else np.float64)
+        for part in (slice(None), slice(2, 9), slice(3, 4), slice(0, 14, 3), slice(None, None, -1)):
+            result = hit.interpolate(values[:, part])
+            np.testing.assert_array_equal(result, expected[:, part])
+            assert result.dtype == expected.dtype
+        by_time = np.ascontiguousarray(values.T)
+        np.testing.assert_array_equal(hit.interpolate(by_time.T), expected)
+        np.testing.assert_array_equal(hit.interpolate(values[::-1][::-1]), expected)
+
+
 def test_missing_values(square: meshwalk.Mesh) -> None:
     hit = meshwalk.Locator(square).locate([[3, 1], [4, 2], [9, 9]])
     masked = np.ma.masked_values([-999.0, 1.0, 2.0, 3.0], -999.0)

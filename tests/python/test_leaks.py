@@ -1,0 +1,157 @@
+"""No leaks: the whole interface in a loop, failures too; the heaps of C and Python do not grow."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import gc
+import pickle
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_space import FACETS, OCTAHEDRON
+
+import meshwalk
+
+POINTS = np.random.default_rng(7).uniform(size=(400, 2))
+TRIANGLES = meshwalk.delaunay(POINTS).triangles
+SQUARE = [[0, 0], [6, 0], [6, 6], [0, 6], [1, 1]]
+RING = [[0, 1], [1, 2], [2, 3], [3, 0]]
+
+
+def _use_meshes(folder: Path) -> None:
+    mesh = meshwalk.Mesh(POINTS, TRIANGLES, {"z": POINTS[:, 0]})
+    _ = mesh.points, mesh.triangles, mesh.neighbours, mesh.nbytes, mesh.describe(), mesh.check()
+    mesh.write(folder / "mesh.ply")
+    meshwalk.read(folder / "mesh.ply")
+    meshwalk.constrained_delaunay(SQUARE, RING, holes=[[9, 9]], polygons=[0] * 4)
+    meshwalk.triangulate(POINTS[:20], "greedy")
+    locator = meshwalk.Locator(mesh, border=True)
+    hit = locator.locate(POINTS, 0.1)
+    one = locator.locate_one(0.5, 0.5)
+    _ = one.where, one.weights, one.triangle, one.hole, one.local, one.inside, repr(one)
+    _ = repr(hit), hit.inside, hit[3:], locator.describe()
+    locator.nearest_border(2, 2)
+    hit.interpolate("z")
+    hit.interpolate(np.zeros((400, 3), np.float32))
+    pickle.loads(pickle.dumps((mesh, locator, hit)))
+
+
+def _use_editors() -> None:
+    mesh = meshwalk.Mesh(POINTS, TRIANGLES, {"z": POINTS[:, 0]})
+    editor = meshwalk.Editor(mesh, undo=-1, log=True)
+    change = editor.insert(0.5, 0.5)
+    _ = change.made, change.reused, change.freed, change.before
+    editor.insert_points(POINTS[:10] + 0.001)
+    editor.remove(change.vertex)
+    editor.undo()
+    editor.locate(POINTS).interpolate("z")
+    _ = editor.log(), editor.vertex(1), editor.triangle(1), editor.adjacent(3), editor.describe()
+    _ = editor.locate_one(0.1, 0.1), editor.compact(), editor.mesh()
+
+
+def _use_surfaces() -> None:
+    surface = meshwalk.Surface(OCTAHEDRON, FACETS)
+    star = meshwalk.Star(surface)
+    prober = meshwalk.Prober(surface, boxes=True)
+    star.locate([[1, 1, 1]]).interpolate(np.ones(6))
+    star.locate([[1, 1]], lonlat=True)
+    prober.probe([[0, 0, 5]], [0, 0, -1], certain=True)
+    prober.nearest([[1, 2, 3]])
+    surface.move(2 * surface.points)
+    _ = surface.check(), surface.describe(), star.describe()
+    pickle.loads(pickle.dumps((star, prober)))
+    meshwalk.Surface(OCTAHEDRON, FACETS).flip(0, 0)
+
+
+def _failures(folder: Path) -> list[Callable[[], Any]]:
+    mesh = meshwalk.Mesh(POINTS, TRIANGLES)
+    locator = meshwalk.Locator(mesh)
+    editor = meshwalk.Editor(mesh)
+    surface = meshwalk.Surface(OCTAHEDRON, FACETS)
+    star = meshwalk.Star(surface)
+    prober = meshwalk.Prober(surface)
+    wrong: Any = "wrong"
+    return [
+        lambda: meshwalk.Mesh(POINTS, TRIANGLES + 500),
+        lambda: meshwalk.Mesh(POINTS, wrong),
+        lambda: meshwalk.Mesh(POINTS, TRIANGLES, threads=-1),
+        lambda: meshwalk.Locator(meshwalk.Mesh(SQUARE, [[0, 1, 2], [0, 1, 4]])),
+        lambda: meshwalk.Editor(mesh, undo=-7),
+        lambda: meshwalk.delaunay([[0, 0], [1, 1]]),
+        lambda: meshwalk.constrained_delaunay(SQUARE, [[0, 2], [1, 3]]),
+        lambda: meshwalk.constrained_delaunay(SQUARE, RING, holes=[[np.nan, 0]]),
+        lambda: meshwalk.triangulate(POINTS, wrong),
+        lambda: meshwalk.read(folder / "none.off"),
+        lambda: mesh.write(folder / "mesh.none"),
+        lambda: locator.locate(POINTS, walk=wrong),
+        lambda: locator.locate(POINTS, -1),
+        lambda: locator.locate(POINTS[:, :1]),
+        lambda: locator.locate_one(wrong, 1),
+        lambda: locator.nearest_border(1, 1),
+        lambda: locator._locate(POINTS, np.empty(3), "auto", "auto", 0, 0, 0),
+        lambda: mesh._copy_points(np.empty(3)),
+        lambda: mesh._interpolate(np.empty(400), POINTS, np.empty(3)),
+        lambda: editor.remove(10**7),
+        lambda: editor.insert(np.nan, 0),
+        lambda: editor.undo(),
+        lambda: meshwalk.Star(meshwalk.Surface(OCTAHEDRON, FACETS[1:])),
+        lambda: star.locate([1, 1, 1], walk=wrong),
+        lambda: surface.move([[0, 0, -9]], [4]),
+        lambda: prober.probe([[0, 0, 5]], [0, 0, -1], start=wrong),
+        lambda: prober.probe([[0, 0, 5]], [0, 0, -1], certain=True),
+        lambda: prober.nearest([0, 0, 0]),
+    ]
+
+
+def _fail(folder: Path) -> None:
+    for failure in _failures(folder):
+        with pytest.raises(Exception):  # noqa: B017, PT011
+            failure()
+
+
+class _Heap(ctypes.Structure):
+    """As mallinfo2 of the C library fills it."""
+
+    _fields_ = tuple((f"_{k}", ctypes.c_size_t) for k in range(4)) + (  # noqa: RUF005
+        ("mapped", ctypes.c_size_t),
+        ("_5", ctypes.c_size_t),
+        ("_6", ctypes.c_size_t),
+        ("used", ctypes.c_size_t),
+        ("_8", ctypes.c_size_t),
+        ("_9", ctypes.c_size_t),
+    )
+
+
+def _held() -> tuple[int, int]:
+    """Bytes of the C heap, and blocks of Python."""
+    gc.collect()
+    heap = ctypes.CDLL(None).mallinfo2
+    heap.restype = _Heap
+    info = heap()
+    return info.used + info.mapped, sys.getallocatedblocks()
+
+
+@pytest.mark.parametrize(
+    "use", [_use_meshes, _use_editors, _use_surfaces, _fail], ids=lambda use: use.__name__[1:]
+)
+def test_nothing_is_left(use: Callable[..., None], tmp_path: Path) -> None:
+    if not hasattr(ctypes.CDLL(None), "mallinfo2"):
+        pytest.skip("this C library does not tell what its heap holds")
+    arguments = [tmp_path] if use in (_use_meshes, _fail) else []
+    rounds = 20
+    grown = []
+    for _ in range(12):  # caches fill in the first rounds
+        before = _held()
+        for _ in range(rounds):
+            with contextlib.suppress(Warning):
+                use(*arguments)
+        after = _held()
+        grown.append((after[0] - before[0], after[1] - before[1]))
+        if grown[-1][0] < 32 * rounds and grown[-1][1] < rounds:
+            return  # less than the smallest leak in each round
+    pytest.fail(f"the C heap and the blocks of Python grow, in {rounds} rounds each: {grown}")
