@@ -79,13 +79,17 @@ static int walk_check_coordinates(const walk_settings *s, const char *name, cons
                                                   : "X,Y,Z in space");
 }
 
+static bool walk_writes_picture(const walk_settings *s)
+{
+    return !files_is_standard(s->mesh.common.output) && picture_named(s->mesh.common.output);
+}
+
 static int walk_check_name(const walk_settings *s)
 {
     const char *name = walk_choice_name(s->walk);
     if (s->mesh.space == SPACE_SURFACE && s->walk != MW_WALK_AUTO)
         return walk_option_wants("walk", "--as plane or --as star");
-    bool all = s->walk == MW_WALK_COUNT, picture = picture_named(s->mesh.common.output);
-    if (all && (s->mesh.space != SPACE_PLANE || files_is_standard(s->mesh.common.output) || !picture)) {
+    if (s->walk == MW_WALK_COUNT && (s->mesh.space != SPACE_PLANE || !walk_writes_picture(s))) {
         complain("--walk all wants --as plane and a picture: -o FILE.svg");
         return END_USAGE;
     }
@@ -454,11 +458,6 @@ static int walk_write_picture(const walk_record *w)
     drawing d = walk_drawing(w, caption);
     progress_phase("drawing", w->settings->mesh.common.output);
     return drawing_write(&d, w->settings->mesh.common.output);
-}
-
-static bool walk_writes_picture(const walk_settings *s)
-{
-    return !files_is_standard(s->mesh.common.output) && picture_named(s->mesh.common.output);
 }
 
 static int walk_and_write(walk_record *w)
