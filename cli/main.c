@@ -56,7 +56,7 @@ static int command_print_help(const command *c)
     return files_write_text(NULL, &t);
 }
 
-#define MAX_THREADS 256 /* OpenMP ends the program when the system refuses more threads */
+#define MAX_THREADS 256
 
 static int command_run(const command *c, int count, char **arguments)
 {
@@ -99,16 +99,6 @@ static void standard_streams_fill(void)
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
 }
 
-/* OpenMP ends a program that cannot get its threads with exit code 1, which has another meaning
- * here. */
-static bool main_returned;
-static void exit_without_threads(void)
-{
-    if (main_returned) return;
-    signals_remove_temporaries();
-    _exit(END_RESOURCE);
-}
-
 static int main_run_arguments(int count, char **arguments)
 {
     if (count < 2) {
@@ -127,8 +117,5 @@ int main(int count, char **arguments)
 {
     standard_streams_fill();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is then an error of the output */
-    if (atexit(exit_without_threads) != 0) return fail_memory();
-    int end = main_run_arguments(count, arguments);
-    main_returned = true;
-    return end;
+    return main_run_arguments(count, arguments);
 }

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set_target_properties(meshwalk_shared PROPERTIES EXPORT_NAME meshwalk)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshwalk)
 
-# Two export sets: users of the shared library need the development files of neither zlib, OpenMP nor Jansson.
+# Two export sets: users of the shared library need the development files of neither zlib nor Jansson.
 install(TARGETS meshwalk_shared EXPORT meshwalkSharedTargets)
 install(TARGETS meshwalk_static EXPORT meshwalkStaticTargets)
 foreach(kind Shared Static)
@@ -31,9 +31,6 @@ set(pc_private "-lz -lm")
 if(needs_jansson)
   string(APPEND pc_private " -ljansson")
 endif()
-foreach(name IN LISTS OpenMP_C_LIB_NAMES)
-  string(APPEND pc_private " -l${name}")
-endforeach()
 configure_file(cmake/meshwalk.pc.in ${PROJECT_BINARY_DIR}/meshwalk.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/meshwalk.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -461,7 +461,7 @@ static void prepare(erosion *s)
     mw_error error;
     mw_mesh_info info;
     mw_mesh *mesh = terrain_read(s->set.input);
-    if (mw_mesh_describe(mesh, &info, &error)) fail_with(&error);
+    if (mw_mesh_describe(mesh, NULL, &info, &error)) fail_with(&error);
     if (mw_editor_create(mesh, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &s->editor, &error))
         fail(END_INPUT, "%s: %s", s->set.input, error.message);
     choose(s, mesh, &info);

@@ -22,7 +22,7 @@ static void overlapping_triangles(void)
     mw_arrays arrays = {points, 6, 2, triangles, 2, MW_UINT32};
     mw_check check;
     mw_error error;
-    if (mw_check_arrays(&arrays, &check, &error)) return;
+    if (mw_check_arrays(&arrays, NULL, &check, &error)) return;
     printf("%s\n", check.valid ? "no defects" : "no embedding:");
     for (size_t i = 0; i < check.defect_count; i++) {
         char text[160];
@@ -37,7 +37,7 @@ static void missing_file(void)
 {
     mw_mesh_file file;
     mw_error error;
-    mw_status status = mw_read_mesh("no-such-file.off", &file, &error);
+    mw_status status = mw_read_mesh("no-such-file.off", NULL, &file, &error);
     printf("%s: %s\n", mw_status_text(status), error.message);
 }
 

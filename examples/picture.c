@@ -23,12 +23,12 @@ typedef struct terrain {
 static mw_status read_terrain(const char *path, terrain *t, mw_error *error)
 {
     mw_mesh_file file;
-    mw_status status = mw_read_mesh(path, &file, error);
+    mw_status status = mw_read_mesh(path, NULL, &file, error);
     if (status) return status;
     mw_arrays arrays = mw_mesh_file_arrays(&file);
     status = mw_mesh_create(&arrays, NULL, &t->mesh, error);
     if (!status) status = mw_mesh_set_field(t->mesh, "z", file.points + 2, 3, error);
-    if (!status) status = mw_mesh_describe(t->mesh, &t->info, error);
+    if (!status) status = mw_mesh_describe(t->mesh, NULL, &t->info, error);
     mw_mesh_file_release(&file);
     return status;
 }

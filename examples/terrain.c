@@ -81,7 +81,7 @@ static draft read_draft(const char *path)
     mw_error error;
     mw_mesh_file file;
     if (strcmp(path, "-") == 0) return read_points(path);
-    if (mw_read_mesh(path, &file, &error)) {
+    if (mw_read_mesh(path, NULL, &file, &error)) {
         if (error.status == MW_ERROR_INPUT && strstr(error.message, "no mesh in a format known"))
             return read_points(path);
         fail_with(&error);
@@ -187,7 +187,7 @@ void terrain_write(const char *path, const mw_mesh *mesh)
         file.points[3 * (size_t)i + 2] = z[i];
     }
     for (uint32_t t = 0; t < triangles; t++) mw_mesh_triangle(mesh, t, file.triangles + 3 * (size_t)t);
-    if (mw_write_mesh(path, &file, NULL, &error)) fail(END_FAILED, "%s", error.message);
+    if (mw_write_mesh(path, &file, NULL, NULL, &error)) fail(END_FAILED, "%s", error.message);
     free(file.points);
     free(file.triangles);
 }

@@ -21,7 +21,7 @@ int main(void)
     }
 
     mw_mesh_info info;
-    if (mw_mesh_describe(mesh, &info, &error) == MW_OK)
+    if (mw_mesh_describe(mesh, NULL, &info, &error) == MW_OK)
         printf("%u triangles, area %g, convex: %s, Delaunay: %s\n", info.triangles, info.area,
                info.convex ? "yes" : "no", info.delaunay ? "yes" : "no");
     mw_mesh_destroy(mesh);

@@ -72,7 +72,7 @@ static void check_delaunay(const mw_mesh *mesh, const mw_constrained_edges *edge
 static void check_embedding(const mw_mesh *mesh)
 {
     mw_mesh_info info;
-    if (mw_mesh_describe(mesh, &info, NULL)) abort();
+    if (mw_mesh_describe(mesh, NULL, &info, NULL)) abort();
     if (!info.embedding || info.flat_triangles || info.clockwise_triangles) abort();
 }
 

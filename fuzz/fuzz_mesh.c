@@ -86,7 +86,7 @@ static bool read_input(input *in, const uint8_t *data, size_t size)
 static bool try_check(const input *in, bool *usable)
 {
     mw_check check;
-    require(mw_check_arrays(&in->view, &check, NULL) == MW_OK);
+    require(mw_check_arrays(&in->view, NULL, &check, NULL) == MW_OK);
     bool embedding = check.valid, sound = true;
     *usable = true;
     for (size_t i = 0; i < check.defect_count; i++) {
@@ -109,10 +109,11 @@ static void try_tiling(const input *in, const mw_mesh *mesh, bool embedding)
 {
     mw_tiling tiling;
     mw_error error = {0};
-    mw_status status = mw__tiling_create(mesh, false, &tiling, &error);
+    mw_status status = mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, &error);
     require(embedding ? status == MW_OK : status == MW_ERROR_INPUT && error.message[0] != 0);
     if (status == MW_OK) mw__tiling_release(&tiling);
-    require(mw__tiling_create(mesh, true, &tiling, &error) == MW_OK && tiling.embedding == embedding);
+    require(mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, &error) == MW_OK &&
+            tiling.embedding == embedding);
     require(!embedding || domain_oracle_fault(&in->a, &tiling) == NULL);
     mw__tiling_release(&tiling);
 }
@@ -126,7 +127,7 @@ static void try_mesh(const input *in, bool tolerant, mw_mesh_layout layout, bool
     mw_status status = mw_mesh_create(&in->view, &options, &mesh, &error);
     require(status == (expected ? MW_OK : MW_ERROR_INPUT));
     if (!mesh) return;
-    require(mw_mesh_describe(mesh, &info, &error) == MW_OK && info.embedding == embedding);
+    require(mw_mesh_describe(mesh, NULL, &info, &error) == MW_OK && info.embedding == embedding);
     require(info.components <= info.vertices && info.border_loops <= info.border_edges);
     try_tiling(in, mesh, embedding);
     mw_mesh_destroy(mesh);

@@ -27,7 +27,7 @@ static int read_mesh_file(mw_mesh_file *file, const char *path, bool *none)
     mw_error error;
     *file = (mw_mesh_file){0};
     *none = files_is_standard(path);
-    if (*none || mw_read_mesh(path, file, &error) == MW_OK) return 0;
+    if (*none || mw_read_mesh(path, NULL, file, &error) == MW_OK) return 0;
     *none = is_no_mesh(&error);
     return *none ? 0 : fail_reading(&error);
 }
@@ -56,7 +56,7 @@ static int dataset_read_blocks(dataset *d, mw_point_reader *reader, double *valu
         if (d->count + count > room && !dataset_grow(d, room = 2 * (d->count + count))) return fail_memory();
         for (size_t i = 0; i < count; i++, d->count++)
             for (size_t k = 0; k < 2; k++) d->points[2 * d->count + k] = values[i * width + k];
-        progress_points(d->count);
+        progress_points(d->count, mw_point_reader_fraction(reader));
     }
     return 0;
 }

@@ -132,7 +132,7 @@ static int near_vertices_run(near_vertices *s)
         near_vertices_draw(s, n);
         for (size_t i = 0; i < s->entry_count && end == 0; i++)
             end = near_entry_run(s, &s->entries[i], n, s->settings->common.seed + done);
-        progress_points(done + n);
+        progress_points(done + n, (double)(done + n) / (double)queries);
     }
     return end;
 }

@@ -77,7 +77,7 @@ static int measured_domain_describe(measured_domain *d, const char *name)
         complain("%s: the extent of the points is too large for a double", name);
         return END_INPUT;
     }
-    if (mw_mesh_describe(d->mesh, &d->info, &error) != MW_OK ||
+    if (mw_mesh_describe(d->mesh, NULL, &d->info, &error) != MW_OK ||
         mw_delaunay(d->corners.points, d->corners.count, 2, NULL, NULL, NULL, &d->hull, &error) != MW_OK)
         return fail_mesh(name, &error);
     return 0;
@@ -88,7 +88,7 @@ static int paper_add_domain(paper *p, const measured_domain *d, const char *name
 {
     mw_error error;
     mw_mesh_info hull;
-    if (mw_mesh_describe(d->hull, &hull, &error) != MW_OK) return fail_mesh(name, &error);
+    if (mw_mesh_describe(d->hull, NULL, &hull, &error) != MW_OK) return fail_mesh(name, &error);
     paper_result *r = paper_add(p, name, users_file);
     if (!r) return fail_memory();
     r->whole = true;

@@ -255,7 +255,7 @@ static int probe_measurement_count(probe_measurement *s, walk_outcome *o)
         end = probe_measurement_compare(s, n);
         if (end) return end;
         done += n;
-        progress_points(done);
+        progress_points(done, (double)done / (double)queries);
     }
     probe_measurement_take_counts(&sum, options.samples, o->value[0]);
     return 0;

@@ -169,7 +169,7 @@ static int star_measurement_count(star_measurement *s, walk_outcome *o)
         int end = star_measurement_count_block(s, n, block, sums);
         if (end) return end;
         done += n;
-        progress_points(done);
+        progress_points(done, (double)done / (double)queries);
     }
     for (size_t i = 0; i < s->algorithms; i++) star_measurement_take_counts(s, i, &sums[i], o->value[i]);
     return 0;

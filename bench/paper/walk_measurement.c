@@ -293,7 +293,7 @@ static int walk_measurement_count(walk_measurement *s, walk_outcome *o)
         if (end == 0) end = walk_measurement_count_block(s, n, block, sums);
         if (end) return end;
         done += n;
-        progress_points(done);
+        progress_points(done, (double)done / (double)s->trial->queries);
     }
     for (size_t i = 0; i < s->algorithms; i++) walk_outcome_take_counts(s, i, &sums[i], o);
     return 0;

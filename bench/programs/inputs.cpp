@@ -25,7 +25,7 @@ Model model_of_file(const std::string &path)
 {
     mw_mesh_file file;
     mw_error error;
-    if (mw_read_mesh(path.c_str(), &file, &error) != MW_OK) fail(error.message);
+    if (mw_read_mesh(path.c_str(), NULL, &file, &error) != MW_OK) fail(error.message);
     Model model = copy_model(path.substr(path.find_last_of('/') + 1), file.points, file.point_count, file.triangles,
                              file.triangle_count);
     mw_mesh_file_release(&file);

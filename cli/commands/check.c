@@ -118,11 +118,13 @@ static void check_as_text(text *t, const char *path, const mw_check *check, cons
 
 static mw_status check_arrays(const mesh_space_settings *s, const mw_arrays *arrays, mw_check *check, mw_error *error)
 {
-    mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]}};
+    mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
+                            .progress = progress_of_call()};
+    mw_check_options options = {.threads = s->common.threads, .progress = progress_of_call()};
     int weld = mesh_space_is_welded(s);
-    if (s->space == SPACE_SURFACE) return mw_surface_check_arrays(arrays, weld, check, error);
+    if (s->space == SPACE_SURFACE) return mw_surface_check_arrays(arrays, weld, &options, check, error);
     if (s->space == SPACE_STAR) return mw_star_check_arrays(arrays, weld, &star, check, error);
-    return mw_check_arrays(arrays, check, error);
+    return mw_check_arrays(arrays, &options, check, error);
 }
 
 static int check_mesh_file(const mesh_space_settings *s, const char *path, const mw_mesh_file *file)

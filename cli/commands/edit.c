@@ -155,7 +155,8 @@ static int edit_read_mesh(const char *path, uint32_t threads, mw_mesh **mesh)
     if (end) return end;
     mw_arrays arrays = mw_mesh_file_arrays(&file);
     progress_phase("preparing", path);
-    if (mw_mesh_create(&arrays, &(mw_mesh_options){.threads = threads}, mesh, &error) != MW_OK)
+    mw_mesh_options options = {.threads = threads, .progress = progress_of_call()};
+    if (mw_mesh_create(&arrays, &options, mesh, &error) != MW_OK)
         end = edit_fail_mesh(path, &error);
     else
         end = mesh_set_fields(*mesh, &file);
@@ -186,8 +187,11 @@ static int edit_make_cursor(const edit_settings *s, edit_stream *e)
     mw_start_kind start = (mw_start_kind)s->start;
     mw_query_options asking = {
         .walk = (mw_walk_kind)s->walk, .start = start, .seed = s->common.seed, .counters = s->stats};
-    mw_index_options options = {
-        .cells = s->cells, .layers = s->layers, .descent = (mw_descent)s->descent, .seed = s->common.seed};
+    mw_index_options options = {.cells = s->cells,
+                                .layers = s->layers,
+                                .descent = (mw_descent)s->descent,
+                                .seed = s->common.seed,
+                                .progress = progress_of_call()};
     if (mw_start_has_index(start) && mw_editor_index(e->editor, start, &options, &asking.index, &error) != MW_OK)
         return fail_query(&error);
     const mw_locator *locator = mw_editor_locator(e->editor);
@@ -201,7 +205,8 @@ static int edit_work_make_editor(const edit_settings *s, const char *path, const
                                  .undo = w->stream.undo,
                                  .constrained_edges = w->constraints.vertex,
                                  .constrained_edge_count = w->constraints.count,
-                                 .threads = s->common.threads};
+                                 .threads = s->common.threads,
+                                 .progress = progress_of_call()};
     if (mw_editor_create(mesh, &options, &w->stream.editor, &error) != MW_OK) return edit_fail_mesh(path, &error);
     w->stream.heights = s->heights ? mw_editor_field_by_name(w->stream.editor, "z") : MW_NONE;
     if (s->heights && w->stream.heights == MW_NONE) {
@@ -217,7 +222,7 @@ static int edit_work_prepare(const edit_settings *s, const char *path, edit_work
     mw_mesh *mesh = NULL;
     int end = edit_read_mesh(path, s->common.threads, &mesh);
     if (end == 0 && s->constraints)
-        end = traced_constraints_read(&w->constraints, s->constraints, s->common.quiet, mesh, path);
+        end = traced_constraints_read(&w->constraints, s->constraints, &s->common, mesh, path);
     if (end == 0) end = edit_work_make_editor(s, path, mesh, w);
     mw_mesh_destroy(mesh);
     w->ready = monotonic_seconds();

@@ -97,7 +97,8 @@ static int info_report_star(report *r, const mesh_space_settings *s, const char 
 {
     mw_error error;
     mw_star *star;
-    mw_star_options options = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]}};
+    mw_star_options options = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
+                               .progress = progress_of_call()};
     mw_status status = mw_star_create(surface, &options, &star, &error);
     if (status != MW_OK && status != MW_ERROR_INPUT) return fail_mesh(path, &error);
     report_numbers(r, "centre", s->centre.at, 3);
@@ -111,15 +112,18 @@ static int info_report_star(report *r, const mesh_space_settings *s, const char 
 }
 
 /* The next two functions fill the report. They return 0 or an exit code. */
-static int info_describe_plane(report *r, const char *path, const mw_mesh_file *file)
+static int info_describe_plane(report *r, const mesh_space_settings *s, const char *path, const mw_mesh_file *file)
 {
     mw_error error;
     mw_mesh *mesh;
     mw_mesh_info info;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_mesh_options options = {.tolerant = 1}; /* a defect is described, not refused */
+    mw_mesh_options options = {.tolerant = 1, /* a defect is described, not refused */
+                               .threads = s->common.threads,
+                               .progress = progress_of_call()};
+    mw_check_options checks = {.threads = s->common.threads, .progress = progress_of_call()};
     if (mw_mesh_create(&arrays, &options, &mesh, &error) != MW_OK) return fail_mesh(path, &error);
-    int end = mw_mesh_describe(mesh, &info, &error) == MW_OK ? 0 : fail_mesh(path, &error);
+    int end = mw_mesh_describe(mesh, &checks, &info, &error) == MW_OK ? 0 : fail_mesh(path, &error);
     if (end == 0) {
         info_report_file(r, path, file, true);
         info_report_mesh(r, &info);
@@ -135,7 +139,7 @@ static int info_describe_surface(report *r, const mesh_space_settings *s, const 
     mw_surface *surface;
     mw_surface_info info;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_surface_options options = {.tolerant = 1, .weld = mesh_space_is_welded(s)};
+    mw_surface_options options = {.tolerant = 1, .weld = mesh_space_is_welded(s), .progress = progress_of_call()};
     if (mw_surface_create(&arrays, &options, &surface, &error) != MW_OK) return fail_mesh(path, &error);
     int end = mw_surface_describe(surface, &info, &error) == MW_OK ? 0 : fail_mesh(path, &error);
     if (end == 0) {
@@ -153,7 +157,8 @@ static int info_describe(const mesh_space_settings *s, const char *path, const m
     report r;
     progress_phase("describing", path);
     report_begin(&r, s->json);
-    int end = s->space == SPACE_PLANE ? info_describe_plane(&r, path, file) : info_describe_surface(&r, s, path, file);
+    int end =
+        s->space == SPACE_PLANE ? info_describe_plane(&r, s, path, file) : info_describe_surface(&r, s, path, file);
     report_end(&r);
     if (end == 0) return files_write_text(s->common.output, &r.text);
     text_release(&r.text);

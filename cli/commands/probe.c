@@ -102,8 +102,9 @@ static int probed_surface_prepare(probed_surface *p, const char *path, const mw_
     const probe_settings *s = p->settings;
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_surface_options surface = {.tolerant = s->any, .weld = s->weld};
-    mw_prober_options prober = {.boxes = s->certain};
+    mw_surface_options surface = {.tolerant = s->any, .weld = s->weld, .progress = progress_of_call()};
+    mw_prober_options prober = {
+        .boxes = s->certain, .threads = s->stream.common.threads, .progress = progress_of_call()};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &p->surface, &error) != MW_OK) return probed_surface_fail(p, path, &error);
     if (mw_prober_create(p->surface, &prober, &p->prober, &error) != MW_OK) return fail_mesh(path, &error);
@@ -145,6 +146,7 @@ static int probed_surface_answer(void *self, const query_block *block, void *ans
         .threads = s->stream.common.threads,
         .seed = s->stream.common.seed + block->block, /* each block has its own random numbers */
         .counters = s->stream.stats,
+        .progress = progress_of_call(),
     };
     if (mw_probe_batch(p->prober, block->values, block->count, block->stride, &options, answers, &counters, &error) !=
         MW_OK)

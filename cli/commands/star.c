@@ -122,9 +122,10 @@ static int ray_queries_make_star(ray_queries *r, const char *path, const mw_mesh
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
     /* Welding closes the seam of a sphere, and joins its vertices at each pole. */
-    mw_surface_options surface = {.weld = 1};
+    mw_surface_options surface = {.weld = 1, .progress = progress_of_call()};
     mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
-                            .angles = s->walk == MW_STAR_WALK_ORTHOGONAL};
+                            .angles = s->walk == MW_STAR_WALK_ORTHOGONAL,
+                            .progress = progress_of_call()};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &r->surface, &error) != MW_OK ||
         mw_star_create(r->surface, &star, &r->star, &error) != MW_OK)
@@ -137,7 +138,7 @@ static int ray_queries_make_index(ray_queries *r)
     const star_settings *s = r->settings;
     mw_error error;
     mw_star_start_kind start = (mw_star_start_kind)s->start;
-    mw_star_index_options options = {.cells = s->cells, .levels = s->levels};
+    mw_star_index_options options = {.cells = s->cells, .levels = s->levels, .progress = progress_of_call()};
     if (!mw_star_start_has_index(start)) return 0;
     return mw_star_index_create(r->star, start, &options, &r->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
@@ -184,12 +185,12 @@ static int ray_queries_answer(void *self, const query_block *block, void *answer
         .threads = common->threads,
         .counters = s->stream.stats,
         .index = r->index,
+        .progress = progress_of_call(),
     };
     const double *points = block->values;
     size_t stride = block->stride;
     if (s->lonlat) {
-        lonlat_input_directions(block->values, stride, block->count, s->centre.at, options_threads(common->threads),
-                                r->points);
+        lonlat_input_directions(block->values, stride, block->count, s->centre.at, common->threads, r->points);
         points = r->points;
         stride = 3;
     }

@@ -132,7 +132,10 @@ static int triangulate_with_constraints(const triangulate_settings *s, const cha
                                   .polygon = c->polygon,
                                   .hole_seeds = c->hole_seeds,
                                   .hole_seed_count = c->hole_seed_count};
-    mw_constrain_options options = {.keep = triangulate_keep(s, w), .split = s->split, .threads = s->common.threads};
+    mw_constrain_options options = {.keep = triangulate_keep(s, w),
+                                    .split = s->split,
+                                    .threads = s->common.threads,
+                                    .progress = progress_of_call()};
     w->duplicate_of = malloc((count + 1) * sizeof *w->duplicate_of);
     w->constrained.crossing_segments[0] = w->constrained.crossing_segments[1] = MW_NONE;
     if (!w->duplicate_of) return fail_memory();
@@ -143,7 +146,9 @@ static int triangulate_with_constraints(const triangulate_settings *s, const cha
     int end = vertex_table_complete(&w->vertices, mesh);
     mw_mesh_destroy(mesh);
     bool on_a_line = false;
-    if (end == 0) end = missing_values_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, &on_a_line);
+    if (end == 0)
+        end = missing_values_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, s->common.threads,
+                                  &on_a_line);
     if (end == 0 && on_a_line && !s->common.quiet)
         complain("%s: warning: its points lie on one line, or are fewer than three, so vertices of constraints that "
                  "have no values of their own get nan",
@@ -172,7 +177,7 @@ static int triangulate_points(const triangulate_settings *s, const char *path, t
     mw_error error;
     mw_mesh *mesh;
     const mw_mesh_file *file = &w->vertices.file;
-    mw_kind_options options = {.limit = s->limit, .threads = s->common.threads};
+    mw_kind_options options = {.limit = s->limit, .threads = s->common.threads, .progress = progress_of_call()};
     progress_phase("triangulating", path);
     if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
                        &mesh, &error) != MW_OK)

@@ -235,8 +235,12 @@ static int walk_plane(walk_record *w)
     mw_mesh *mesh = NULL;
     mw_locator *locator = NULL;
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
-    mw_locator_options options = {.fill = w->walk == MW_WALK_BORDER ? MW_FILL_NO : MW_FILL_YES};
-    bool made = mw_mesh_create(&arrays, NULL, &mesh, &error) == MW_OK &&
+    const uint32_t threads = w->settings->mesh.common.threads;
+    mw_mesh_options how = {.threads = threads, .progress = progress_of_call()};
+    mw_locator_options options = {.fill = w->walk == MW_WALK_BORDER ? MW_FILL_NO : MW_FILL_YES,
+                                  .threads = threads,
+                                  .progress = progress_of_call()};
+    bool made = mw_mesh_create(&arrays, &how, &mesh, &error) == MW_OK &&
                 mw_locator_create(mesh, &options, &locator, &error) == MW_OK;
     int end = made ? walk_in_plane(w, locator) : walk_fail_mesh(w, "", &error);
     mw_locator_destroy(locator);
@@ -358,9 +362,10 @@ static int walk_star(walk_record *w)
     mw_surface *surface = NULL;
     mw_star *star = NULL;
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
-    mw_surface_options welded = {.weld = 1};
+    mw_surface_options welded = {.weld = 1, .progress = progress_of_call()};
     mw_star_options options = {.centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
-                               .angles = strcmp(walk_choice_name(s->walk), "orthogonal") == 0};
+                               .angles = strcmp(walk_choice_name(s->walk), "orthogonal") == 0,
+                               .progress = progress_of_call()};
     bool made = mw_surface_create(&arrays, &welded, &surface, &error) == MW_OK &&
                 mw_star_create(surface, &options, &star, &error) == MW_OK;
     int end = made ? walk_on_star(w, star, surface) : walk_fail_mesh(w, " --as star", &error);
@@ -403,7 +408,7 @@ static int walk_surface(walk_record *w)
     mw_surface *surface = NULL;
     mw_prober *prober = NULL;
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
-    mw_surface_options options = {.weld = s->mesh.weld};
+    mw_surface_options options = {.weld = s->mesh.weld, .progress = progress_of_call()};
     bool made = mw_surface_create(&arrays, &options, &surface, &error) == MW_OK &&
                 mw_prober_create(surface, NULL, &prober, &error) == MW_OK;
     int end = made ? walk_as_probe(w, prober) : walk_fail_mesh(w, " --as surface", &error);

@@ -1,5 +1,6 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -17,6 +18,13 @@ void complain(const char *format, ...)
     fprintf(stderr, "meshwalk: %s\n", line);
 }
 
+/* The message of an error. What a signal has cancelled needs none: the signal ends the program. */
+static const char *message_of(const mw_error *error)
+{
+    if (error->status == MW_CANCELLED) signals_await_end();
+    return error->message;
+}
+
 static int exit_code_of(mw_status status)
 {
     switch (status) {
@@ -29,19 +37,19 @@ static int exit_code_of(mw_status status)
 
 int fail_reading(const mw_error *error)
 {
-    complain("%s", error->message);
+    complain("%s", message_of(error));
     return exit_code_of(error->status);
 }
 
 int fail_mesh(const char *path, const mw_error *error)
 {
-    complain("%s: %s", path, error->message);
+    complain("%s: %s", path, message_of(error));
     return exit_code_of(error->status);
 }
 
 int fail_query(const mw_error *error)
 {
-    complain("%s", error->message);
+    complain("%s", message_of(error));
     return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_RESOURCE;
 }
 
@@ -55,7 +63,7 @@ static int is_closed_pipe(const mw_error *error)
 
 int fail_writing(const mw_error *error)
 {
-    if (!is_closed_pipe(error)) complain("%s", error->message);
+    if (!is_closed_pipe(error)) complain("%s", message_of(error));
     return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_RESOURCE;
 }
 

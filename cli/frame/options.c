@@ -1,6 +1,7 @@
 #include "cli/frame/options.h"
 #include "cli/frame/message.h"
 #include "cli/frame/spelling.h"
+#include "src/base/threads.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -11,9 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 const option common_options[] = {
     {"output", 'o', OPTION_TEXT, offsetof(common_settings, output), "FILE",
@@ -205,14 +203,9 @@ int options_limit(const char *name, uint32_t value, uint32_t most, const char *w
     return END_USAGE;
 }
 
-int options_threads(uint32_t threads)
+uint32_t options_threads(uint32_t threads)
 {
-#ifdef _OPENMP
-    return threads > 0 ? (int)threads : omp_get_max_threads();
-#else
-    (void)threads;
-    return 1;
-#endif
+    return mw__team(threads, MW_MOST_THREADS);
 }
 
 /* The argument of an option: the rest of its word, or else the next word. */

@@ -82,6 +82,6 @@ int options_parse(const command *c, int count, char **arguments, void *settings,
 int options_limit(const char *name, uint32_t value, uint32_t most, const char *written);
 
 /* How many threads a value of --threads means: 0 stands for all that the system offers. */
-int options_threads(uint32_t threads);
+uint32_t options_threads(uint32_t threads);
 
 #endif

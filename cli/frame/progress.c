@@ -1,6 +1,8 @@
-/* The library does not call back while it works, so a thread shows the progress. It sleeps for a
- * second, then paints the line a few times a second until it is told to stop. */
+/* The library calls back only where it can be stopped, and not on time. So a thread shows the
+ * progress. It sleeps for a second, then paints the line a few times a second until it is told to
+ * stop. */
 #include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -18,7 +20,11 @@ static struct {
     cnd_t wake;
     const char *doing, *what, *unit;
     uint64_t done;
-    struct timespec begin;
+    double rate;                                    /* done a second, when they were counted */
+    char stage[64];                                 /* of a call of the library; "": none */
+    double part[2];                                 /* of the phase, that the calls of the library are */
+    double fraction;                                /* of the phase or the call that is done; -1: not known */
+    struct timespec begin, phase_begin, part_begin; /* part: of what the fraction is of */
 } watch;
 
 static double seconds_since(const struct timespec *begin)
@@ -49,8 +55,13 @@ static void progress_paint(void)
     if (!watch.doing) return;
     fprintf(stderr, "\r\033[K%s", watch.doing);
     if (watch.what) fprintf(stderr, " %s", strcmp(watch.what, "-") == 0 ? "standard input" : watch.what);
+    double part = seconds_since(&watch.part_begin);
+    if (*watch.stage) fprintf(stderr, ": %s", watch.stage);
     if (watch.done) fprintf(stderr, ": %" PRIu64 " %s", watch.done, watch.unit);
+    if (watch.done) fprintf(stderr, ", %.0f a second", watch.rate);
+    if (watch.fraction >= 0) fprintf(stderr, ", %.0f %%", 100 * watch.fraction);
     fprintf(stderr, ", %.0f s", seconds_since(&watch.begin));
+    if (watch.fraction > 0.02) fprintf(stderr, ", about %.0f s left", part / watch.fraction * (1 - watch.fraction));
     fflush(stderr);
     watch.shown = true;
 }
@@ -84,26 +95,67 @@ void progress_phase(const char *doing, const char *what)
     watch.doing = doing;
     watch.what = what;
     watch.done = 0;
+    watch.fraction = -1;
+    watch.part[0] = 0;
+    watch.part[1] = 1;
+    *watch.stage = 0;
+    timespec_get(&watch.phase_begin, TIME_UTC);
+    watch.part_begin = watch.phase_begin;
     mtx_unlock(&watch.lock);
 }
 
-static void progress_count(uint64_t done, const char *unit)
+static void progress_count(uint64_t done, double fraction, const char *unit)
 {
     if (!watch.running) return;
     mtx_lock(&watch.lock);
+    double seconds = seconds_since(&watch.phase_begin);
     watch.done = done;
+    watch.rate = seconds > 0 ? (double)done / seconds : 0;
     watch.unit = unit;
+    watch.fraction = fraction;
+    *watch.stage = 0;
     mtx_unlock(&watch.lock);
 }
 
-void progress_points(uint64_t done)
+void progress_points(uint64_t done, double fraction)
 {
-    progress_count(done, "points");
+    progress_count(done, fraction, "points");
 }
 
-void progress_lines(uint64_t done)
+void progress_lines(uint64_t done, double fraction)
 {
-    progress_count(done, "lines");
+    progress_count(done, fraction, "lines");
+}
+
+void progress_part(double from, double to)
+{
+    if (!watch.running) return;
+    mtx_lock(&watch.lock);
+    watch.part[0] = from;
+    watch.part[1] = to;
+    mtx_unlock(&watch.lock);
+}
+
+/* Another call, if the phase has several, begins at 0 again. While points are counted, stages
+ * would come and go too fast to be read. */
+static int progress_report(void *unused, const char *stage, double fraction)
+{
+    (void)unused;
+    if (watch.running) {
+        mtx_lock(&watch.lock);
+        double now = watch.part[0] < 0 ? -1 : watch.part[0] + (watch.part[1] - watch.part[0]) * fraction;
+        if (now < watch.fraction) timespec_get(&watch.part_begin, TIME_UTC);
+        watch.fraction = now;
+        snprintf(watch.stage, sizeof watch.stage, "%s", watch.done ? "" : stage);
+        mtx_unlock(&watch.lock);
+    }
+    return signals_have_come();
+}
+
+const mw_progress *progress_of_call(void)
+{
+    static const mw_progress of_call = {.report = progress_report};
+    return &of_call;
 }
 
 void progress_end(void)

@@ -2,6 +2,7 @@
 #ifndef MW_CLI_FRAME_PROGRESS_H
 #define MW_CLI_FRAME_PROGRESS_H
 
+#include <meshwalk/base.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -13,9 +14,18 @@ void progress_begin(bool quiet);
  * shown as standard input; NULL shows none. Both strings must stay valid until the next call. */
 void progress_phase(const char *doing, const char *what);
 
-/* Tell how many points or lines this phase has done so far. */
-void progress_points(uint64_t done);
-void progress_lines(uint64_t done);
+/* Tell how many points or lines this phase has done so far, and what share of all that is (-1: not
+ * known). */
+void progress_points(uint64_t done, double fraction);
+void progress_lines(uint64_t done, double fraction);
+
+/* The calls of the library that follow do the part from..to of this phase, as fractions; -1: not
+ * known. A phase begins with 0..1, of each call. */
+void progress_part(double from, double to);
+
+/* For calls of the library: shows their stage and their fraction, and cancels them when a signal
+ * asks the program to end. Never NULL. */
+const mw_progress *progress_of_call(void);
 
 /* Stop and wipe the line. Whoever writes to standard error calls this first. */
 void progress_end(void);

@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 /* While this is held, no signal ends the program. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static char temporaries[MAX_TEMPORARIES][4096]; /* "": none. Guarded by the lock */
+static atomic_bool come;                        /* a signal asks the program to end */
 static sigset_t ending_signals;                 /* set before the thread starts */
 
 /* Collect the signals that would end the program. An ignored one, as under nohup, stays ignored. */
@@ -38,6 +40,7 @@ static void *signals_wait(void *unused)
     int number;
     (void)unused;
     if (sigwait(&ending_signals, &number) != 0) return NULL;
+    atomic_store(&come, true);
     pthread_mutex_lock(&lock);
     temporaries_remove();
     pthread_sigmask(SIG_UNBLOCK, &ending_signals, NULL);
@@ -96,4 +99,14 @@ void signals_hold(bool hold)
         pthread_mutex_lock(&lock);
     else
         pthread_mutex_unlock(&lock);
+}
+
+bool signals_have_come(void)
+{
+    return atomic_load(&come);
+}
+
+void signals_await_end(void)
+{
+    for (;;) pause();
 }

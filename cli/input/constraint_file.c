@@ -22,7 +22,7 @@ static int constraint_file_read_any(const char *path, mw_constraint_file *file)
 {
     mw_error error;
     progress_phase("reading", path);
-    mw_status status = mw_read_constraints(path, file, &error);
+    mw_status status = mw_read_constraints(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
     if (status == MW_OK) return 0;
     bool unknown = status == MW_ERROR_INPUT && !files_is_standard(path) && !mw_constraints_known(path);
     if (gdal_library_built() && (unknown || is_directory(path))) return gdal_constraints_read(path, file);

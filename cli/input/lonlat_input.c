@@ -1,5 +1,6 @@
 #include "cli/input/lonlat_input.h"
 #include "cli/frame/message.h"
+#include "src/base/threads.h"
 
 #include <math.h>
 
@@ -34,18 +35,30 @@ static double lonlat_ray_length(const double centre[3])
     return exponent > 0 ? ldexp(1, exponent - 1) : 1;
 }
 
-void lonlat_input_directions(const double *lonlat, size_t stride, size_t count, const double centre[3], int threads,
-                             double *points)
+typedef struct direction_making {
+    const double *lonlat, *centre;
+    size_t stride, count;
+    double far;
+    double *points;
+    uint32_t team;
+} direction_making;
+
+static void directions_make(void *work, uint32_t member)
 {
-    double far = lonlat_ray_length(centre);
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(threads) if (threads > 1 && count > 4096)
-#else
-    (void)threads;
-#endif
-    for (size_t i = 0; i < count; i++) {
-        double *p = points + 3 * i;
-        mw_lonlat_to_direction(lonlat[i * stride], lonlat[i * stride + 1], p);
-        for (int k = 0; k < 3; k++) p[k] = centre[k] + far * p[k];
+    const direction_making *m = work;
+    size_t end = m->count * (member + 1) / m->team;
+    for (size_t i = m->count * member / m->team; i < end; i++) {
+        double *p = m->points + 3 * i;
+        mw_lonlat_to_direction(m->lonlat[i * m->stride], m->lonlat[i * m->stride + 1], p);
+        for (int k = 0; k < 3; k++) p[k] = m->centre[k] + m->far * p[k];
     }
+}
+
+void lonlat_input_directions(const double *lonlat, size_t stride, size_t count, const double centre[3],
+                             uint32_t threads, double *points)
+{
+    enum { WORTHWHILE = 1 << 12 }; /* points that make a thread worthwhile */
+    direction_making making = {
+        lonlat, centre, stride, count, lonlat_ray_length(centre), points, mw__team(threads, count / WORTHWHILE + 1)};
+    mw__team_run(making.team, directions_make, &making);
 }

@@ -58,6 +58,7 @@ static void segments_interpolate(const vertex_table *v, size_t added, const uint
 
 /* The Delaunay triangulation of POINTS, and where the other vertices lie in it. */
 typedef struct triangulated_points {
+    uint32_t threads;
     mw_mesh *mesh;
     mw_locator *locator;
     mw_location *location; /* of each vertex not from POINTS; outside, of the nearest border point */
@@ -74,7 +75,8 @@ static mw_status triangulated_points_locate(triangulated_points *s, const vertex
 {
     size_t count = v->file.point_count - v->points;
     const double *points = v->file.points + 3 * v->points;
-    mw_status status = mw_locate_batch(s->locator, points, count, 3, NULL, s->location, NULL, error);
+    mw_query_options options = {.threads = s->threads, .progress = progress_of_call()};
+    mw_status status = mw_locate_batch(s->locator, points, count, 3, &options, s->location, NULL, error);
     for (size_t i = 0; status == MW_OK && i < count; i++) {
         mw_nearest_border_point hit;
         if (s->location[i].triangle != MW_NONE) continue;
@@ -90,10 +92,11 @@ static mw_status triangulated_points_locate(triangulated_points *s, const vertex
 static int triangulated_points_make(triangulated_points *s, const vertex_table *v, bool *on_a_line)
 {
     mw_error error;
-    mw_locator_options options = {.border = 1};
+    mw_delaunay_options delaunay = {.threads = s->threads, .progress = progress_of_call()};
+    mw_locator_options options = {.border = 1, .threads = s->threads, .progress = progress_of_call()};
     size_t count = v->file.point_count - v->points;
     progress_phase("interpolating", NULL);
-    mw_status status = mw_delaunay(v->file.points, v->points, 3, NULL, NULL, NULL, &s->mesh, &error);
+    mw_status status = mw_delaunay(v->file.points, v->points, 3, &delaunay, NULL, NULL, &s->mesh, &error);
     *on_a_line = status == MW_ERROR_INPUT;
     if (*on_a_line) return 0;
     if (status == MW_OK) status = mw_locator_create(s->mesh, &options, &s->locator, &error);
@@ -124,9 +127,9 @@ static bool field_has_missing(const vertex_table *v, vertex_field field)
     return false;
 }
 
-static int missing_values_interpolate(const vertex_table *v, bool *on_a_line)
+static int missing_values_interpolate(const vertex_table *v, uint32_t threads, bool *on_a_line)
 {
-    triangulated_points s = {0};
+    triangulated_points s = {.threads = threads};
     bool made = false;
     int end = 0;
     for (size_t k = 0; k < vertex_table_field_count(v) && end == 0 && !*on_a_line; k++) {
@@ -141,7 +144,7 @@ static int missing_values_interpolate(const vertex_table *v, bool *on_a_line)
 }
 
 int missing_values_fill(vertex_table *v, size_t added, const uint32_t *duplicate_of, const uint32_t *segments,
-                        const mw_constrained_edges *edges, bool *on_a_line)
+                        const mw_constrained_edges *edges, uint32_t threads, bool *on_a_line)
 {
     *on_a_line = false;
     mw_mesh_file *file = &v->file;
@@ -154,5 +157,5 @@ int missing_values_fill(vertex_table *v, size_t added, const uint32_t *duplicate
     }
     free(segment_of);
     for (size_t i = 0; !file->has_z && i < file->point_count; i++) file->points[3 * i + 2] = 0;
-    return missing_values_interpolate(v, on_a_line);
+    return missing_values_interpolate(v, threads, on_a_line);
 }

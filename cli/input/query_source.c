@@ -77,6 +77,11 @@ int query_source_read(query_source *s, double *values, size_t capacity, size_t *
     return mw_point_reader_read(s->reader, values, capacity, count, &error) == MW_OK ? 0 : fail_reading(&error);
 }
 
+double query_source_fraction(const query_source *s)
+{
+    return s->reader ? mw_point_reader_fraction(s->reader) : -1;
+}
+
 const char *query_source_row(const query_source *s, size_t row, size_t *length)
 {
     return s->points ? gdal_points_row(s->points, row, length) : mw_point_reader_row(s->reader, row, length);

@@ -27,4 +27,7 @@ int query_source_read(query_source *source, double *values, size_t capacity, siz
 /* The text of a row of the block read last. Several threads may ask at a time. */
 const char *query_source_row(const query_source *source, size_t row, size_t *length);
 
+/* How much of the file has been read, from 0 to 1; -1: not known. */
+double query_source_fraction(const query_source *source);
+
 #endif

@@ -82,6 +82,7 @@ static bool traced_constraints_add(traced_constraints *traced, uint32_t from, ui
 /* Follows the constraints of a file through a mesh. */
 typedef struct constraint_tracer {
     const char *path, *mesh_path;
+    uint32_t threads;
     const mw_constraint_file *file;
     const mw_mesh *mesh;
     mw_locator *locator;
@@ -132,21 +133,23 @@ static int tracer_follow_all(constraint_tracer *s, traced_constraints *traced)
 {
     mw_error error;
     if (!vertex_triangles_make(&s->triangles, s->mesh)) return fail_memory();
-    if (mw_locator_create(s->mesh, NULL, &s->locator, &error) != MW_OK) return fail_mesh(s->mesh_path, &error);
+    mw_locator_options options = {.threads = s->threads, .progress = progress_of_call()};
+    if (mw_locator_create(s->mesh, &options, &s->locator, &error) != MW_OK) return fail_mesh(s->mesh_path, &error);
     int end = mw_cursor_init(s->locator, NULL, &s->cursor, &error) == MW_OK ? 0 : fail_query(&error);
     for (size_t i = 0; end == 0 && i < s->file->segment_count; i++) end = tracer_follow_segment(s, i, traced);
     return end;
 }
 
-int traced_constraints_read(traced_constraints *traced, const char *path, bool quiet, const mw_mesh *mesh,
-                            const char *mesh_path)
+int traced_constraints_read(traced_constraints *traced, const char *path, const common_settings *common,
+                            const mw_mesh *mesh, const char *mesh_path)
 {
     mw_constraint_file file;
     *traced = (traced_constraints){0};
-    int end = constraint_file_read(path, (constraint_file_options){.quiet = quiet}, &file);
+    int end = constraint_file_read(path, (constraint_file_options){.quiet = common->quiet}, &file);
     if (end) return end;
     progress_phase("preparing", mesh_path);
-    constraint_tracer s = {.path = path, .mesh_path = mesh_path, .file = &file, .mesh = mesh};
+    constraint_tracer s = {
+        .path = path, .mesh_path = mesh_path, .file = &file, .mesh = mesh, .threads = common->threads};
     end = tracer_follow_all(&s, traced);
     mw_locator_destroy(s.locator);
     vertex_triangles_release(&s.triangles);

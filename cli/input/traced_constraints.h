@@ -2,6 +2,8 @@
 #ifndef MW_CLI_INPUT_TRACED_CONSTRAINTS_H
 #define MW_CLI_INPUT_TRACED_CONSTRAINTS_H
 
+#include "cli/frame/options.h"
+
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>
 
@@ -12,9 +14,10 @@ typedef struct traced_constraints {
 
 /* Read a file of constraints and find their edges in a mesh. A segment is one edge, or a chain of
  * edges if vertices lie on it. Returns 0, or an exit code after a complaint, for instance if a
- * segment is no edge; `mesh_path` is for the message; quiet: no warnings. Release in both cases. */
-int traced_constraints_read(traced_constraints *traced, const char *path, bool quiet, const mw_mesh *mesh,
-                            const char *mesh_path);
+ * segment is no edge; `mesh_path` is for the message; `common` says with how many threads, and
+ * whether to warn. Release in both cases. */
+int traced_constraints_read(traced_constraints *traced, const char *path, const common_settings *common,
+                            const mw_mesh *mesh, const char *mesh_path);
 void traced_constraints_release(traced_constraints *traced);
 
 #endif

@@ -48,7 +48,7 @@ static int point_rows_read(point_rows *r, mw_point_reader *reader)
         if (mw_point_reader_read(reader, next, r->capacity - r->count, &count, &error) != MW_OK)
             return fail_reading(&error);
         r->count += count;
-        progress_points(r->count);
+        progress_points(r->count, mw_point_reader_fraction(reader));
     }
     return 0;
 }

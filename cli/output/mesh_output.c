@@ -52,8 +52,9 @@ int mesh_output_write(const char *output, int format, const mw_mesh_file *file, 
     mw_error error;
     progress_phase("writing", NULL);
     if (temporary) signals_hold(true);
+    const mw_file_options watched = {.progress = progress_of_call()};
     mw_status status =
-        mw_write_mesh(output, file, format == FORMAT_BY_ENDING ? NULL : mesh_format_name(format), &error);
+        mw_write_mesh(output, file, format == FORMAT_BY_ENDING ? NULL : mesh_format_name(format), &watched, &error);
     if (temporary) signals_hold(false);
     return status == MW_OK ? 0 : fail_writing(&error);
 }

@@ -263,7 +263,7 @@ int edit_stream_run(edit_stream *s, const char *path)
     for (bool more = true; more && end == 0;) {
         end = edit_stream_next_line(s, path, reader, &more);
         if (s->lines % CHECK_LINES != 0) continue;
-        progress_lines(s->lines);
+        progress_lines(s->lines, mw_edit_reader_fraction(reader));
         /* If an output fails, closing it reports the error. */
         if (side_outputs_failed(s->output, EDIT_STREAM_OUTPUTS)) break;
     }

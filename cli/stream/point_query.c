@@ -123,7 +123,8 @@ static int point_query_make_mesh(point_query *q, const char *path, const mw_mesh
 {
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_mesh_options options = {.tolerant = q->settings->any, .threads = q->settings->stream.common.threads};
+    mw_mesh_options options = {
+        .tolerant = q->settings->any, .threads = q->settings->stream.common.threads, .progress = progress_of_call()};
     progress_phase("preparing", path);
     return mw_mesh_create(&arrays, &options, &q->mesh, &error) == MW_OK ? 0
                                                                         : point_query_fail_mesh(q, path, area, &error);
@@ -137,7 +138,8 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
                                   .border = border || settings->tolerance > 0,
                                   .areas = settings->areas,
                                   .fill = (mw_fill_mode)settings->fill,
-                                  .threads = settings->stream.common.threads};
+                                  .threads = settings->stream.common.threads,
+                                  .progress = progress_of_call()};
     if (settings->walk == MW_WALK_BORDER && settings->fill == MW_FILL_AUTO) options.fill = MW_FILL_NO;
     if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK)
         return point_query_fail_mesh(q, path, area, &error);
@@ -169,7 +171,8 @@ static int point_query_make_index(point_query *q)
     mw_index_options options = {.cells = settings->cells,
                                 .layers = settings->layers,
                                 .descent = (mw_descent)settings->descent,
-                                .seed = settings->stream.common.seed};
+                                .seed = settings->stream.common.seed,
+                                .progress = progress_of_call()};
     return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
@@ -230,6 +233,7 @@ static int point_query_answer_block(void *self, const query_block *block, void *
         .tolerance = settings->tolerance,
         .counters = settings->stream.stats,
         .index = context->query->index,
+        .progress = progress_of_call(),
     };
     mw_status status = mw_locate_batch(context->query->locator, block->values, block->count, block->stride, &options,
                                        answers, &counters, &error);

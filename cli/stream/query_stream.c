@@ -7,8 +7,10 @@
 #include "cli/output/csv_row.h"
 #include "cli/stream/query_header.h"
 #include "cli/stream/statistics.h"
+#include "src/base/threads.h"
 
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 #define CHUNK ((size_t)1 << 12) /* rows that one thread makes at a time */
@@ -79,18 +81,27 @@ static void pipeline_format_chunk(query_pipeline *p, size_t k, size_t count)
     }
 }
 
+typedef struct pipeline_formatting {
+    query_pipeline *pipeline;
+    size_t count, chunks;
+    atomic_size_t next; /* the chunk to make next */
+} pipeline_formatting;
+
+static void pipeline_format_chunks(void *work, uint32_t member)
+{
+    pipeline_formatting *f = work;
+    (void)member;
+    for (size_t k; (k = atomic_fetch_add(&f->next, 1)) < f->chunks;) pipeline_format_chunk(f->pipeline, k, f->count);
+}
+
 /* Several threads make the rows, at most one for each chunk. One thread then writes them in
  * order. */
 static int pipeline_write_block(query_pipeline *p, size_t count)
 {
-    long chunks = (long)((count + CHUNK - 1) / CHUNK);
-    long threads = options_threads(p->stream->settings->common.threads);
-    if (threads > chunks) threads = chunks;
-#ifdef _OPENMP
-#pragma omp parallel for num_threads((int)threads) if (threads > 1) schedule(dynamic)
-#endif
-    for (long k = 0; k < chunks; k++) pipeline_format_chunk(p, (size_t)k, count);
-    for (long k = 0; k < chunks; k++) {
+    pipeline_formatting formatting = {p, count, (count + CHUNK - 1) / CHUNK, 0};
+    size_t chunks = formatting.chunks;
+    mw__team_run(mw__team(p->stream->settings->common.threads, chunks), pipeline_format_chunks, &formatting);
+    for (size_t k = 0; k < chunks; k++) {
         if (p->chunk[k].failed) return fail_memory();
         mw_output_write(p->out, p->chunk[k].bytes, p->chunk[k].size);
         p->statistics.unanswered += p->unanswered[k];
@@ -123,7 +134,9 @@ static int pipeline_choose_decimal(query_pipeline *p)
 
 static int pipeline_read_block(query_pipeline *p, size_t *count)
 {
+    double before = query_source_fraction(p->source);
     int end = query_source_read(p->source, p->values, QUERY_BLOCK_SIZE, count);
+    progress_part(before, query_source_fraction(p->source));
     return end == 0 && *count > 0 ? pipeline_choose_decimal(p) : end;
 }
 
@@ -150,7 +163,7 @@ static int pipeline_run_blocks(query_pipeline *p)
     while (end == 0 && count > 0 && !mw_output_failed(p->out)) {
         end = pipeline_answer_block(p, count);
         if (end == 0) end = pipeline_write_block(p, count);
-        progress_points(p->statistics.queries);
+        progress_points(p->statistics.queries, query_source_fraction(p->source));
         if (end == 0) end = pipeline_read_block(p, &count);
     }
     return end;

@@ -4,6 +4,11 @@
  * may pass NULL, and finds in it after a failure what was wrong and where. The library keeps no global state, never
  * prints, and never ends the program.
  *
+ * Threads are made by the call that uses them, as many as its options say, and end with it: `threads` is the number, 1
+ * makes none, 0 takes as many as there are processors for the process. Where the system refuses a thread, fewer do the
+ * work. Results never depend on the number. Between calls the library has no threads, so a child made by fork() can use
+ * it like its parent.
+ *
  * Initialise structures of options with = {0}, which selects the defaults, then set what differs. Their `reserved`
  * members must stay zero: a structure where one is not is refused (MW_ERROR_ARGUMENT), so that later versions can use
  * these members without changing what today's programs mean. */
@@ -37,6 +42,7 @@ typedef enum mw_status {
     MW_ERROR_MEMORY,   /* an allocation failed                                                          */
     MW_ERROR_LIMIT,    /* the data is larger than the library can hold: more than MW_MAX_TRIANGLES, ... */
     MW_ERROR_SYSTEM,   /* the operating system refused: a file that cannot be opened or written         */
+    MW_CANCELLED,      /* the caller's own mw_progress asked the call to stop                          */
     MW_STATUS_COUNT
 } mw_status;
 
@@ -48,6 +54,33 @@ typedef struct mw_error {
     int64_t line; /* line of a text file, 1-based */
     char message[512];
 } mw_error;
+
+/**
+ * Called from time to time by a call that can take long, on the thread that made the call.
+ *
+ * @param context   mw_progress.context
+ * @param stage     what is being done, such as "sorting points"; for people to read; valid during the call
+ * @param fraction  how much of the whole call is done, from 0 to 1; never less than the time before. It is an estimate:
+ *                  the rest may take more or less time than it suggests
+ * @return 0 to go on; anything else cancels the call, which then soon returns MW_CANCELLED. The last report of a
+ *         successful call has the fraction 1: the work is done, and the answer to it does not matter.
+ *
+ * It may not call back into the objects that the call works on.
+ */
+typedef int mw_progress_report(void *context, const char *stage, double fraction);
+
+/**
+ * Watches a call that can take longer than a second, and may cancel it: `progress` of the options.
+ *
+ * A cancelled call leaves nothing behind: objects that it was to make do not exist, objects that it was to change are as
+ * before. Batches are the exception: some results are written, and which ones is not told. There are at most 300 reports
+ * a call, so a report may take its time. The structure belongs to the caller and must live as long as the call; with an
+ * editor or a surface, as long as that.
+ */
+typedef struct mw_progress {
+    mw_progress_report *report; /**< NULL: no reports */
+    void *context;              /**< for `report` */
+} mw_progress;
 
 /* A short English text for a status, never NULL. Thread-safe. */
 MW_API const char *mw_status_text(mw_status status);

@@ -33,8 +33,10 @@ typedef struct mw_editor_options {
     const uint32_t *constrained_edges; /* two vertices each, as mw_constrained_edges.edge: edges of the mesh that are
                                           not to be flipped away */
     size_t constrained_edge_count;
-    uint32_t threads; /* of mw_editor_mesh, mw_editor_compact, and of the order of many points; 0 = what OpenMP gives */
-    uint32_t reserved[7];
+    uint32_t
+        threads; /* of mw_editor_mesh, mw_editor_compact, and of the order of many points; 0: as many as processors */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[5];
 } mw_editor_options;
 
 /* Take a mesh, which is copied with its fields and may be destroyed.

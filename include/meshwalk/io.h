@@ -28,6 +28,13 @@ typedef struct mw_mesh_file {
     size_t welded; /* STL: vertices merged because their coordinates are equal */
 } mw_mesh_file;
 
+/** How a whole file is read or written. */
+typedef struct mw_file_options {
+    const mw_progress
+        *progress; /**< who watches, and may cancel: base.h; NULL: nobody. Of a pipe the fraction is a guess */
+    uint32_t reserved[6];
+} mw_file_options;
+
 /* Read a mesh. Coordinates may be NaN or infinite; vertex numbers all exist.
  *   OFF          with normals, colours or texture coordinates, which are passed over
  *   OBJ          v and f; all else is passed over
@@ -38,8 +45,8 @@ typedef struct mw_mesh_file {
  *                become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" on top names them; one
  *                called z is the height
  * MW_ERROR_SYSTEM: cannot be opened or read; MW_ERROR_INPUT: malformed, truncated, or a format that is not known;
- * MW_ERROR_LIMIT; MW_ERROR_MEMORY. On failure `file` is empty. */
-MW_API mw_status mw_read_mesh(const char *path, mw_mesh_file *file, mw_error *error);
+ * MW_ERROR_LIMIT; MW_ERROR_MEMORY; MW_CANCELLED. On failure `file` is empty. options: NULL = all zero. */
+MW_API mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file, mw_error *error);
 MW_API void mw_mesh_file_release(mw_mesh_file *file); /* NULL and an empty file are allowed */
 
 /* The mesh of a file as arrays for mw_mesh_create and mw_check_arrays. */
@@ -82,8 +89,9 @@ typedef struct mw_constraint_file {
  *             empty geometries are passed over; rings of fewer than three different points are skipped
  *             and listed. Refused where the library was built without Jansson
  * Recognised by content; gzip is taken. MW_ERROR_SYSTEM, MW_ERROR_INPUT, MW_ERROR_LIMIT, MW_ERROR_MEMORY as
- * mw_read_mesh. On failure `file` is empty. */
-MW_API mw_status mw_read_constraints(const char *path, mw_constraint_file *file, mw_error *error);
+ * mw_read_mesh, MW_CANCELLED too. On failure `file` is empty. options: NULL = all zero. */
+MW_API mw_status mw_read_constraints(const char *path, const mw_file_options *options, mw_constraint_file *file,
+                                     mw_error *error);
 MW_API void mw_constraint_file_release(mw_constraint_file *file); /* NULL and an empty file are allowed */
 /* Would mw_read_constraints take the file for one of a format that it reads, sound or not? 0 also for a file that cannot
  * be opened. Of standard input this uses up the beginning. */
@@ -102,8 +110,9 @@ MW_API int mw_constraints_known(const char *path);
  * .ele and then .node get their names; who interrupts the program between these two steps finds a new .ele beside no
  * .node or an old one. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names
  * a vertex that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left (but for that .ele, if
- * only .node cannot get its name). */
-MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *format, mw_error *error);
+ * only .node cannot get its name); MW_CANCELLED: likewise. options: NULL = all zero. */
+MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *format,
+                               const mw_file_options *options, mw_error *error);
 /* Names of the formats that mw_write_mesh takes, i from 0; NULL beyond the last. */
 MW_API const char *mw_mesh_format_name(size_t i);
 
@@ -162,6 +171,11 @@ MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t 
  * where it becomes 0; a reader with `table` also ends a block early where its text is long. On failure *count points before the faulty one are valid, and the reader can only be closed. */
 MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
                                       mw_error *error);
+/**
+ * How much of the file has been read, to show to people: from 0 to 1, or -1 where the size is not known, as of a pipe.
+ * Not safe while another thread reads by the same reader.
+ */
+MW_API double mw_point_reader_fraction(const mw_point_reader *reader);
 MW_API void mw_point_reader_close(mw_point_reader *reader); /* NULL is allowed */
 
 /** The columns of a file, whether they are read as numbers or not. Texts belong to the reader. */
@@ -253,6 +267,8 @@ MW_API mw_status mw_edit_reader_open(const char *path, const mw_edit_text_option
  * line; then line->line tells whether the reader can go on: the number of the line, which the next call will be behind,
  * or 0: the file cannot be read on (also MW_ERROR_SYSTEM, MW_ERROR_MEMORY), and the reader can only be closed. */
 MW_API mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error);
+/** As mw_point_reader_fraction. */
+MW_API double mw_edit_reader_fraction(const mw_edit_reader *reader);
 MW_API void mw_edit_reader_close(mw_edit_reader *reader); /* NULL is allowed */
 
 /* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside

@@ -88,7 +88,8 @@ typedef struct mw_locator_options {
     int areas;  /* 1: store twice the area of each triangle, 8 bytes: MW_WALK_DIRECT then saves a test a triangle  */
     mw_fill_mode fill;
     uint32_t
-        threads; /* 0 = what OpenMP gives; the locator is the same for any number. Its grids are made by as many, too */
+        threads; /* 0: as many as processors; the locator is the same for any number. Its grids are made by as many, too */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
     uint32_t reserved[3];
     uint64_t queries; /* MW_FILL_AUTO: about so many are to come; few do not pay for what filling takes. 0 = many */
 } mw_locator_options;
@@ -141,6 +142,7 @@ typedef struct mw_index_options {
     double ratio;       /* MW_START_LAYERS: chance of a vertex to be in the next layer; 0 = 0.025 [Devillers 2002]   */
     mw_descent descent; /* MW_START_LAYERS: the vertex to go down at                                             */
     uint64_t seed;      /* MW_START_LAYERS: of the random vertices                                               */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
     uint32_t reserved[4];
 } mw_index_options;
 
@@ -177,12 +179,13 @@ typedef struct mw_query_options {
     uint32_t samples;      /* MW_START_SAMPLE: triangles looked at, at most all; or one of the rules below        */
     uint32_t steps;        /* MW_WALK_FAST_STOCHASTIC: its steps, one test each, at most 4096 + 45
                             sqrt(triangles); 0 = estimate by distance and density                       */
-    uint32_t threads;      /* batches: 0 = what OpenMP gives                                                      */
+    uint32_t threads;      /* batches: 0: as many as processors                                                      */
     double tolerance;      /* >= 0; points outside at most this far from the mesh become MW_NEAR. Needs .border   */
     int counters;          /* 1: fill the counters                                                                */
     uint32_t lanes;        /* batches: walks in flight at a time, at most MW_MAX_LANES; 0 = choose by the number of
                             queries, the part of the mesh over which they lie, and the caches                      */
     const mw_index *index; /* for the starts that have one (mw_index_create), NULL else; must outlive the cursor */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
     uint32_t reserved[4];
 } mw_query_options;
 

@@ -72,13 +72,23 @@ MW_API const char *mw_defect_text(mw_defect_kind kind);
 /* Write "triangle 17: ..." for one defect into text[size], always terminated. */
 MW_API void mw_defect_describe(const mw_defect *defect, char *text, size_t size);
 
+/* How a mesh is checked. */
+typedef struct mw_check_options {
+    uint32_t threads; /* 0: as many as processors; the result is the same for any number */
+    uint32_t reserved[3];
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+} mw_check_options;
+
 /* Find every defect of the mesh in `arrays`, and decide whether it is an embedding. Of two border edges that cross, or
  * run along each other on the same side, at least one is listed, with one of those in its way, so the list stays linear
  * in the mesh; where thousands of long edges cross, some are not listed. And where borders cross, what else is wrong in
  * the parts of the mesh that they bound may show only when that is mended. The same arrays give the same list. Time:
  * O(n) for the local defects; for b border edges O(b log^2 b) is to be expected, whether they cross or not (see
- * docs/guarantees.md). MW_OK also when defects were found. Thread-safe. */
-MW_API mw_status mw_check_arrays(const mw_arrays *arrays, mw_check *check, mw_error *error);
+ * docs/guarantees.md). MW_OK also when defects were found. MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY,
+ * MW_CANCELLED. Thread-safe.
+ *   options  NULL = all zero */
+MW_API mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *options, mw_check *check,
+                                 mw_error *error);
 MW_API void mw_check_release(mw_check *check);
 
 /* How a mesh lies in memory. No number shows it; but of a mesh that is no embedding other defects may be named, and the
@@ -93,8 +103,9 @@ typedef struct mw_mesh_options {
     int tolerant; /* 1: take also arrays with repeated vertices, non-finite vertices and edges of three triangles; the
                      triangles concerned are kept but never own a point, the third triangle is not linked           */
     mw_mesh_layout layout;
-    uint32_t threads; /* 0 = what OpenMP gives; the mesh is the same for any number                                 */
-    uint32_t reserved[5];
+    uint32_t threads;            /* 0: as many as processors; the mesh is the same for any number */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[3];
 } mw_mesh_options;
 
 /* Build a mesh: copies the coordinates, finds the neighbours in O(n). Mixed orientation is accepted and remembered. Arrays
@@ -144,7 +155,17 @@ typedef struct mw_mesh_info {
     double area;                  /* sum of the triangles' areas                                        */
 } mw_mesh_info;
 
-MW_API mw_status mw_mesh_describe(const mw_mesh *mesh, mw_mesh_info *info, mw_error *error);
+/**
+ * Describe a mesh.
+ *
+ * @param options  threads and progress of the check; NULL = all zero
+ * @param info     filled in; unspecified after a failure
+ * @return MW_OK, also for a mesh that is no embedding; MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY, MW_CANCELLED
+ *
+ * Thread-safe. Cost as mw_check_arrays.
+ */
+MW_API mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *options, mw_mesh_info *info,
+                                  mw_error *error);
 
 /* Orders along a Hilbert curve, for laying out arrays so that neighbours lie near each other in memory.
  *   triangles, vertices  arrays of triangle_count and vertex_count; either may be NULL. order[i] is the number of the

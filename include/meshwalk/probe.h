@@ -23,8 +23,10 @@ extern "C" {
 typedef struct mw_prober mw_prober;
 
 typedef struct mw_prober_options {
-    int boxes; /* 1: build boxes over the triangles, for certain probes and mw_nearest_on_surface */
-    uint32_t reserved[7];
+    int boxes;                   /* 1: build boxes over the triangles, for certain probes and mw_nearest_on_surface */
+    uint32_t threads;            /* that make the boxes; 0: as many as processors */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[4];
 } mw_prober_options;
 
 /* surface: must outlive the prober. options: NULL = all zero. out: owned by the caller (mw_prober_destroy); NULL on
@@ -38,7 +40,7 @@ MW_API void mw_prober_destroy(mw_prober *prober); /* NULL is allowed */
  *   moved  no vertex moved farther than that since the last update: then the boxes are taken to be so much larger, in
  *          O(1), and fitted anew only when that sum grows too large for them; negative or NaN: not known, fit them now,
  *          O(n). After flips of edges: not known
- *   threads  0 = what OpenMP gives
+ *   threads  0: as many as processors
  * Boxes not brought up to date: certain probes get MW_TOUCH_BAD. */
 MW_API void mw_prober_update(mw_prober *prober, double moved, uint32_t threads);
 
@@ -100,10 +102,11 @@ typedef struct mw_probe_options {
     uint32_t race;       /* walks that run at a time in threads, 256 at most; the first to find stops the others. 0 or
                             1: one. In a race the triangle found may differ from run to run where the line touches
                             several. In certain mode nothing races                                                 */
-    uint32_t threads;    /* batches without a race: 0 = what OpenMP gives                                          */
+    uint32_t threads;    /* batches without a race: 0: as many as processors                                          */
     uint64_t seed;
-    int counters; /* 1: fill the counters */
-    uint32_t reserved[7];
+    int counters;                /* 1: fill the counters */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[5];
 } mw_probe_options;
 
 /* What probes did, summed over queries. Of a race, what all its walks did: that depends on the run. */
@@ -133,8 +136,8 @@ typedef struct mw_probe_cursor {
 MW_API mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options, mw_probe_cursor *cursor,
                                       mw_error *error);
 
-/* One probe. Thread-safe with one cursor per thread; without a race no allocation, no failure. With one,
- * OpenMP starts the threads, and ends the program where it cannot. */
+/* One probe. Never fails, and allocates nothing. Thread-safe with one cursor per thread. With options.race it makes that
+ * many threads, fewer where the system refuses them. */
 MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                          const double motion[3]);
 

@@ -46,7 +46,8 @@ typedef struct mw_star mw_star;
 typedef struct mw_star_options {
     double centre[3]; /* the origin by default */
     int angles; /* 1: store longitude and polar angle of each vertex, 16 bytes each, for MW_STAR_WALK_ORTHOGONAL */
-    uint32_t reserved[7];
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[5];
 } mw_star_options;
 
 /* Prepare a surface: decides exactly whether it is a closed polyhedron, star-shaped about the centre. Facets may be
@@ -104,7 +105,8 @@ typedef struct mw_star_index_options {
     uint32_t cells;  /* grids: about so many cells, at most 2^30; 0 = one for 16 facets. More than 64 for
                         each facet (65,536 on small polyhedra) are not made, and no finer octahedron         */
     uint32_t levels; /* octahedron: subdivisions, 0 to MW_STAR_MAX_LEVELS, plus 1; 0 = by the number of facets */
-    uint32_t reserved[6];
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[4];
 } mw_star_index_options;
 #define MW_STAR_MAX_LEVELS 12
 
@@ -131,10 +133,11 @@ typedef struct mw_star_query_options {
                                  MW_STAR_WALK_FORGETFUL, which counts as the paper does; 0 = stochastic           */
     uint32_t samples;         /* MW_STAR_START_SAMPLE: facets looked at; 0 = 2 times the fourth root of the vertices */
     uint64_t seed;            /* for everything random; answers do not depend on it                               */
-    uint32_t threads;         /* batches: 0 = what OpenMP gives                                                   */
+    uint32_t threads;         /* batches: 0: as many as processors                                                   */
     int counters;             /* 1: fill the counters                                                             */
-    const mw_star_index *index; /* for the starts that have one, NULL else; must outlive the cursor               */
-    uint32_t reserved[6];
+    const mw_star_index *index;  /* for the starts that have one, NULL else; must outlive the cursor               */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[4];
 } mw_star_query_options;
 
 /* What a query changes: one per thread, a plain value. It serves only the star it was initialised with, also after

@@ -28,7 +28,8 @@ typedef struct mw_surface_options {
                      waits for them to end, and those that come wait for mw_surface_end_update. Costs each query a
                      reader's lock. 0: the caller sees to it that no query runs during an update                   */
     int borrow;   /* 1: the points are not copied: arrays->points, with a stride of 3, must outlive the surface      */
-    uint32_t reserved[8];
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[6];
 } mw_surface_options;
 
 /* Build a surface: copies the arrays, finds the neighbours in O(n). Open borders, several pieces, flat triangles,
@@ -105,8 +106,9 @@ MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info 
 /* Find every defect of the arrays as a surface: the unusable group of mw_defect_kind, then MW_DEFECT_CLASHING, and
  * MW_DEFECT_FLAT as a remark; `weld` as in the options. check->valid: 1 if there is none but flat triangles. O(n);
  * of unusable arrays O(n log b) for b edges of one triangle. MW_OK also when defects were found. Release with
- * mw_check_release. Thread-safe. */
-MW_API mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld, mw_check *check, mw_error *error);
+ * mw_check_release. options: NULL = all zero. MW_CANCELLED. Thread-safe. */
+MW_API mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld, const mw_check_options *options,
+                                         mw_check *check, mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -21,8 +21,9 @@ typedef struct mw_delaunay_report {
 } mw_delaunay_report;
 
 typedef struct mw_delaunay_options {
-    uint32_t threads; /* 0 = what OpenMP gives */
-    uint32_t reserved[7];
+    uint32_t threads;            /* 0: as many as processors */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[5];
 } mw_delaunay_options;
 
 /* Delaunay triangulation of n points as a mesh whose vertex i is point i, all triangles counter-clockwise.
@@ -74,8 +75,9 @@ typedef struct mw_kind_report {
  * sought for up to so many points; either however long it takes, and whatever memory. */
 typedef struct mw_kind_options {
     uint32_t limit;
-    uint32_t threads; /* for the Delaunay triangulation that each kind begins with; 0 = what OpenMP gives */
-    uint32_t reserved[6];
+    uint32_t threads; /* for the Delaunay triangulation that each kind begins with; 0: as many as processors */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[4];
 } mw_kind_options;
 
 /* A triangulation of any kind; arguments as for mw_delaunay, options NULL = all zero, report NULL or filled on success.
@@ -127,8 +129,9 @@ typedef enum mw_keep {
 typedef struct mw_constrain_options {
     mw_keep keep;
     int split; /* 1: where segments cross, put a vertex there, rounded, and split them; 0: an error                */
-    uint32_t threads; /* for the Delaunay triangulation of the points; 0 = what OpenMP gives                       */
-    uint32_t reserved[5];
+    uint32_t threads; /* for the Delaunay triangulation of the points; 0: as many as processors                       */
+    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[3];
 } mw_constrain_options;
 
 typedef struct mw_constrain_report {

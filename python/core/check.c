@@ -46,8 +46,8 @@ static mw_status check_run(const check_request *request, const mw_arrays *arrays
     if (strcmp(request->kind, "star") == 0)
         return mw_star_check_arrays(arrays, request->weld, &request->star, check, error);
     if (strcmp(request->kind, "surface") == 0)
-        return mw_surface_check_arrays(arrays, request->weld, check, error);
-    return mw_check_arrays(arrays, check, error);
+        return mw_surface_check_arrays(arrays, request->weld, NULL, check, error);
+    return mw_check_arrays(arrays, NULL, check, error);
 }
 
 /* check_arrays(kind, points, triangles, weld, (x, y, z)): is it sound, and a list of defects */

@@ -57,7 +57,7 @@ static PyObject *file_read_mesh(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
-    Py_BEGIN_ALLOW_THREADS status = mw_read_mesh(path, &file, &error);
+    Py_BEGIN_ALLOW_THREADS status = mw_read_mesh(path, NULL, &file, &error);
     Py_END_ALLOW_THREADS if (status) return errors_raise(state, &error);
     result = file_take_all(state, &file);
     mw_mesh_file_release(&file);
@@ -116,7 +116,7 @@ static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z
         .fields = fields->values,
         .field_count = fields->count,
     };
-    return mw_write_mesh(path, &file, format, error);
+    return mw_write_mesh(path, &file, format, NULL, error);
 }
 
 /* write_mesh(path, format or None, points, has_z, triangles, [(name, values)]): three doubles a

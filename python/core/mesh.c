@@ -177,7 +177,7 @@ static PyObject *mesh_describe(PyObject *self, PyObject *unused)
     mw_error error;
     mw_status status;
     (void)unused;
-    Py_BEGIN_ALLOW_THREADS status = mw_mesh_describe(object->mesh, &info, &error);
+    Py_BEGIN_ALLOW_THREADS status = mw_mesh_describe(object->mesh, NULL, &info, &error);
     Py_END_ALLOW_THREADS return status ? errors_raise(object->state, &error)
                                        : mesh_info_dict(&info);
 }

@@ -17,6 +17,7 @@ const char *mw_status_text(mw_status status)
     case MW_ERROR_MEMORY: return "out of memory";
     case MW_ERROR_LIMIT: return "too large";
     case MW_ERROR_SYSTEM: return "system error";
+    case MW_CANCELLED: return "cancelled";
     case MW_STATUS_COUNT: break;
     }
     return "unknown status";

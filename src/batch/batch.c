@@ -5,9 +5,10 @@
  * one before it. */
 #include "batch/batch.h"
 
+#include "base/job.h"
 #include "base/random.h"
-#include "base/threads.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 
 enum {
@@ -15,41 +16,72 @@ enum {
     BLOCK = 1 << 22  /* queries sorted at a time: 64 MiB of keys */
 };
 
-static void block_answer(const mw_batch *batch, uint32_t n, uint32_t threads, mw_counters *sum)
+typedef struct batch_block {
+    const mw_batch *batch;
+    uint32_t n;
+    pthread_mutex_t lock;
+    mw_counters sum; /* of the chunks that are done */
+} batch_block;
+
+static void block_answer_chunk(void *work, uint64_t chunk, uint32_t member)
 {
-    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
-    int team = mw__team(threads, chunks);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
-#endif
-    for (int64_t i = 0; i < chunks; i++) {
-        uint32_t first = (uint32_t)(i * CHUNK);
-        mw_counters counters = batch->answer(batch, first, n - first < CHUNK ? n - first : CHUNK);
-#ifdef _OPENMP
-#pragma omp critical(mw_counters)
-#endif
-        mw_counters_add(sum, &counters);
-    }
+    batch_block *block = work;
+    uint32_t first = (uint32_t)chunk * CHUNK, left = block->n - first;
+    (void)member;
+    mw_counters counters = block->batch->answer(block->batch, first, left < CHUNK ? left : CHUNK);
+    pthread_mutex_lock(&block->lock);
+    mw_counters_add(&block->sum, &counters);
+    pthread_mutex_unlock(&block->lock);
 }
 
-mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters *counters, mw_error *error)
+/* Returns false if the job is to stop. */
+static bool block_answer(const mw_batch *batch, uint32_t n, mw_job *job, mw_counters *sum)
+{
+    uint64_t chunks = ((uint64_t)n + CHUNK - 1) / CHUNK;
+    batch_block block = {.batch = batch, .n = n, .sum = *sum};
+    pthread_mutex_init(&block.lock, NULL);
+    bool done = mw__job_chunks(job, mw__job_team(job, chunks), chunks, block_answer_chunk, &block);
+    pthread_mutex_destroy(&block.lock);
+    *sum = block.sum;
+    return done;
+}
+
+/* Sort a block of queries, and answer them: both are stages that take `share` of the job. */
+static bool block_run(mw_batch *batch, mw_key *keys, size_t block, double share, mw_job *job, mw_counters *sum)
+{
+    const double sorting = batch->sort ? 0.2 : 0;
+    if (batch->sort) {
+        mw__job_stage(job, "sorting queries", share * sorting);
+        batch->sort(batch, block, keys, keys + block);
+    }
+    mw__job_stage(job, "answering queries", share * (1 - sorting));
+    return block_answer(batch, (uint32_t)block, job, sum);
+}
+
+static mw_status batch_run_blocks(mw_batch *batch, size_t n, mw_job *job, mw_counters *sum, mw_error *error)
 {
     size_t block = n < BLOCK ? n : BLOCK;
     mw_key *keys = batch->sort ? mw__alloc_lines(2 * block, sizeof *keys) : NULL;
     if (batch->sort && !keys) return mw__fail_memory(error);
     batch->order = keys;
     uint64_t seed = batch->seed;
-    mw_counters sum = {0};
     for (size_t done = 0; done < n; done += block) {
         if (n - done < block) block = n - done;
         batch->seed = mw__random_seed(seed, done);
-        if (batch->sort) batch->sort(batch, block, keys, keys + block);
-        block_answer(batch, (uint32_t)block, threads, &sum);
+        if (!block_run(batch, keys, block, (double)block / (double)n, job, sum)) break;
         batch->points += block * batch->stride;
         batch->locations += block;
     }
     free(keys);
-    if (counters) *counters = sum;
     return MW_OK;
+}
+
+mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_progress *progress, mw_counters *counters,
+                        mw_error *error)
+{
+    mw_job job = mw__job(threads, progress);
+    mw_counters sum = {0};
+    mw_status status = mw__job_end(&job, batch_run_blocks(batch, n, &job, &sum, error), error);
+    if (counters) *counters = sum;
+    return status;
 }

@@ -26,8 +26,9 @@ struct mw_batch {
     mw_counters (*answer)(const mw_batch *batch, uint32_t first, uint32_t count);
 };
 
-/* Answer n queries. threads: 0 = what OpenMP gives. What was done goes to *counters unless that is
- * NULL. */
-mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, mw_counters *counters, mw_error *error);
+/* Answer n queries as a job of its own. What was done goes to *counters unless that is NULL.
+ * MW_ERROR_MEMORY, MW_CANCELLED. */
+mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_progress *progress, mw_counters *counters,
+                        mw_error *error);
 
 #endif

@@ -100,19 +100,25 @@ static bool copy_fields(mw_editor *editor, const mw_mesh *mesh)
     return true;
 }
 
-static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh, const mw_editor_options *options, mw_error *error)
+static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh, const mw_editor_options *options, mw_job *job,
+                             mw_error *error)
 {
     mw_locator *locator = &editor->locator;
     mw_dynamic_tiling *f = &editor->dynamic;
     locator->mesh = &editor->view;
-    mw_status status = mw__tiling_create(mesh, false, &locator->tiling, error);
+    mw_job_span outer = mw__job_part(job, 0.6);
+    mw_status status = mw__tiling_create(mesh, (mw_tiling_options){0}, job, &locator->tiling, error);
+    mw__job_part_end(job, outer);
+    mw__job_stage(job, "preparing edits", 0.3);
     if (!status) status = mw__dynamic_create(f, &locator->tiling, mesh, locator->tiling.ghost_count == 0, error);
     if (!status) status = mw__fix_edges(f, options->constrained_edges, options->constrained_edge_count, error);
     if (!status) status = editor_choose_delaunay(f, options->delaunay, error);
     if (!status && !copy_fields(editor, mesh)) status = mw__fail_memory(error);
     if (status) return status;
     mw__editor_update_view(editor);
-    status = mw__upkeep_create(&editor->upkeep, locator, f, error);
+    outer = mw__job_part(job, 0.1);
+    status = mw__upkeep_create(&editor->upkeep, locator, f, job, error);
+    mw__job_part_end(job, outer);
     return status ? status : mw_cursor_init(locator, NULL, &editor->cursor, error);
 }
 
@@ -135,8 +141,10 @@ mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options
     if (!editor) return mw__fail_memory(error);
     editor->keeps_log = options->log != 0;
     editor->threads = options->threads;
+    editor->progress = options->progress;
     editor->undo = options->undo;
-    status = editor_make(editor, mesh, options, error);
+    mw_job job = mw__job(options->threads, options->progress);
+    status = mw__job_end(&job, editor_make(editor, mesh, options, &job, error), error);
     if (status)
         mw_editor_destroy(editor);
     else

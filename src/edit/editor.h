@@ -17,6 +17,7 @@ struct mw_editor {
     bool guide_led_far; /* the last walk from the guide was long: see insertion_first_tile */
     bool keeps_log;
     uint32_t threads; /* as in the options                      */
+    const mw_progress *progress;
     size_t undo, undoable;
     mw_edit *log;
     size_t log_count, log_room;

@@ -3,6 +3,7 @@
 
 #include "tiling/tiling_create.h"
 #include "edit/dynamic_tiling_memory.h"
+#include "mesh/mesh_create.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -34,9 +35,11 @@ static bool renumbering_create(const mw_dynamic_tiling *f, renumbering *r)
     return true;
 }
 
-static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, mw_mesh **out, mw_error *error)
+static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, mw_job *job, mw_mesh **out,
+                                 mw_error *error)
 {
     const mw_dynamic_tiling *f = &editor->dynamic;
+    mw__job_stage(job, "numbering triangles", 0.3);
     mw_point *point = mw__alloc(r->vertices, sizeof *point);
     uint32_t(*triangle)[3] = mw__alloc(r->triangles, sizeof *triangle);
     mw_status status = MW_OK;
@@ -51,7 +54,10 @@ static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, 
         }
         mw_arrays arrays = {
             .points = &point->x, .point_count = r->vertices, .triangles = triangle, .triangle_count = r->triangles};
-        status = mw_mesh_create(&arrays, &(mw_mesh_options){.threads = editor->threads}, out, error);
+        static const mw_mesh_options plain;
+        mw_job_span outer = mw__job_part(job, 0.7);
+        status = mw__mesh_create(&arrays, &plain, job, out, error);
+        mw__job_part_end(job, outer);
     } else {
         status = mw__fail_memory(error);
     }
@@ -86,10 +92,10 @@ static void renumbering_copy(const mw_dynamic_tiling *f, const renumbering *r, u
     if (vertices) memcpy(vertices, r->vertex, f->vertex_count * sizeof *vertices);
 }
 
-static mw_status editor_make_mesh(const mw_editor *editor, renumbering *r, mw_mesh **out, mw_error *error)
+static mw_status editor_make_mesh(const mw_editor *editor, renumbering *r, mw_job *job, mw_mesh **out, mw_error *error)
 {
     if (!renumbering_create(&editor->dynamic, r)) return mw__fail_memory(error);
-    mw_status status = renumbered_mesh(editor, r, out, error);
+    mw_status status = renumbered_mesh(editor, r, job, out, error);
     if (!status) status = add_renumbered_fields(editor, r, *out, error);
     if (status) {
         mw_mesh_destroy(*out);
@@ -105,8 +111,14 @@ mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t 
     *out = NULL;
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "no editor");
     renumbering r;
-    mw_status status = editor_make_mesh(editor, &r, out, error);
-    if (!status) renumbering_copy(&editor->dynamic, &r, triangles, vertices);
+    mw_job job = mw__job(editor->threads, editor->progress);
+    mw_status status = mw__job_end(&job, editor_make_mesh(editor, &r, &job, out, error), error);
+    if (!status) {
+        renumbering_copy(&editor->dynamic, &r, triangles, vertices);
+    } else {
+        mw_mesh_destroy(*out);
+        *out = NULL;
+    }
     renumbering_release(&r);
     return status;
 }
@@ -149,10 +161,15 @@ static mw_status compaction_fix_edges(const mw_editor *editor, compaction *c, mw
     return status;
 }
 
-static mw_status compaction_create(const mw_editor *editor, compaction *c, mw_error *error)
+static mw_status compaction_create(const mw_editor *editor, compaction *c, mw_job *job, mw_error *error)
 {
-    mw_status status = editor_make_mesh(editor, &c->numbers, &c->mesh, error);
-    if (!status) status = mw__tiling_create(c->mesh, false, &c->tiling, error);
+    mw_job_span outer = mw__job_part(job, 0.4);
+    mw_status status = editor_make_mesh(editor, &c->numbers, job, &c->mesh, error);
+    mw__job_part_end(job, outer);
+    outer = mw__job_part(job, 0.4);
+    if (!status) status = mw__tiling_create(c->mesh, (mw_tiling_options){0}, job, &c->tiling, error);
+    mw__job_part_end(job, outer);
+    mw__job_stage(job, "preparing edits", 0.2);
     if (!status) status = mw__dynamic_create(&c->dynamic, &c->tiling, c->mesh, editor->dynamic.convex, error);
     if (!status) status = compaction_fix_edges(editor, c, error);
     c->dynamic.delaunay = editor->dynamic.delaunay;
@@ -173,7 +190,8 @@ mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint32_t *ve
 {
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "no editor");
     compaction c = {.mesh = NULL};
-    mw_status status = compaction_create(editor, &c, error);
+    mw_job job = mw__job(editor->threads, editor->progress);
+    mw_status status = mw__job_end(&job, compaction_create(editor, &c, &job, error), error);
     if (!status) {
         mw_tiling *tiling = &editor->locator.tiling, old = *tiling;
         renumbering_copy(&editor->dynamic, &c.numbers, triangles, vertices);

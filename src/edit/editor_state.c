@@ -151,7 +151,9 @@ mw_status mw_editor_index(mw_editor *editor, mw_start_kind start, const mw_index
 {
     if (!editor || !index) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs an editor and a place");
     *index = NULL;
-    mw_status status = mw__upkeep_build(&editor->upkeep, start, options, error);
+    mw_job job = mw__job(editor->threads, options ? options->progress : NULL);
+    mw_status status = mw__upkeep_build(&editor->upkeep, start, options, &job, error);
+    status = mw__job_end(&job, status, error);
     if (!status) *index = &editor->upkeep.index[start];
     return status;
 }

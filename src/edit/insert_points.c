@@ -44,12 +44,12 @@ static bool points_follow_curve(const mw_point *p, size_t n)
 
 /* *order: n numbers, owned by the caller in any case; NULL: the order given. False when out of
  * memory. */
-static bool points_choose_order(const mw_point *p, size_t n, uint32_t threads, uint32_t **order)
+static bool points_choose_order(const mw_point *p, size_t n, mw_job *job, uint32_t **order)
 {
     *order = NULL;
     if (points_follow_curve(p, n)) return true;
     *order = mw__alloc(n, sizeof **order);
-    return *order && mw__points_order(p, (uint32_t)n, threads, *order);
+    return *order && mw__points_order(p, (uint32_t)n, job, *order);
 }
 
 /* --- looking ahead ---------------------------------------------------------------------------- */
@@ -168,15 +168,17 @@ static mw_edit insertion_edit(mw_point p)
     return (mw_edit){.kind = MW_EDIT_INSERT, .x = p.x, .y = p.y, .value = NAN};
 }
 
-static mw_status points_insert_all(mw_editor *editor, const point_batch *b, uint32_t *vertices, mw_change *own,
-                                   mw_error *error)
+static mw_status points_insert_all(mw_editor *editor, const point_batch *b, mw_job *job, uint32_t *vertices,
+                                   mw_change *own, mw_error *error)
 {
+    enum { SOME = 64 }; /* insertions between two steps of the job */
     const mw_dynamic_tiling *f = &editor->dynamic;
     const uint32_t before = f->vertex_count;
     mw_error why;
     lookahead look;
     lookahead_begin(&look, editor, b);
     for (size_t i = 0; i < b->n; i++) {
+        if (i % SOME == 0 && !mw__job_step(job, i, b->n)) return mw__fail_memory(error);
         const size_t at = point_batch_index(b, i);
         const mw_edit edit = insertion_edit(b->point[at]);
         uint32_t vertex;
@@ -210,8 +212,8 @@ static bool reserve_insertions(mw_dynamic_tiling *f, size_t n)
     return mw__tile_room_grow(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__cavity_room(f, tiles);
 }
 
-/* Begin the step. If nobody needs to know what changed, and there is room for everything, nothing
- * can fail, and nothing has to be recorded. Unused room takes addresses only, but to reserve it
+/* Begin the step. If nobody needs to know what changed, nobody can cancel, and there is room for
+ * everything, nothing can fail, and nothing has to be recorded. Unused room takes addresses only, but to reserve it
  * takes time: for a few points, more than their records do. */
 enum { FEW = 100 };
 static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_change *change)
@@ -219,21 +221,21 @@ static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_
     enum { TILES_PER_POINT = 4 }; /* changed by an insertion */
     mw_dynamic_tiling *f = &editor->dynamic;
     const mw_edit first = insertion_edit(b->point[point_batch_index(b, 0)]);
-    bool sure = b->n >= FEW && !mw__editor_needs_report(editor, change) && points_are_finite(b) &&
+    bool sure = b->n >= FEW && !editor->progress && !mw__editor_needs_report(editor, change) && points_are_finite(b) &&
                 mw__field_room(editor, b->n) && reserve_insertions(f, b->n);
     if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(f, TILES_PER_POINT * b->n))) return false;
     return mw__journal_begin(f, &first, !sure);
 }
 
-static mw_status points_insert(mw_editor *editor, const point_batch *b, uint32_t *vertices, mw_change *change,
-                               mw_error *error)
+static mw_status points_insert(mw_editor *editor, const point_batch *b, mw_job *job, uint32_t *vertices,
+                               mw_change *change, mw_error *error)
 {
     mw_dynamic_tiling *f = &editor->dynamic;
     mw_change own = {.vertex = MW_NONE};
     const uint64_t refreshes = editor->upkeep.refreshes;
     if (!points_begin_step(editor, b, change)) return mw__fail_memory(error);
     f->step[f->step_count - 1].edits = b->n;
-    mw_status status = points_insert_all(editor, b, vertices, &own, error);
+    mw_status status = points_insert_all(editor, b, job, vertices, &own, error);
     status = mw__editor_conclude(editor, status, &own, change, error);
     if (b->n >= FEW) mw__boundary_release(f); /* no edit will need as much */
     if (status && editor->upkeep.refreshes > refreshes) mw__upkeep_rolled_back(&editor->upkeep);
@@ -261,9 +263,13 @@ mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t 
     if (n == 0) return MW_OK;
     mw_point *own = copy_points(points, n, stride ? stride : 2);
     point_batch b = {own, n, NULL};
-    mw_status status = own && points_choose_order(own, n, editor->threads, &b.order)
-                           ? points_insert(editor, &b, vertices, change, error)
-                           : mw__fail_memory(error);
+    mw_job job = mw__job(editor->threads, editor->progress);
+    mw_job_span outer = mw__job_part(&job, 0.1);
+    bool ordered = own && points_choose_order(own, n, &job, &b.order);
+    mw__job_part_end(&job, outer);
+    mw__job_stage(&job, "inserting points", 0.9);
+    mw_status status = ordered ? points_insert(editor, &b, &job, vertices, change, error) : mw__fail_memory(error);
+    status = mw__job_end(&job, status, error);
     free(b.order);
     free(own);
     return status;

@@ -63,13 +63,16 @@ static mw_status layer_make_dynamic(mw_live_layers *live, uint32_t i, mw_error *
 }
 
 mw_status mw__live_layers_create(mw_live_layers *live, mw_layers *layers, const mw_dynamic_tiling *mesh,
-                                 const mw_layers_options *options, mw_error *error)
+                                 const mw_layers_options *options, mw_job *job, mw_error *error)
 {
     *live = (mw_live_layers){.layers = layers,
                              .mesh = mesh,
                              .ratio = options->ratio > 0 ? options->ratio : MW_LAYER_RATIO,
                              .random = mw__random_seed(options->seed, UINT32_MAX)};
-    mw_status status = mw__layers_create(mesh->tiling, options, layers, error);
+    mw_job_span outer = mw__job_part(job, 0.8);
+    mw_status status = mw__layers_create(mesh->tiling, options, job, layers, error);
+    mw__job_part_end(job, outer);
+    mw__job_stage(job, "linking layers", 0.2);
     layers->live = true;
     for (uint32_t i = 0; i + 1 < layers->count && !status; i++)
         status = link_layers(live, i) ? layer_make_dynamic(live, i, error) : mw__fail_memory(error);

@@ -40,14 +40,14 @@ static void staleness_reset(mw_upkeep *u, mw_start_kind start)
 
 /* Build an index. Layers are the only ones that the editor builds itself. */
 static mw_status upkeep_build_index(mw_upkeep *u, mw_index *fresh, mw_live_layers *live,
-                                    const mw_index_options *options, mw_error *error)
+                                    const mw_index_options *options, mw_job *job, mw_error *error)
 {
     const mw_locator *locator = u->locator;
     if (fresh->start != MW_START_LAYERS)
-        return mw__index_build(fresh, &locator->tiling, locator->low, locator->high, options, error);
+        return mw__index_build(fresh, &locator->tiling, locator->low, locator->high, options, job, error);
     const mw_layers_options own = {
         .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
-    return mw__live_layers_create(live, &fresh->layers, u->dynamic, &own, error);
+    return mw__live_layers_create(live, &fresh->layers, u->dynamic, &own, job, error);
 }
 
 static void upkeep_index_release(mw_index *index, mw_live_layers *live)
@@ -58,7 +58,8 @@ static void upkeep_index_release(mw_index *index, mw_live_layers *live)
         mw__index_release(index);
 }
 
-mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_options *options, mw_error *error)
+mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_options *options, mw_job *job,
+                           mw_error *error)
 {
     static const mw_index_options defaults;
     if (!mw_start_has_index(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
@@ -66,7 +67,8 @@ mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_opt
     mw_index fresh = {.start = start};
     mw_live_layers live = {0};
     double begin = mw__seconds();
-    mw_status status = upkeep_build_index(u, &fresh, &live, options, error);
+    mw_status status = upkeep_build_index(u, &fresh, &live, options, job, error);
+    if (!status && mw__job_stopped(job)) status = mw__fail_memory(error);
     if (status) {
         upkeep_index_release(&fresh, &live);
         return status;
@@ -75,6 +77,7 @@ mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_opt
     upkeep_index_release(&u->index[start], &u->live);
     u->index[start] = fresh;
     u->options[start] = *options;
+    u->options[start].progress = NULL; /* of this call only */
     if (start == MW_START_LAYERS) {
         u->live = live;
         mw__live_layers_attach(&u->live, &u->index[start].layers);
@@ -85,14 +88,15 @@ mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_opt
 
 /* Build the guide, and find what else follows from measuring the tiling. False when out of memory;
  * the old guide stays then. */
-static bool build_guide(mw_upkeep *u)
+static bool build_guide(mw_upkeep *u, mw_job *job)
 {
     mw_index fresh;
     const mw_caches caches = mw__caches();
-    mw__locator_measure(u->locator);
+    mw__locator_measure(u->locator, job);
+    if (mw__job_stopped(job)) return false;
     u->large = mw__cache_level_of_mesh(u->locator, &caches) == MW_CACHE_NONE;
     staleness_reset(u, MW_START_AUTO);
-    bool done = mw__locator_guide(u->locator, &fresh);
+    bool done = mw__locator_guide(u->locator, job, &fresh);
     if (done) {
         mw__index_release(&u->locator->guide);
         u->locator->guide = fresh;
@@ -102,10 +106,11 @@ static bool build_guide(mw_upkeep *u)
     return done;
 }
 
-mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_dynamic_tiling *dynamic, mw_error *error)
+mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_dynamic_tiling *dynamic, mw_job *job,
+                            mw_error *error)
 {
     *u = (mw_upkeep){.locator = locator, .dynamic = dynamic};
-    return build_guide(u) ? MW_OK : mw__fail_memory(error);
+    return build_guide(u, job) ? MW_OK : mw__fail_memory(error);
 }
 
 void mw__upkeep_release(mw_upkeep *u)
@@ -136,7 +141,8 @@ static void upkeep_refresh(mw_upkeep *u, mw_start_kind start)
     if (!index_is_built(u, start)) return;
     const mw_index_options options = u->options[start];
     staleness_reset(u, start);
-    bool done = start == MW_START_AUTO ? build_guide(u) : mw__upkeep_build(u, start, &options, NULL) == MW_OK;
+    bool done = start == MW_START_AUTO ? build_guide(u, MW_ALONE)
+                                       : mw__upkeep_build(u, start, &options, MW_ALONE, NULL) == MW_OK;
     u->refreshes += done;
 }
 

@@ -5,15 +5,15 @@
 #include <stdlib.h>
 
 static mw_status index_build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
-                                    mw_error *error)
+                                    mw_job *job, mw_error *error)
 {
     mw_layers_options own = {
         .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
-    return mw__layers_create(tiling, &own, layers, error);
+    return mw__layers_create(tiling, &own, job, layers, error);
 }
 
 mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
-                          const mw_index_options *options, mw_error *error)
+                          const mw_index_options *options, mw_job *job, mw_error *error)
 {
     mw_status status = MW_RESERVED_CHECK(mw_index_options, options, error);
     if (status) return status;
@@ -21,17 +21,19 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
     uint32_t cells = mw__cells_bound(options->cells, tiling->tri_count);
     bool done = false;
     switch (index->start) {
-    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, cells); break;
+    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, cells, job); break;
     case MW_START_TWO_LEVEL_GRID:
-        done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, cells);
+        done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, cells, job);
         break;
-    case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, cells); break;
-    case MW_START_BUCKETS: done = mw__vertex_buckets_create(&index->vertex_buckets, tiling, low, high, cells); break;
+    case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, cells, job); break;
+    case MW_START_BUCKETS:
+        done = mw__vertex_buckets_create(&index->vertex_buckets, tiling, low, high, cells, job);
+        break;
     case MW_START_TRIANGLE_BUCKETS:
-        done = mw__triangle_buckets_create(&index->triangle_buckets, tiling, low, high, cells);
+        done = mw__triangle_buckets_create(&index->triangle_buckets, tiling, low, high, cells, job);
         break;
-    case MW_START_KD_TREE: done = mw__kd_tree_create(&index->kd_tree, tiling); break;
-    case MW_START_LAYERS: return index_build_layers(&index->layers, tiling, options, error);
+    case MW_START_KD_TREE: done = mw__kd_tree_create(&index->kd_tree, tiling, job); break;
+    case MW_START_LAYERS: return index_build_layers(&index->layers, tiling, options, job, error);
     default: break;
     }
     return done ? MW_OK : mw__fail_memory(error);

@@ -28,9 +28,9 @@ struct mw_index {
 };
 
 /* Build what the start of an index, which is set, is made of, for a tiling of this extent; on
- * failure it may be released. */
+ * failure it may be released. Stages of the present part of the job. */
 mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
-                          const mw_index_options *options, mw_error *error);
+                          const mw_index_options *options, mw_job *job, mw_error *error);
 
 /* Release what an index holds; how much that is. */
 void mw__index_release(mw_index *index);

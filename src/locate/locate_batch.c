@@ -201,7 +201,7 @@ static mw_status batch_run(locate_batch *b, size_t n, const mw_query_options *op
     b->lanes = b->asked ? b->asked : batch_choose_lanes(b, n);
     if (b->fast) b->lanes = b->asked ? b->asked - b->asked % MW_GROUP_LANES : batch_limit_lanes(b->lanes, n);
     b->queries.sort = start == MW_START_SORTED ? batch_sort : NULL;
-    return mw__batch_run(&b->queries, n, options->threads, counters, error);
+    return mw__batch_run(&b->queries, n, options->threads, options->progress, counters, error);
 }
 
 mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,

@@ -60,12 +60,11 @@ static bool locator_wants_ghosts(const mw_mesh *mesh, const mw_locator_options *
     return options->queries == 0 || options->queries > mesh->tri_count / TRIANGLES_PER_QUERY;
 }
 
-static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_options *options, mw_error *error)
+static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_options *options, mw_job *job,
+                                     mw_error *error)
 {
-    mw_tiling_options how = {.any = options->any,
-                             .without_ghosts = !locator_wants_ghosts(locator->mesh, options),
-                             .threads = options->threads};
-    return mw__tiling_create_with(locator->mesh, how, &locator->tiling, error);
+    mw_tiling_options how = {.any = options->any, .without_ghosts = !locator_wants_ghosts(locator->mesh, options)};
+    return mw__tiling_create(locator->mesh, how, job, &locator->tiling, error);
 }
 
 /* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie
@@ -74,25 +73,27 @@ static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_optio
 static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, bool even,
                                uint32_t cells)
 {
+    mw_job *job = plan->job;
     const mw_tiling *tiling = &locator->tiling;
     mw_curve curve = {0};
-    bool done = tiling->tile_of || mw__curve_create(&curve, tiling, locator->low, locator->high, 0);
+    mw_job_span outer = mw__job_part(job, 0.2);
+    bool done = tiling->tile_of || mw__curve_create(&curve, tiling, locator->low, locator->high, 0, job);
+    mw__job_part_end(job, outer);
     if (curve.regular) {
-        mw__grid_end(&guide->grid, plan, true);
+        done = mw__grid_end(&guide->grid, plan, true);
         curve.sparse = guide->grid;
         *guide = (mw_index){.start = MW_START_CURVE, .curve = curve};
-        return true;
+        return done;
     }
     mw__curve_release(&curve);
     if (even) {
-        mw__grid_end(&guide->grid, plan, false);
-        return done;
+        return mw__grid_end(&guide->grid, plan, false) && done;
     }
     free(plan->site);
     mw__index_release(guide);
     *guide = (mw_index){.start = tiling->tile_of ? MW_START_TWO_LEVEL_GRID : MW_START_AUTO};
     if (!tiling->tile_of) return done;
-    return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells);
+    return mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells, job);
 }
 
 /* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of
@@ -107,7 +108,7 @@ static uint32_t guide_cells(const mw_tiling *tiling)
     return tiling->tri_count / (tiling->tile_of ? TRIANGLES_PER_CELL / FINER : TRIANGLES_PER_CELL) + 1;
 }
 
-bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
+bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
     /* Most cells are empty where those that have tiles have more than UNEVEN of them on the
      * average. In a mesh that is edited a cell is made four where not one in SPARSE has tiles: an
@@ -118,15 +119,15 @@ bool mw__locator_guide(const mw_locator *locator, mw_index *guide)
     *guide = (mw_index){0};
     if (tiling->border_loops || !tiling->embedding) return true;
     uint32_t cells = guide_cells(tiling);
-    mw_grid_plan plan = {.tiling = tiling, .stride = STRIDE};
+    mw_grid_plan plan = {.tiling = tiling, .stride = STRIDE, .job = job};
     guide->start = MW_START_GRID;
     if (!mw__grid_begin(&guide->grid, &plan, locator->low, locator->high, cells)) return false;
     bool even = plan.taken >= tiling->tri_count / UNEVEN;
     if (plan.crowded || !even) return guide_make_crowded(locator, guide, &plan, even, cells);
-    mw__grid_end(&guide->grid, &plan, false);
+    if (!mw__grid_end(&guide->grid, &plan, false)) return false;
     if (tiling->tile_of && plan.taken < mw__lattice_cells(&guide->grid.lattice) / SPARSE)
-        mw__grid_refine(&guide->grid, tiling, STRIDE); /* or it stays as it is */
-    return true;
+        mw__grid_refine(&guide->grid, tiling, STRIDE, job); /* or it stays as it is */
+    return !mw__job_stopped(job);
 }
 
 static bool are_slots_numbers(const mw_tiling *tiling)
@@ -137,11 +138,12 @@ static bool are_slots_numbers(const mw_tiling *tiling)
     return home > probes / 2;
 }
 
-void mw__locator_measure(mw_locator *locator)
+void mw__locator_measure(mw_locator *locator, mw_job *job)
 {
     static const double origin[2] = {0, 0}, axis[2][2] = {{1, 0}, {0, 1}};
     const mw_tiling *tiling = &locator->tiling;
-    mw__tiling_extent(tiling, origin, axis, locator->low, locator->high);
+    mw__tiling_extent(tiling, origin, axis, job, locator->low, locator->high);
+    if (mw__job_stopped(job)) return;
     locator_choose_walks(locator);
     locator->tiling.slots_are_numbers = tiling->tile_of && are_slots_numbers(tiling);
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
@@ -151,11 +153,14 @@ void mw__locator_measure(mw_locator *locator)
     locator->crossings_per_length = expected_crossings(tiling->tri_count, width, height);
 }
 
-static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *options, mw_error *error)
+static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *options, mw_job *job, mw_error *error)
 {
     mw_tiling *tiling = &locator->tiling;
-    mw_status status = locator_make_tiling(locator, options, error);
+    mw_job_span outer = mw__job_part(job, 0.8);
+    mw_status status = locator_make_tiling(locator, options, job, error);
+    mw__job_part_end(job, outer);
     if (status) return status;
+    mw__job_stage(job, "finding border loops", 0.05);
     status = mw__tiling_finish(tiling, error);
     if (status == MW_OK && options->areas) status = mw__tiling_areas(tiling, error);
     if (status) return status;
@@ -167,12 +172,17 @@ static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *
                  "of several triangles that contain it any may be reported",
                  first);
     }
+    mw__job_stage(job, "building a tree of the border", 0.05);
     if (options->border) {
         if (!mw__border_tree_create(&locator->border_tree, locator->mesh, tiling)) return mw__fail_memory(error);
         locator->has_border = true;
     }
-    mw__locator_measure(locator);
-    return mw__locator_guide(locator, &locator->guide) ? MW_OK : mw__fail_memory(error);
+    mw__job_stage(job, "measuring the extent", 0.02);
+    mw__locator_measure(locator, job);
+    outer = mw__job_part(job, 0.08);
+    bool done = !mw__job_stopped(job) && mw__locator_guide(locator, job, &locator->guide);
+    mw__job_part_end(job, outer);
+    return done ? MW_OK : mw__fail_memory(error);
 }
 
 mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options, mw_locator **out, mw_error *error)
@@ -190,7 +200,9 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     mw_locator *locator = mw__calloc(1, sizeof *locator);
     if (!locator) return mw__fail_memory(error);
     locator->mesh = mesh;
-    status = locator_prepare(locator, options, error);
+    mw_job job = mw__job(options->threads, options->progress);
+    locator->threads = options->threads;
+    status = mw__job_end(&job, locator_prepare(locator, options, &job, error), error);
     if (status)
         mw_locator_destroy(locator);
     else
@@ -210,8 +222,10 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const 
     if (!index) return mw__fail_memory(error);
     index->start = start;
     double begin = mw__seconds();
-    mw_status status =
-        mw__index_build(index, &locator->tiling, locator->low, locator->high, options ? options : &defaults, error);
+    if (!options) options = &defaults;
+    mw_job job = mw__job(locator->threads, options->progress);
+    mw_status status = mw__index_build(index, &locator->tiling, locator->low, locator->high, options, &job, error);
+    status = mw__job_end(&job, status, error);
     index->seconds = mw__seconds() - begin;
     if (status)
         mw_index_destroy(index);

@@ -3,6 +3,7 @@
 #define MW_SRC_LOCATE_LOCATOR_H
 
 #include "tiling/tiling.h"
+#include "base/job.h"
 #include "locate/border_tree.h"
 #include "locate/index.h"
 #include "start/start.h"
@@ -30,15 +31,16 @@ struct mw_locator {
     /* Raised by each edit of the mesh, its upper half where triangles get other names; else 0. */
     uint64_t epoch;
     char promise[640]; /* which promise is void; empty for an embedding */
+    uint32_t threads;  /* of the options, for its indices */
 };
 
 /* Look at the tiling and fill in what follows from it: extent, density, default walks, the tile in
- * the middle. */
-void mw__locator_measure(mw_locator *locator);
+ * the middle. Steps of the present stage; if the job is cancelled, some of it is missing. */
+void mw__locator_measure(mw_locator *locator, mw_job *job);
 
-/* Build the guide of a locator that has been measured. False when out of memory; it may be released
- * in either case. */
-bool mw__locator_guide(const mw_locator *locator, mw_index *guide);
+/* Build the guide of a locator that has been measured. False when out of memory, or
+ * cancelled; it may be released in either case. Stages of the present part of the job. */
+bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide);
 
 /* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads
  * nearer. A long edge would not tell, as many small tiles may lie beside it; nor does a tile as

@@ -113,27 +113,34 @@ static uint32_t bucket_writer_fill(const mw_buckets *buckets, const bucket_sourc
     return MW_NONE;
 }
 
-bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays, bool all_finite, uint32_t *bad)
+typedef struct bucket_filling {
+    const mw_buckets *buckets;
+    bucket_source source;
+    _Atomic uint32_t bad; /* the first unusable triangle found so far, or MW_NONE */
+} bucket_filling;
+
+static void bucket_fill_share(void *work, uint64_t share, uint32_t member)
+{
+    bucket_filling *filling = work;
+    (void)member;
+    uint32_t found = bucket_writer_fill(filling->buckets, &filling->source, (uint32_t)share);
+    uint32_t known = atomic_load(&filling->bad);
+    while (found < known && !atomic_compare_exchange_weak(&filling->bad, &known, found)) {
+    }
+}
+
+bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays, bool all_finite, mw_job *job,
+                      uint32_t *bad)
 {
     *bad = MW_NONE;
+    mw__job_stage(job, "distributing triangles", 0.2);
     buckets->next_block = mw__alloc(writer_first_block(buckets, buckets->writers), sizeof *buckets->next_block);
     buckets->bucket = mw__calloc((size_t)buckets->writers * buckets->ranges, sizeof *buckets->bucket);
     if (!buckets->next_block || !buckets->bucket) return false;
-    const bucket_source s = {mesh, arrays, all_finite};
-    int team = (int)buckets->writers;
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
-#endif
-    for (uint32_t i = 0; i < buckets->writers; i++) {
-        uint32_t found = bucket_writer_fill(buckets, &s, i);
-        if (found == MW_NONE) continue;
-#ifdef _OPENMP
-#pragma omp critical(mw_buckets)
-#endif
-        if (found < *bad) *bad = found;
-    }
-    return true;
+    bucket_filling filling = {buckets, {mesh, arrays, all_finite}, MW_NONE};
+    bool done = mw__job_chunks(job, buckets->writers, buckets->writers, bucket_fill_share, &filling);
+    *bad = filling.bad;
+    return done;
 }
 
 void mw__buckets_release(mw_buckets *buckets)

@@ -6,6 +6,7 @@
 #ifndef MW_SRC_MESH_BUCKETS_H
 #define MW_SRC_MESH_BUCKETS_H
 
+#include "base/job.h"
 #include "mesh/mesh.h"
 
 /* A triangle: its vertices by slot, and its number in the arrays. */
@@ -38,8 +39,9 @@ size_t mw__buckets_capacity(const mw_buckets *buckets);
 
 /* Distribute the triangles of the arrays to buckets. The mesh has its vertices already. *bad
  * becomes the first unusable triangle, and then the buckets are unusable, too; otherwise MW_NONE.
- * all_finite: are all vertices finite? Returns false when out of memory. Release in either case. */
-bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays, bool all_finite,
+ * all_finite: are all vertices finite? A stage that takes 0.2 of the present part. Returns false
+ * when out of memory, or cancelled. Release in either case. */
+bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays, bool all_finite, mw_job *job,
                       uint32_t *bad);
 void mw__buckets_release(mw_buckets *buckets);
 

@@ -5,7 +5,6 @@
  * are sorted (partitions.c). */
 #include "mesh/connect.h"
 
-#include "base/threads.h"
 #include "mesh/partition_links.h"
 
 #include <stdlib.h>
@@ -73,16 +72,16 @@ typedef struct connect_work {
     uint32_t n, vertex_count, shift, partitions;
     uint32_t *half;  /* half-edges by the partitions of their lower vertices */
     uint32_t *first; /* of each partition */
-    int team;
+    uint32_t team;
     connect_worker *worker;
 } connect_work;
 
-static uint32_t connect_share_begin(const connect_work *w, int share)
+static uint32_t connect_share_begin(const connect_work *w, uint32_t share)
 {
-    return (uint32_t)((uint64_t)w->n * (uint32_t)share / (uint32_t)w->team);
+    return (uint32_t)((uint64_t)w->n * share / w->team);
 }
 
-static void connect_count_share(const connect_work *w, int share)
+static void connect_count_share(const connect_work *w, uint32_t share)
 {
     uint32_t *next = w->worker[share].next;
     for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1); t < end; t++)
@@ -95,7 +94,7 @@ static void connect_sum_counts(const connect_work *w)
     uint32_t sum = 0;
     for (uint32_t p = 0; p < w->partitions; p++) {
         w->first[p] = sum;
-        for (int i = 0; i < w->team; i++) {
+        for (uint32_t i = 0; i < w->team; i++) {
             uint32_t here = w->worker[i].next[p];
             w->worker[i].next[p] = sum;
             sum += here;
@@ -104,7 +103,7 @@ static void connect_sum_counts(const connect_work *w)
     w->first[w->partitions] = sum;
 }
 
-static void connect_fill_share(const connect_work *w, int share)
+static void connect_fill_share(const connect_work *w, uint32_t share)
 {
     uint32_t *next = w->worker[share].next;
     for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1); t < end; t++)
@@ -121,35 +120,33 @@ static void connect_link_partition(const connect_work *w, connect_worker *worker
     worker->done = worker->done && mw__partition_link(w->tri, partition, all, &worker->workspace, &worker->links);
 }
 
-/* The work of one thread. */
-static void connect_work_on(const connect_work *w, connect_worker *worker)
+static void connect_count_chunk(void *work, uint64_t share, uint32_t member)
 {
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-    for (int i = 0; i < w->team; i++) connect_count_share(w, i);
-#ifdef _OPENMP
-#pragma omp single
-#endif
-    connect_sum_counts(w);
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-    for (int i = 0; i < w->team; i++) connect_fill_share(w, i);
-#ifdef _OPENMP
-#pragma omp for schedule(dynamic)
-#endif
-    for (uint32_t p = 0; p < w->partitions; p++) connect_link_partition(w, worker, p);
+    (void)member;
+    connect_count_share(work, (uint32_t)share);
 }
 
-static void connect_run_team(const connect_work *w)
+static void connect_fill_chunk(void *work, uint64_t share, uint32_t member)
 {
-#ifdef _OPENMP
-#pragma omp parallel num_threads(w->team) if (w->team > 1)
-    connect_work_on(w, &w->worker[omp_get_thread_num()]);
-#else
-    connect_work_on(w, &w->worker[0]);
-#endif
+    (void)member;
+    connect_fill_share(work, (uint32_t)share);
+}
+
+static void connect_link_chunk(void *work, uint64_t p, uint32_t member)
+{
+    const connect_work *w = work;
+    connect_link_partition(w, &w->worker[member], (uint32_t)p);
+}
+
+static bool connect_run(connect_work *w, mw_job *job)
+{
+    mw__job_stage(job, "counting edges", 0.1);
+    if (!mw__job_chunks(job, w->team, w->team, connect_count_chunk, w)) return false;
+    connect_sum_counts(w);
+    mw__job_stage(job, "distributing edges", 0.4);
+    if (!mw__job_chunks(job, w->team, w->team, connect_fill_chunk, w)) return false;
+    mw__job_stage(job, "linking triangles", 0.5);
+    return mw__job_chunks(job, w->team, w->partitions, connect_link_chunk, w);
 }
 
 static bool connect_work_create(connect_work *w)
@@ -158,9 +155,9 @@ static bool connect_work_create(connect_work *w)
     w->partitions = (w->vertex_count >> w->shift) + 1;
     w->half = mw__alloc_lines(3 * (size_t)w->n, sizeof *w->half);
     w->first = mw__alloc((size_t)w->partitions + 1, sizeof *w->first);
-    w->worker = mw__calloc((size_t)w->team, sizeof *w->worker);
+    w->worker = mw__calloc(w->team, sizeof *w->worker);
     bool done = w->half && w->first && w->worker;
-    for (int i = 0; i < w->team && done; i++) {
+    for (uint32_t i = 0; i < w->team && done; i++) {
         w->worker[i] = (connect_worker){
             .next = mw__calloc(w->partitions, sizeof(uint32_t)), .links = mw__no_links(), .done = true};
         done = w->worker[i].next;
@@ -170,7 +167,7 @@ static bool connect_work_create(connect_work *w)
 
 static void connect_work_release(connect_work *w)
 {
-    for (int i = 0; i < w->team && w->worker; i++) {
+    for (uint32_t i = 0; i < w->team && w->worker; i++) {
         free(w->worker[i].next);
         mw__link_workspace_release(&w->worker[i].workspace);
     }
@@ -179,14 +176,12 @@ static void connect_work_release(connect_work *w)
     free(w->half);
 }
 
-static bool connect_by_partitions(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads,
-                                  mw_links *links)
+static bool connect_by_partitions(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_job *job, mw_links *links)
 {
     connect_work w = {.tri = tri, .n = n, .vertex_count = vertex_count, .shift = PARTITION_SHIFT};
-    w.team = mw__team(threads, n / WORTHWHILE + 1);
-    bool done = connect_work_create(&w);
-    if (done) connect_run_team(&w);
-    for (int i = 0; i < w.team && done; i++) {
+    w.team = mw__job_team(job, n / WORTHWHILE + 1);
+    bool done = connect_work_create(&w) && connect_run(&w, job);
+    for (uint32_t i = 0; i < w.team && done; i++) {
         done = w.worker[i].done;
         mw__links_add(tri, &w.worker[i].links, links);
     }
@@ -194,12 +189,12 @@ static bool connect_by_partitions(mw_triangle *tri, uint32_t n, uint32_t vertex_
     return done;
 }
 
-bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t threads, mw_links *links)
+bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_job *job, mw_links *links)
 {
     mw_links found = mw__no_links();
     bool few = n < WORTHWHILE && vertex_count < WORTHWHILE;
-    bool done = few ? connect_in_cache(tri, n, vertex_count, &found)
-                    : connect_by_partitions(tri, n, vertex_count, threads, &found);
+    bool done =
+        few ? connect_in_cache(tri, n, vertex_count, &found) : connect_by_partitions(tri, n, vertex_count, job, &found);
     if (links) *links = found;
     return done;
 }

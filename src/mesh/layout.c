@@ -4,7 +4,6 @@
  * range is sorted and linked in cache (partitions.c). */
 #include "mesh/layout.h"
 
-#include "base/threads.h"
 #include "mesh/arrays.h"
 #include "mesh/point_order.h"
 #include "mesh/partitions.h"
@@ -12,6 +11,7 @@
 #include <stdlib.h>
 
 enum {
+    AHEAD = 16, /* points: how far ahead memory is asked for */
     MOST_THREADS = 64,
     PARTITION_SHIFT = 12,     /* a range has at least 2^12 vertices */
     MOST_PARTITIONS = 1 << 12 /* so that the caches can hold the ends of all */
@@ -62,37 +62,49 @@ bool mw__points_are_scattered(const mw_point *points, uint32_t n)
 
 /* --- vertices --- */
 
-bool mw__mesh_set_points(mw_mesh *mesh, const mw_point *given, uint32_t *order, uint32_t threads)
+typedef struct point_setting {
+    mw_mesh *mesh;
+    const mw_point *given;
+    const uint32_t *order;
+} point_setting;
+
+static void points_set(void *work, uint64_t from, uint64_t to)
 {
-    enum { AHEAD = 16, WORTHWHILE = 1 << 14 };
+    const point_setting *s = work;
+    const uint32_t *order = s->order;
+    uint64_t n = s->mesh->point_count;
+    for (uint64_t i = from; i < to; i++) {
+        if (order && i + AHEAD < n) __builtin_prefetch(&s->given[order[i + AHEAD]]);
+        s->mesh->point[i] = s->given[order ? order[i] : i];
+        if (order) s->mesh->vertex_slot[order[i]] = (uint32_t)i;
+    }
+}
+
+bool mw__mesh_set_points(mw_mesh *mesh, const mw_point *given, uint32_t *order, mw_job *job)
+{
     uint32_t n = mesh->point_count;
     mesh->vertex_number = order;
     mesh->point = mw__alloc_lines(n, sizeof *mesh->point);
     mesh->vertex_slot = order ? mw__alloc_lines(n, sizeof *mesh->vertex_slot) : NULL;
     if (!mesh->point || (order && !mesh->vertex_slot)) return false;
-    int team = mw__team(threads, n / WORTHWHILE + 1);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
-#endif
-    for (uint32_t i = 0; i < n; i++) {
-        if (order && i + AHEAD < n) __builtin_prefetch(&given[order[i + AHEAD]]);
-        mesh->point[i] = given[order ? order[i] : i];
-        if (order) mesh->vertex_slot[order[i]] = i;
-    }
-    return true;
+    point_setting setting = {mesh, given, order};
+    return mw__job_ranges(job, n, points_set, &setting);
 }
 
-bool mw__mesh_lay_out_vertices(mw_mesh *mesh, uint32_t threads)
+bool mw__mesh_lay_out_vertices(mw_mesh *mesh, mw_job *job)
 {
     if (mesh->vertex_number || !mw__points_are_scattered(mesh->point, mesh->point_count)) return true;
     uint32_t *order = mw__alloc_lines(mesh->point_count, sizeof *order);
-    if (!order || !mw__points_order(mesh->point, mesh->point_count, threads, order)) {
+    mw_job_span outer = mw__job_part(job, 0.7);
+    bool ordered = order && mw__points_order(mesh->point, mesh->point_count, job, order);
+    mw__job_part_end(job, outer);
+    if (!ordered) {
         free(order);
         return false;
     }
     mw_point *given = mesh->point;
-    bool done = mw__mesh_set_points(mesh, given, order, threads);
+    mw__job_stage(job, "copying points", 0.3);
+    bool done = mw__mesh_set_points(mesh, given, order, job);
     for (uint32_t t = 0; t < mesh->tri_count && done; t++)
         for (int k = 0; k < 4; k++) mesh->tri[t].v[k] = mesh->vertex_slot[mesh->tri[t].v[k]];
     free(given);
@@ -104,47 +116,53 @@ bool mw__mesh_lay_out_vertices(mw_mesh *mesh, uint32_t threads)
 typedef struct mesh_layout {
     mw_mesh *mesh;
     const mw_arrays *arrays;
-    uint32_t threads;
-    int team;
+    mw_job *job;
     bool all_finite;
     void *scratch; /* for keys, then for buckets */
     mw_buckets buckets;
 } mesh_layout;
 
-/* The points of the arrays: the caller's own array if it is packed. *copy is to be released. */
-static const mw_point *layout_read_points(const mesh_layout *l, mw_point **copy)
+typedef struct point_reading {
+    const double *from;
+    size_t stride;
+    mw_point *to;
+} point_reading;
+
+static void points_read(void *work, uint64_t from, uint64_t to)
 {
-    uint32_t n = l->mesh->point_count;
-    size_t stride = l->arrays->point_stride;
-    const double *from = l->arrays->points;
+    const point_reading *r = work;
+    for (uint64_t i = from; i < to; i++) r->to[i] = (mw_point){r->from[i * r->stride], r->from[i * r->stride + 1]};
+}
+
+const mw_point *mw__points_read(const double *from, size_t stride, uint32_t n, mw_job *job, mw_point **copy)
+{
     *copy = NULL;
     if (stride == 0 || stride == 2) return (const mw_point *)from;
     *copy = mw__alloc_lines(n, sizeof **copy);
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1)
-#endif
-    for (uint32_t i = 0; i < n; i++)
-        if (*copy) (*copy)[i] = (mw_point){from[i * stride], from[i * stride + 1]};
-    return *copy;
+    point_reading reading = {from, stride, *copy};
+    return *copy && mw__job_ranges(job, n, points_read, &reading) ? *copy : NULL;
 }
 
+typedef struct point_copying {
+    mw_mesh *mesh;
+    const mw_point *given;
+    const mw_key *order;
+} point_copying;
+
 /* Copy the points in their new order; set slots and numbers. */
-static void layout_copy_points(const mesh_layout *l, const mw_point *given, const mw_key *order)
+static void points_copy(void *work, uint64_t from, uint64_t to)
 {
-    enum { AHEAD = 16 };
-    mw_mesh *mesh = l->mesh;
-    uint32_t n = mesh->point_count;
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(l->team) if (l->team > 1)
-#endif
-    for (uint32_t i = 0; i < n; i++) {
+    const point_copying *c = work;
+    mw_mesh *mesh = c->mesh;
+    uint64_t n = mesh->point_count;
+    for (uint64_t i = from; i < to; i++) {
         if (i + AHEAD < n) {
-            __builtin_prefetch(&given[order[i + AHEAD].item]);
-            __builtin_prefetch(&mesh->vertex_slot[order[i + AHEAD].item], 1);
+            __builtin_prefetch(&c->given[c->order[i + AHEAD].item]);
+            __builtin_prefetch(&mesh->vertex_slot[c->order[i + AHEAD].item], 1);
         }
-        mesh->point[i] = given[order[i].item];
-        mesh->vertex_number[i] = order[i].item;
-        mesh->vertex_slot[order[i].item] = i;
+        mesh->point[i] = c->given[c->order[i].item];
+        mesh->vertex_number[i] = c->order[i].item;
+        mesh->vertex_slot[c->order[i].item] = (uint32_t)i;
     }
 }
 
@@ -158,13 +176,19 @@ static bool layout_vertices(mesh_layout *l)
     if (!mesh->point || !mesh->vertex_number || !mesh->vertex_slot) return false;
     mw_point *copy;
     mw_key *keys = l->scratch;
-    const mw_point *given = layout_read_points(l, &copy);
+    mw__job_stage(l->job, "reading points", 0.05);
+    const mw_point *given = mw__points_read(l->arrays->points, l->arrays->point_stride, n, l->job, &copy);
     bool done = given || n == 0;
     if (done) {
-        mw_extent extent = mw__points_extent(given, n, l->threads, &l->all_finite);
-        done = mw__points_sort(given, n, &extent, l->threads, keys, keys + n);
+        mw__job_stage(l->job, "measuring the extent", 0.05);
+        mw_extent extent = mw__points_extent(given, n, l->job, &l->all_finite);
+        mw_job_span outer = mw__job_part(l->job, 0.3);
+        done = mw__points_sort(given, n, &extent, l->job, keys, keys + n);
+        mw__job_part_end(l->job, outer);
     }
-    if (done) layout_copy_points(l, given, keys);
+    mw__job_stage(l->job, "copying points", 0.1);
+    point_copying copying = {mesh, given, keys};
+    done = done && mw__job_ranges(l->job, n, points_copy, &copying);
     free(copy);
     return done;
 }
@@ -172,7 +196,8 @@ static bool layout_vertices(mesh_layout *l)
 static void layout_choose_buckets(mesh_layout *l)
 {
     mw_buckets *p = &l->buckets;
-    *p = (mw_buckets){.shift = PARTITION_SHIFT, .writers = (uint32_t)l->team, .triangle_count = l->mesh->tri_count};
+    *p = (mw_buckets){
+        .shift = PARTITION_SHIFT, .writers = mw__job_team(l->job, MOST_THREADS), .triangle_count = l->mesh->tri_count};
     while (l->mesh->point_count >> p->shift >= MOST_PARTITIONS) p->shift++;
     p->ranges = (l->mesh->point_count >> p->shift) + 1;
 }
@@ -189,14 +214,14 @@ static bool layout_allocate(mesh_layout *l)
     return l->scratch && mesh->tri && mesh->triangle_slot;
 }
 
-mw_status mw__mesh_lay_out(mw_mesh *mesh, const mw_arrays *arrays, uint32_t threads, mw_links *links, mw_error *error)
+mw_status mw__mesh_lay_out(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job, mw_links *links, mw_error *error)
 {
-    mesh_layout l = {.mesh = mesh, .arrays = arrays, .threads = threads, .team = mw__team(threads, MOST_THREADS)};
+    mesh_layout l = {.mesh = mesh, .arrays = arrays, .job = job};
     layout_choose_buckets(&l);
     uint32_t bad = MW_NONE;
     bool done = layout_allocate(&l) && layout_vertices(&l) &&
-                mw__buckets_fill(&l.buckets, mesh, arrays, l.all_finite, &bad) &&
-                (bad != MW_NONE || mw__partitions_build(mesh, &l.buckets, links));
+                mw__buckets_fill(&l.buckets, mesh, arrays, l.all_finite, job, &bad) &&
+                (bad != MW_NONE || mw__partitions_build(mesh, &l.buckets, job, links));
     mw__buckets_release(&l.buckets);
     free(l.scratch);
     if (!done) return mw__fail_memory(error);

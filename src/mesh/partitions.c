@@ -7,9 +7,9 @@
  * and all partitions before it are sorted. */
 #include "mesh/partitions.h"
 
-#include "base/threads.h"
 #include "mesh/partition_links.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 
 /* The strays for a partition. Each is stored in the buckets, in place of a triangle that has been
@@ -35,10 +35,13 @@ typedef struct partition_worker {
 typedef struct partition_work {
     mw_mesh *mesh;
     const mw_buckets *buckets;
-    uint32_t *first; /* first triangle of each partition */
-    bool *sorted;    /* per partition */
+    uint32_t *first;              /* first triangle of each partition */
+    bool *sorted;                 /* per partition */
+    _Atomic uint32_t next_sorted; /* the partition to sort next */
     /* Partitions before `ready` can be linked; those before `next` are taken. */
     uint32_t ready, next;
+    pthread_mutex_t lock; /* of `sorted`, `ready` and `next` */
+    mw_job *job;
     uint32_t team;
     partition_worker *worker; /* of each thread */
 } partition_work;
@@ -136,14 +139,11 @@ static void partition_sort(const partition_work *w, partition_worker *worker, ui
 static uint32_t partition_take(partition_work *w, uint32_t sorted)
 {
     uint32_t taken = MW_NONE;
-#ifdef _OPENMP
-#pragma omp critical(mw_partitions)
-#endif
-    {
-        if (sorted != MW_NONE) w->sorted[sorted] = true;
-        while (w->ready < w->buckets->ranges && w->sorted[w->ready]) w->ready++;
-        if (w->next < w->ready) taken = w->next++;
-    }
+    pthread_mutex_lock(&w->lock);
+    if (sorted != MW_NONE) w->sorted[sorted] = true;
+    while (w->ready < w->buckets->ranges && w->sorted[w->ready]) w->ready++;
+    if (w->next < w->ready) taken = w->next++;
+    pthread_mutex_unlock(&w->lock);
     return taken;
 }
 
@@ -178,28 +178,18 @@ static void partition_link_taken(const partition_work *w, partition_worker *work
 
 /* The work of one thread. Threads sort partitions in order. In between they link partitions that
  * are still in cache. */
-static void partition_work_on(partition_work *w, partition_worker *worker)
+static void partition_member_run(void *work, uint32_t member)
 {
-    uint32_t taken;
-#ifdef _OPENMP
-#pragma omp for schedule(monotonic : dynamic)
-#endif
-    for (uint32_t p = 0; p < w->buckets->ranges; p++) {
+    partition_work *w = work;
+    partition_worker *worker = &w->worker[member];
+    uint32_t p, taken;
+    while ((p = atomic_fetch_add(&w->next_sorted, 1)) < w->buckets->ranges && !mw__job_stopped(w->job)) {
         partition_sort(w, worker, p);
         taken = partition_take(w, p);
         if (taken != MW_NONE) partition_link_taken(w, worker, taken);
+        if (member == 0) mw__job_step(w->job, p + 1, w->buckets->ranges);
     }
     while ((taken = partition_take(w, MW_NONE)) != MW_NONE) partition_link_taken(w, worker, taken);
-}
-
-static void partition_run_team(partition_work *w)
-{
-#ifdef _OPENMP
-#pragma omp parallel num_threads(w->team) if (w->team > 1)
-    partition_work_on(w, &w->worker[omp_get_thread_num()]);
-#else
-    partition_work_on(w, &w->worker[0]);
-#endif
 }
 
 static bool partition_worker_create(const partition_work *w, partition_worker *worker)
@@ -260,14 +250,17 @@ static void partition_work_release(partition_work *w)
     free(w->first);
 }
 
-bool mw__partitions_build(mw_mesh *mesh, const mw_buckets *buckets, mw_links *links)
+bool mw__partitions_build(mw_mesh *mesh, const mw_buckets *buckets, mw_job *job, mw_links *links)
 {
-    partition_work w = {.mesh = mesh, .buckets = buckets, .team = buckets->writers};
+    partition_work w = {.mesh = mesh, .buckets = buckets, .job = job, .team = buckets->writers};
+    mw__job_stage(job, "linking triangles", 0.3);
+    pthread_mutex_init(&w.lock, NULL);
     bool done = partition_work_create(&w);
     if (done) {
-        partition_run_team(&w);
-        done = partition_results_gather(&w, links);
+        mw__team_run(w.team, partition_member_run, &w);
+        done = !mw__job_stopped(job) && partition_results_gather(&w, links);
     }
+    pthread_mutex_destroy(&w.lock);
     partition_work_release(&w);
     return done;
 }

@@ -5,8 +5,7 @@
  * own. */
 #include "mesh/point_order.h"
 
-#include "base/threads.h"
-
+#include <pthread.h>
 #include <stdlib.h>
 
 enum {
@@ -29,40 +28,41 @@ static MW_INLINE void extent_widen(mw_extent *e, mw_point p)
     e->high[1] = p.y > e->high[1] ? p.y : e->high[1];
 }
 
-/* If no point is finite, the extent is empty, and all keys are equal. */
-mw_extent mw__points_extent(const mw_point *points, uint32_t n, uint32_t threads, bool *all_finite)
+typedef struct extent_search {
+    const mw_point *points;
+    pthread_mutex_t lock; /* of what follows */
+    mw_extent extent;
+    bool finite;
+} extent_search;
+
+static void extent_search_run(void *work, uint64_t from, uint64_t to)
 {
-    int team = mw__team(threads, point_chunk_count(n));
+    extent_search *s = work;
     bool finite = true;
-    mw_extent all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    (void)team;
-#ifdef _OPENMP
-#pragma omp parallel num_threads(team) if (team > 1)
-#endif
-    {
-        bool mine_finite = true;
-        mw_extent mine = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-#ifdef _OPENMP
-#pragma omp for schedule(static) nowait
-#endif
-        for (uint32_t i = 0; i < n; i++) {
-            mw_point p = points[i];
-            if (MW_LIKELY(isfinite(p.x) && isfinite(p.y)))
-                extent_widen(&mine, p);
-            else
-                mine_finite = false;
-        }
-#ifdef _OPENMP
-#pragma omp critical(mw_extent)
-#endif
-        {
-            extent_widen(&all, (mw_point){mine.low[0], mine.low[1]});
-            extent_widen(&all, (mw_point){mine.high[0], mine.high[1]});
-            finite = finite && mine_finite;
-        }
+    mw_extent here = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint64_t i = from; i < to; i++) {
+        mw_point p = s->points[i];
+        if (MW_LIKELY(isfinite(p.x) && isfinite(p.y)))
+            extent_widen(&here, p);
+        else
+            finite = false;
     }
-    *all_finite = finite;
-    return all;
+    pthread_mutex_lock(&s->lock);
+    extent_widen(&s->extent, (mw_point){here.low[0], here.low[1]});
+    extent_widen(&s->extent, (mw_point){here.high[0], here.high[1]});
+    s->finite = s->finite && finite;
+    pthread_mutex_unlock(&s->lock);
+}
+
+/* If no point is finite, the extent is empty, and all keys are equal. */
+mw_extent mw__points_extent(const mw_point *points, uint32_t n, mw_job *job, bool *all_finite)
+{
+    extent_search s = {.points = points, .extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, .finite = true};
+    pthread_mutex_init(&s.lock, NULL);
+    mw__job_ranges(job, n, extent_search_run, &s);
+    pthread_mutex_destroy(&s.lock);
+    *all_finite = s.finite;
+    return s.extent;
 }
 
 /* Sort along the curve through the extent of these points. Recurses into crowded cells. A cell has
@@ -103,7 +103,7 @@ static void crowd_sort(const mw_point *points, mw_key *keys, mw_key *scratch, si
 typedef struct point_sorting {
     const mw_point *points;
     uint32_t n, chunks, buckets, shift;
-    int team;
+    mw_hilbert hilbert;
     mw_key *keys, *scratch; /* sorted keys end up in scratch */
     uint32_t *first;        /* per chunk and bucket: number of keys, then where the next goes */
 } point_sorting;
@@ -115,11 +115,14 @@ static uint32_t point_chunk_end(const point_sorting *s, uint32_t chunk)
 }
 
 /* Make the keys of a chunk and count those of each bucket. */
-static void point_keys_make(const point_sorting *s, const mw_hilbert *hilbert, uint32_t chunk)
+static void point_keys_make(void *work, uint64_t number, uint32_t member)
 {
+    const point_sorting *s = work;
+    uint32_t chunk = (uint32_t)number;
+    (void)member;
     uint32_t *count = s->first + (size_t)chunk * s->buckets, end = point_chunk_end(s, chunk);
     for (uint32_t i = chunk * CHUNK; i < end; i++) {
-        uint32_t key = mw__hilbert_key(hilbert, s->points[i].x, s->points[i].y);
+        uint32_t key = mw__hilbert_key(&s->hilbert, s->points[i].x, s->points[i].y);
         s->keys[i] = (mw_key){key, i};
         count[key >> s->shift]++;
     }
@@ -137,47 +140,38 @@ static void point_buckets_sum_counts(const point_sorting *s)
         }
 }
 
-static void point_keys_distribute(const point_sorting *s, uint32_t chunk)
+static void point_keys_distribute(void *work, uint64_t number, uint32_t member)
 {
+    const point_sorting *s = work;
+    uint32_t chunk = (uint32_t)number;
+    (void)member;
     uint32_t *next = s->first + (size_t)chunk * s->buckets, end = point_chunk_end(s, chunk);
     for (uint32_t i = chunk * CHUNK; i < end; i++) s->scratch[next[s->keys[i].key >> s->shift]++] = s->keys[i];
 }
 
 /* After distributing, `first` of the last chunk is the end of each bucket. */
-static void point_bucket_sort(const point_sorting *s, uint32_t b)
+static void point_bucket_sort(void *work, uint64_t b, uint32_t member)
 {
+    const point_sorting *s = work;
+    (void)member;
     const uint32_t *end = s->first + (size_t)(s->chunks - 1) * s->buckets;
     uint32_t from = b > 0 ? end[b - 1] : 0;
     point_keys_sort(s->points, s->scratch + from, s->keys + from, end[b] - from, s->shift, true);
 }
 
-static void points_sort_all(const point_sorting *s, const mw_extent *extent)
+static bool points_sort_all(point_sorting *s, mw_job *job)
 {
-    mw_hilbert hilbert = mw__hilbert(extent->low, extent->high);
-#ifdef _OPENMP
-#pragma omp parallel num_threads(s->team) if (s->team > 1)
-#endif
-    {
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-        for (uint32_t c = 0; c < s->chunks; c++) point_keys_make(s, &hilbert, c);
-#ifdef _OPENMP
-#pragma omp single
-#endif
-        point_buckets_sum_counts(s);
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-        for (uint32_t c = 0; c < s->chunks; c++) point_keys_distribute(s, c);
-#ifdef _OPENMP
-#pragma omp for schedule(dynamic, 8)
-#endif
-        for (uint32_t b = 0; b < s->buckets; b++) point_bucket_sort(s, b);
-    }
+    uint32_t team = mw__job_team(job, s->chunks);
+    mw__job_stage(job, "placing points on a curve", 0.3);
+    if (!mw__job_chunks(job, team, s->chunks, point_keys_make, s)) return false;
+    point_buckets_sum_counts(s);
+    mw__job_stage(job, "distributing points", 0.3);
+    if (!mw__job_chunks(job, team, s->chunks, point_keys_distribute, s)) return false;
+    mw__job_stage(job, "sorting points", 0.4);
+    return mw__job_chunks(job, team, s->buckets, point_bucket_sort, s);
 }
 
-bool mw__points_sort(const mw_point *points, uint32_t n, const mw_extent *extent, uint32_t threads, mw_key *keys,
+bool mw__points_sort(const mw_point *points, uint32_t n, const mw_extent *extent, mw_job *job, mw_key *keys,
                      mw_key *scratch)
 {
     uint32_t bits = 1;
@@ -187,22 +181,25 @@ bool mw__points_sort(const mw_point *points, uint32_t n, const mw_extent *extent
                        .chunks = point_chunk_count(n),
                        .buckets = UINT32_C(1) << bits,
                        .shift = 32 - bits,
-                       .team = mw__team(threads, point_chunk_count(n)),
+                       .hilbert = mw__hilbert(extent->low, extent->high),
                        .keys = scratch,
                        .scratch = keys};
     s.first = mw__calloc((size_t)s.chunks * s.buckets, sizeof *s.first);
-    if (s.first && n > 0) points_sort_all(&s, extent);
+    bool done = s.first && (n == 0 || points_sort_all(&s, job));
     free(s.first);
-    return s.first != NULL;
+    return done;
 }
 
-bool mw__points_order(const mw_point *points, uint32_t n, uint32_t threads, uint32_t *order)
+bool mw__points_order(const mw_point *points, uint32_t n, mw_job *job, uint32_t *order)
 {
     if (n == 0) return true;
     mw_key *keys = mw__alloc(n, sizeof *keys), *scratch = mw__alloc(n, sizeof *scratch);
     bool finite;
-    mw_extent extent = mw__points_extent(points, n, threads, &finite);
-    bool done = keys && scratch && mw__points_sort(points, n, &extent, threads, keys, scratch);
+    mw__job_stage(job, "measuring the extent", 0.1);
+    mw_extent extent = mw__points_extent(points, n, job, &finite);
+    mw_job_span outer = mw__job_part(job, 0.9);
+    bool done = keys && scratch && mw__points_sort(points, n, &extent, job, keys, scratch);
+    mw__job_part_end(job, outer);
     for (uint32_t i = 0; i < n && done; i++) order[i] = keys[i].item;
     free(keys);
     free(scratch);

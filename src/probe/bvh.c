@@ -7,7 +7,6 @@
 #include "probe/bvh.h"
 
 #include "base/hilbert.h"
-#include "base/threads.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -139,24 +138,38 @@ static mw_bvh_box bvh_fit_box(const mw_bvh *b, uint32_t level, uint32_t i)
     return box;
 }
 
-static void bvh_fit_level(mw_bvh *b, const mw_surface *surface, uint32_t level, uint32_t threads)
+typedef struct level_fitting {
+    mw_bvh *bvh;
+    const mw_surface *surface;
+    uint32_t level;
+} level_fitting;
+
+static void level_fit_chunk(void *work, uint64_t chunk, uint32_t member)
 {
-    int64_t count = b->level_boxes[level], chunks = (count + CHUNK - 1) / CHUNK;
-    int team = mw__team(threads, chunks);
-    (void)team; /* unused without OpenMP */
-    mw_bvh_box *box = b->box + b->first[level];
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
-#endif
-    for (int64_t chunk = 0; chunk < chunks; chunk++)
-        for (int64_t i = chunk * CHUNK; i < count && i < (chunk + 1) * CHUNK; i++)
-            box[i] = level ? bvh_fit_box(b, level, (uint32_t)i) : bvh_fit_leaf(b, surface, (uint32_t)i);
+    const level_fitting *f = work;
+    mw_bvh *b = f->bvh;
+    uint64_t count = b->level_boxes[f->level], end = (chunk + 1) * CHUNK;
+    mw_bvh_box *box = b->box + b->first[f->level];
+    (void)member;
+    for (uint64_t i = chunk * CHUNK; i < count && i < end; i++)
+        box[i] = f->level ? bvh_fit_box(b, f->level, (uint32_t)i) : bvh_fit_leaf(b, f->surface, (uint32_t)i);
 }
 
-void mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, uint32_t threads)
+static bool bvh_fit_level(mw_bvh *b, const mw_surface *surface, uint32_t level, mw_job *job)
+{
+    uint64_t chunks = ((uint64_t)b->level_boxes[level] + CHUNK - 1) / CHUNK;
+    level_fitting fitting = {b, surface, level};
+    return mw__job_chunks(job, mw__job_team(job, chunks), chunks, level_fit_chunk, &fitting);
+}
+
+/* The leaves take most of the time. */
+bool mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, mw_job *job)
 {
     bvh_choose_frame(bvh, surface);
-    for (uint32_t level = 0; level < bvh->level_count; level++) bvh_fit_level(bvh, surface, level, threads);
+    mw__job_stage(job, "fitting boxes", 1);
+    for (uint32_t level = 0; level < bvh->level_count; level++)
+        if (!bvh_fit_level(bvh, surface, level, job)) return false;
+    return true;
 }
 
 /* --- how good an order is --- */
@@ -271,8 +284,8 @@ static uint32_t bvh_triangle_key(const bvh_curve *c, const mw_surface *surface, 
     return curve_cell_key(cell);
 }
 
-/* The triangles sorted along the curve; NULL when out of memory. */
-static uint32_t *bvh_order_along_curve(const mw_surface *surface)
+/* The triangles sorted along the curve; NULL when out of memory, or cancelled. */
+static uint32_t *bvh_order_along_curve(const mw_surface *surface, mw_job *job)
 {
     uint32_t n = surface->tri_count, *order = mw__alloc(n, sizeof *order);
     mw_key *key = mw__alloc(2 * (size_t)n, sizeof *key);
@@ -282,7 +295,13 @@ static uint32_t *bvh_order_along_curve(const mw_surface *surface)
         return NULL;
     }
     bvh_curve c = bvh_choose_curve(surface);
-    for (uint32_t t = 0; t < n; t++) key[t] = (mw_key){bvh_triangle_key(&c, surface, t), t};
+    mw__job_stage(job, "sorting triangles", 0.6);
+    for (uint32_t t = 0; t < n && mw__job_step(job, t, n); t++) key[t] = (mw_key){bvh_triangle_key(&c, surface, t), t};
+    if (mw__job_stopped(job)) {
+        free(order);
+        free(key);
+        return NULL;
+    }
     mw__sort_keys(key, key + n, n);
     for (uint32_t i = 0; i < n; i++) order[i] = key[i].item;
     free(key);
@@ -295,18 +314,21 @@ static uint32_t *bvh_order_along_curve(const mw_surface *surface)
 #define WORTHWHILE 1.5
 #define LARGE 64
 
-static void bvh_choose_order(mw_bvh *b, const mw_surface *surface)
+static bool bvh_choose_order(mw_bvh *b, const mw_surface *surface, mw_job *job)
 {
     bvh_choose_frame(b, surface);
-    bvh_fit_level(b, surface, 0, 0);
+    mw__job_stage(job, "choosing an order", 0.2);
+    if (!bvh_fit_level(b, surface, 0, job)) return false;
     double most = LARGE * bvh_median_leaf(b, bvh_box_area), curved = bvh_area_of_leaves(b, most);
     uint32_t *order = b->order;
     b->order = NULL;
-    bvh_fit_level(b, surface, 0, 0);
-    if (bvh_area_of_leaves(b, most) > WORTHWHILE * curved)
+    mw__job_stage(job, "choosing an order", 0.2);
+    bool done = bvh_fit_level(b, surface, 0, job);
+    if (done && bvh_area_of_leaves(b, most) > WORTHWHILE * curved)
         b->order = order;
     else
         free(order);
+    return done;
 }
 
 /* --- the tree --- */
@@ -323,14 +345,12 @@ static uint32_t bvh_lay_out(mw_bvh *b)
     }
 }
 
-bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface)
+bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface, mw_job *job)
 {
     *bvh = (mw_bvh){.count = surface->tri_count};
     bvh->box = mw__alloc_lines(bvh_lay_out(bvh), sizeof *bvh->box);
-    bvh->order = bvh_order_along_curve(surface);
-    if (!bvh->box || !bvh->order) return false;
-    bvh_choose_order(bvh, surface);
-    return true;
+    bvh->order = bvh_order_along_curve(surface, job);
+    return bvh->box && bvh->order && bvh_choose_order(bvh, surface, job);
 }
 
 void mw__bvh_release(mw_bvh *bvh)

@@ -8,6 +8,7 @@
 #ifndef MW_SRC_PROBE_BVH_H
 #define MW_SRC_PROBE_BVH_H
 
+#include "base/job.h"
 #include "surface/surface.h"
 
 /* Leaf i, box i of level 0, has the triangles from MW_BVH_LEAF * i on, in the order of the tree.
@@ -32,14 +33,15 @@ typedef struct mw_bvh {
     double scale, centre[3];             /* the frame; scale is a power of two */
 } mw_bvh;
 
-/* Make the tree without fitting its boxes. Returns false when out of memory. Release in either
- * case. */
-bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface);
+/* Make the tree without fitting its boxes. Stages of the present part of the job. Returns false when
+ * out of memory, or cancelled. Release in either case. */
+bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface, mw_job *job);
 void mw__bvh_release(mw_bvh *bvh);
 size_t mw__bvh_bytes(const mw_bvh *bvh);
 
-/* Fit all boxes to the present vertices. threads: 0 = OpenMP's choice. */
-void mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, uint32_t threads);
+/* Fit all boxes to the present vertices. A stage that takes the present part of the job. Returns
+ * false if it is cancelled. */
+bool mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, mw_job *job);
 
 /* The size of a common leaf, in units of length: the mean edge of its box, and of that the median
  * of a sample. */

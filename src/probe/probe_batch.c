@@ -3,9 +3,11 @@
  * Chunks have a fixed size and are independent of each other, and the number of a probe seeds its
  * random numbers. So answers and counters do not depend on the threads. If walks race, the races
  * use the threads. */
+#include "base/job.h"
 #include "base/random.h"
-#include "base/threads.h"
 #include "probe/plane_walk.h"
+
+#include <pthread.h>
 
 enum { CHUNK = 1 << 12 }; /* probes that one thread takes at a time */
 
@@ -30,8 +32,35 @@ static mw_probe_counters probe_batch_answer(const probe_batch *b, size_t first)
     return cursor.counters;
 }
 
-/* The number of threads for `chunks` chunks: as requested, or OpenMP's choice, but none without
- * work; one if walks race. */
+typedef struct probe_loop {
+    const probe_batch *batch;
+    pthread_mutex_t lock;
+    mw_probe_counters sum; /* of the chunks that are done */
+} probe_loop;
+
+static void probe_loop_answer(void *work, uint64_t chunk, uint32_t member)
+{
+    probe_loop *loop = work;
+    (void)member;
+    mw_probe_counters more = probe_batch_answer(loop->batch, (size_t)chunk * CHUNK);
+    pthread_mutex_lock(&loop->lock);
+    mw_probe_counters_add(&loop->sum, &more);
+    pthread_mutex_unlock(&loop->lock);
+}
+
+/* If walks race, the races use the threads. */
+static mw_probe_counters probe_batch_run(const probe_batch *b, mw_job *job)
+{
+    uint64_t chunks = b->n / CHUNK + (b->n % CHUNK != 0);
+    bool races = b->cursor.options.race > 1 && !b->cursor.options.certain;
+    probe_loop loop = {.batch = b};
+    mw__job_stage(job, "answering queries", 1);
+    pthread_mutex_init(&loop.lock, NULL);
+    mw__job_chunks(job, races ? 1 : mw__job_team(job, chunks), chunks, probe_loop_answer, &loop);
+    pthread_mutex_destroy(&loop.lock);
+    return loop.sum;
+}
+
 mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
                          const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
                          mw_error *error)
@@ -42,21 +71,8 @@ mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t 
     if (n && (!queries || !touches)) return mw__fail(error, MW_ERROR_ARGUMENT, "no queries, or no place for results");
     if (b.stride < 6) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride below 6 holds no point and motion");
     b.seed = b.cursor.options.seed;
-    int64_t chunks = (int64_t)(n / CHUNK + (n % CHUNK != 0));
-    bool races = b.cursor.options.race > 1 && !b.cursor.options.certain;
-    int team = mw__team(races ? 1 : b.cursor.options.threads, chunks);
-    (void)team; /* unused without OpenMP */
-    mw_probe_counters sum = {0};
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
-#endif
-    for (int64_t i = 0; i < chunks; i++) {
-        mw_probe_counters more = probe_batch_answer(&b, (size_t)i * CHUNK);
-#ifdef _OPENMP
-#pragma omp critical(mw_probe_counters)
-#endif
-        mw_probe_counters_add(&sum, &more);
-    }
+    mw_job job = mw__job(b.cursor.options.threads, b.cursor.options.progress);
+    mw_probe_counters sum = probe_batch_run(&b, &job);
     if (counters) *counters = sum;
-    return MW_OK;
+    return mw__job_end(&job, MW_OK, error);
 }

@@ -3,12 +3,12 @@
  * others.
  *
  * Walk i is the same in any thread. So walks one after the other always find the same triangle. In
- * a race the answer depends on the fastest walk. Without OpenMP, or with one thread, walks run one
- * after the other. */
+ * a race the answer depends on the fastest walk. With one thread, walks run one after the other. */
 #include "base/random.h"
+#include "base/threads.h"
 #include "probe/plane_walk.h"
 
-enum { MOST_THREADS = 256 };
+#include <pthread.h>
 
 uint32_t mw__probe_search_from(const mw_probe_search *search, uint64_t i, uint32_t first, const _Atomic uint32_t *found,
                                mw_probe_counters *work, mw_probe_trace *trace)
@@ -44,13 +44,17 @@ typedef struct probe_race {
     const mw_probe_search *search;
     _Atomic uint64_t next;  /* number of the next walk */
     _Atomic uint32_t found; /* triangle, or MW_NONE */
+    pthread_mutex_t lock;
+    mw_probe_counters *work; /* of all walks; NULL: not counted */
 } probe_race;
 
 /* The work of one thread: one walk after the other, until some walk has found a triangle. */
-static mw_probe_counters race_run(probe_race *r)
+static void race_member_run(void *race, uint32_t member)
 {
+    probe_race *r = race;
     const mw_probe_search *search = r->search;
     mw_probe_counters work = {0};
+    (void)member;
     while (atomic_load_explicit(&r->found, memory_order_relaxed) == MW_NONE) {
         uint64_t i = atomic_fetch_add_explicit(&r->next, 1, memory_order_relaxed);
         if (i >= search->iterations) break;
@@ -59,25 +63,19 @@ static mw_probe_counters race_run(probe_race *r)
         atomic_compare_exchange_strong_explicit(&r->found, &none, t, memory_order_relaxed, memory_order_relaxed);
         break;
     }
-    return work;
+    if (!r->work) return;
+    pthread_mutex_lock(&r->lock);
+    mw_probe_counters_add(r->work, &work);
+    pthread_mutex_unlock(&r->lock);
 }
 
 static uint32_t race_in_threads(const mw_probe_search *search, mw_probe_counters *work)
 {
-    probe_race r = {.search = search, .next = 0, .found = MW_NONE};
-    uint32_t most = search->iterations < MOST_THREADS ? search->iterations : MOST_THREADS;
-    int team = (int)(search->race < most ? search->race : most);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel num_threads(team)
-#endif
-    {
-        mw_probe_counters mine = race_run(&r);
-#ifdef _OPENMP
-#pragma omp critical(mw_race)
-#endif
-        if (work) mw_probe_counters_add(work, &mine);
-    }
+    probe_race r = {.search = search, .next = 0, .found = MW_NONE, .work = work};
+    uint32_t most = search->iterations < MW_MOST_THREADS ? search->iterations : MW_MOST_THREADS;
+    pthread_mutex_init(&r.lock, NULL);
+    mw__team_run(search->race < most ? search->race : most, race_member_run, &r);
+    pthread_mutex_destroy(&r.lock);
     return atomic_load_explicit(&r.found, memory_order_relaxed);
 }
 

@@ -14,14 +14,26 @@
  * as many lines meet them. Beyond that, fitting them again pays after few queries. */
 #define SLACK_LIMIT 0.25
 
-static void prober_fit(mw_prober *prober, uint32_t threads)
+static bool prober_fit(mw_prober *prober, mw_job *job)
 {
     double start = mw__seconds();
-    mw__bvh_fit(&prober->bvh, prober->surface, threads);
+    if (!mw__bvh_fit(&prober->bvh, prober->surface, job)) return false;
     prober->fit_seconds = mw__seconds() - start;
     prober->fits++;
     prober->slack = 0;
     prober->slack_limit = SLACK_LIMIT * mw__bvh_leaf_size(&prober->bvh);
+    return true;
+}
+
+static mw_status prober_make_boxes(mw_prober *prober, mw_job *job, mw_error *error)
+{
+    mw_job_span outer = mw__job_part(job, 0.6);
+    bool done = mw__bvh_create(&prober->bvh, prober->surface, job);
+    mw__job_part_end(job, outer);
+    outer = mw__job_part(job, 0.4);
+    done = done && prober_fit(prober, job);
+    mw__job_part_end(job, outer);
+    return done ? MW_OK : mw__fail_memory(error);
 }
 
 /* The spread of a sample of corners. It is only a guide: overflow, or a growing surface, makes
@@ -63,14 +75,14 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     prober->has_bvh = options->boxes != 0;
     prober->spread2 = prober_measure_spread(surface);
     if (prober->has_bvh) {
-        if (!mw__bvh_create(&prober->bvh, surface)) {
-            mw_prober_destroy(prober);
-            return mw__fail_memory(error);
-        }
-        prober_fit(prober, 0);
+        mw_job job = mw__job(options->threads, options->progress);
+        status = mw__job_end(&job, prober_make_boxes(prober, &job, error), error);
     }
-    *out = prober;
-    return MW_OK;
+    if (status)
+        mw_prober_destroy(prober);
+    else
+        *out = prober;
+    return status;
 }
 
 void mw_prober_destroy(mw_prober *prober)
@@ -84,10 +96,11 @@ void mw_prober_update(mw_prober *prober, double moved, uint32_t threads)
 {
     /* if a version is missing, its movement is not known */
     bool known = moved >= 0 && isfinite(moved) && prober->surface->version - prober->version <= 1;
+    mw_job job = mw__job(threads, NULL);
     prober->version = prober->surface->version;
     if (!prober->has_bvh) return;
     if (known && moved > 0) prober->slack = nextafter(prober->slack + moved, INFINITY);
-    if (!known || prober->slack > prober->slack_limit) prober_fit(prober, threads);
+    if (!known || prober->slack > prober->slack_limit) prober_fit(prober, &job);
 }
 
 void mw_prober_describe(const mw_prober *prober, mw_prober_info *info)

@@ -18,6 +18,7 @@ typedef struct kernel_check {
     /* 1: must be reversed to agree with the first facet of its component; 0: not; -1: unknown. */
     int8_t *turned;
     uint32_t *queue; /* facets of one component */
+    mw_job *job;
 } kernel_check;
 
 static bool kernel_defect_add(kernel_check *s, mw_defect_kind kind, uint32_t t, uint32_t other, uint32_t edge)
@@ -74,7 +75,9 @@ static bool kernel_look_at_facets(kernel_check *s)
 {
     mw_star *star = s->star;
     star->area_count = 0;
+    mw__job_stage(s->job, "looking at facets", 0.5);
     for (uint32_t i = 0; i < star->tri_count; i++) {
+        if (!mw__job_step(s->job, i, star->tri_count)) return false;
         const mw_triangle *t = &star->tri[i];
         if (!kernel_look_at_corners(s, i)) return false;
         s->faces[i] = facet_facing(star, t);
@@ -171,8 +174,10 @@ static bool component_judge(kernel_check *s, uint32_t count)
 
 static bool kernel_look_at_components(kernel_check *s)
 {
+    mw__job_stage(s->job, "looking at components", 0.3);
     for (uint32_t i = 0; i < s->star->tri_count; i++) {
         uint32_t count;
+        if (!mw__job_step(s->job, i, s->star->tri_count)) return false;
         if (s->faces[i] == VOID || s->turned[i] >= 0) continue;
         if (!component_collect(s, i, &count) || !component_judge(s, count)) return false;
     }
@@ -232,7 +237,9 @@ static bool kernel_look_along_ray(kernel_check *s)
 {
     const mw_star *star = s->star;
     uint32_t first = MW_NONE;
+    mw__job_stage(s->job, "looking along a ray", 0.2);
     for (uint32_t i = 0; i < star->tri_count; i++) {
+        if (!mw__job_step(s->job, i, star->tri_count)) return false;
         const mw_triangle *t = &star->tri[i];
         if (s->faces[i] == VOID || s->faces[i] == LEVEL) continue;
         bool meets = true;
@@ -253,10 +260,10 @@ static bool kernel_check_run(kernel_check *s)
     return kernel_look_along_ray(s);
 }
 
-bool mw__star_kernel_check(mw_star *star, mw_defects *defects)
+bool mw__star_kernel_check(mw_star *star, mw_job *job, mw_defects *defects)
 {
     uint32_t n = star->tri_count;
-    kernel_check s = {star, defects, mw__alloc(n, 1), mw__alloc(n, 1), mw__alloc(n, sizeof *s.queue)};
+    kernel_check s = {star, defects, mw__alloc(n, 1), mw__alloc(n, 1), mw__alloc(n, sizeof *s.queue), job};
     bool done = s.faces && s.turned && s.queue;
     if (done) {
         for (uint32_t i = 0; i < n; i++) s.turned[i] = -1;

@@ -11,13 +11,14 @@
 #ifndef MW_SRC_STAR_KERNEL_CHECK_H
 #define MW_SRC_STAR_KERNEL_CHECK_H
 
+#include "base/job.h"
 #include "mesh/defect.h"
 #include "star/star.h"
 
 /* Decide whether the surface is star-shaped, and orient star->tri, which holds its triangles, as
  * star.h says. Sets star->area_count. Adds all defects to *defects; that of the ray
- * (MW_DEFECT_COVERED) only if there is no other. Without any, the surface is star-shaped. Returns
- * false when out of memory. */
-bool mw__star_kernel_check(mw_star *star, mw_defects *defects);
+ * (MW_DEFECT_COVERED) only if there is no other. Without any, the surface is star-shaped. Stages of
+ * the present part of the job. Returns false when out of memory, or cancelled. */
+bool mw__star_kernel_check(mw_star *star, mw_job *job, mw_defects *defects);
 
 #endif

@@ -7,6 +7,7 @@
 #ifndef MW_SRC_STAR_STAR_H
 #define MW_SRC_STAR_STAR_H
 
+#include "base/job.h"
 #include "surface/surface.h"
 
 #include <meshwalk/star.h>
@@ -138,8 +139,9 @@ static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
     *y = below ? copysign(1 - fabs(u), v) : v;
 }
 
-/* Fill in star->facet and star->guide from star->tri. Returns false when out of memory. */
-bool mw__star_lay_out(mw_star *star);
+/* Fill in star->facet and star->guide from star->tri. Steps of the present stage. Returns false when
+ * out of memory, or cancelled. */
+bool mw__star_lay_out(mw_star *star, mw_job *job);
 
 /* The number of bits of the guide: an entry for 2 to 4 facets. */
 static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)

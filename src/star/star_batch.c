@@ -158,5 +158,5 @@ mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t
     b.chained = sorted || b.cursor.start == MW_STAR_START_LAST || b.cursor.start == MW_STAR_START_AUTO;
     b.guided = sorted && n < star->tri_count;
     b.queries.sort = sorted ? star_batch_sort : NULL;
-    return mw__batch_run(&b.queries, n, options->threads, counters, error);
+    return mw__batch_run(&b.queries, n, options->threads, options->progress, counters, error);
 }

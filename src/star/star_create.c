@@ -68,12 +68,14 @@ static uint32_t star_any_facet(const mw_star *star)
 }
 
 /* Check the polyhedron, and prepare star->tri for the layout. */
-static mw_status star_decide(mw_star *star, mw_error *error)
+static mw_status star_decide(mw_star *star, mw_job *job, mw_error *error)
 {
     mw_defects defects = {0};
     star->coincident = star->surface->coincident;
     memcpy(star->tri, star->surface->tri, star->tri_count * sizeof *star->tri);
-    mw_status status = mw__star_kernel_check(star, &defects) ? MW_OK : mw__fail_memory(error);
+    mw_job_span outer = mw__job_part(job, 0.5);
+    mw_status status = mw__star_kernel_check(star, job, &defects) ? MW_OK : mw__fail_memory(error);
+    mw__job_part_end(job, outer);
     if (status == MW_OK && defects.count) status = star_refuse(&defects, error);
     mw__defects_release(&defects);
     if (status == MW_OK && star->area_count == 0)
@@ -83,18 +85,20 @@ static mw_status star_decide(mw_star *star, mw_error *error)
         if (!star_find_coincident(star)) return mw__fail_memory(error);
         mw__flat_facets_remove(star);
     }
+    mw__job_stage(job, "finding the owners of vertices", 0.1);
     star_fill_owners(star);
     star_replace_voids(star, star_any_facet(star));
-    return mw__star_lay_out(star) ? MW_OK : mw__fail_memory(error);
+    mw__job_stage(job, "laying out facets", 0.4);
+    return mw__star_lay_out(star, job) ? MW_OK : mw__fail_memory(error);
 }
 
 /* Fill in everything that depends on coordinates and links. */
-static mw_status star_prepare(mw_star *star, mw_error *error)
+static mw_status star_prepare(mw_star *star, mw_job *job, mw_error *error)
 {
     static const double front[3] = {1, 0, 0};
     star->ready = false;
     star->tri = mw__alloc(star->tri_count, sizeof *star->tri);
-    mw_status status = star->tri ? star_decide(star, error) : mw__fail_memory(error);
+    mw_status status = star->tri ? star_decide(star, job, error) : mw__fail_memory(error);
     free(star->tri);
     star->tri = NULL;
     if (status) return status;
@@ -141,7 +145,9 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     star->point_count = surface->point_count;
     star->fuel = star_fuel(surface->tri_count);
     memcpy(star->centre, options->centre, sizeof star->centre);
-    status = star_allocate(star, options->angles) ? star_prepare(star, error) : mw__fail_memory(error);
+    mw_job job = mw__job(1, options->progress);
+    status = star_allocate(star, options->angles) ? star_prepare(star, &job, error) : mw__fail_memory(error);
+    status = mw__job_end(&job, status, error);
     if (status)
         mw_star_destroy(star);
     else
@@ -152,7 +158,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
 mw_status mw_star_update(mw_star *star, mw_error *error)
 {
     if (!star) return mw__fail(error, MW_ERROR_ARGUMENT, "no star");
-    return star_prepare(star, error);
+    return star_prepare(star, MW_ALONE, error);
 }
 
 void mw_star_destroy(mw_star *star)

@@ -40,18 +40,21 @@ static void grid_cell_middle(const mw_star_grid *grid, uint32_t i, uint32_t j, d
 
 /* Fill each cell, starting from the previous one. On the sphere, the last cell of a row is close to
  * the first one of the next row. */
-static void star_grid_fill(mw_star_grid *grid, const mw_star *star)
+static bool star_grid_fill(mw_star_grid *grid, const mw_star *star, mw_job *job)
 {
     uint32_t t = 0;
-    for (uint32_t i = 0; i < grid->rows; i++)
+    for (uint32_t i = 0; i < grid->rows; i++) {
+        if (!mw__job_step(job, i, grid->rows)) return false;
         for (uint32_t c = grid->first[i]; c < grid->first[i + 1]; c++) {
             double d[3];
             grid_cell_middle(grid, i, c - grid->first[i], d);
             t = grid->facet[c] = mw__star_facet_along(star, d, t);
         }
+    }
+    return true;
 }
 
-bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cells, bool uniform)
+bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cells, bool uniform, mw_job *job)
 {
     grid->rows = grid_row_count(cells, uniform);
     grid->first = mw__calloc((size_t)grid->rows + 1, sizeof *grid->first);
@@ -59,8 +62,7 @@ bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cell
     for (uint32_t i = 0; i < grid->rows; i++)
         grid->first[i + 1] = grid->first[i] + grid_row_cells(i, grid->rows, cells, uniform);
     grid->facet = mw__alloc(grid->first[grid->rows], sizeof *grid->facet);
-    if (grid->facet) star_grid_fill(grid, star);
-    return grid->facet;
+    return grid->facet && star_grid_fill(grid, star, job);
 }
 
 void mw__star_grid_release(mw_star_grid *grid)

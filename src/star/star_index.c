@@ -20,16 +20,18 @@ static uint32_t star_index_choose_levels(const mw_star *star)
     return levels;
 }
 
-static bool star_index_build(mw_star_index *index, const mw_star *star, const mw_star_index_options *options)
+static bool star_index_build(mw_star_index *index, const mw_star *star, const mw_star_index_options *options,
+                             mw_job *job)
 {
+    mw__job_stage(job, "filling cells", 1);
     if (index->start == MW_STAR_START_OCTAHEDRON) {
         uint32_t levels = options->levels ? options->levels - 1 : star_index_choose_levels(star);
         while (mw__cells_bound(mw__star_octahedron_cells(levels), star->tri_count) < mw__star_octahedron_cells(levels))
             levels--;
-        return mw__star_octahedron_create(&index->octahedron, star, levels);
+        return mw__star_octahedron_create(&index->octahedron, star, levels, job);
     }
     uint32_t cells = options->cells ? mw__cells_bound(options->cells, star->tri_count) : star_index_choose_cells(star);
-    return mw__star_grid_create(&index->grid, star, cells, index->start == MW_STAR_START_GRID);
+    return mw__star_grid_create(&index->grid, star, cells, index->start == MW_STAR_START_GRID, job);
 }
 
 static mw_status star_index_check(const mw_star *star, mw_star_start_kind start, const mw_star_index_options *options,
@@ -58,13 +60,15 @@ mw_status mw_star_index_create(const mw_star *star, mw_star_start_kind start, co
     if (!index) return mw__fail_memory(error);
     index->start = start;
     double begin = mw__seconds();
-    if (!star_index_build(index, star, options)) {
-        mw_star_index_destroy(index);
-        return mw__fail_memory(error);
-    }
+    mw_job job = mw__job(1, options->progress);
+    status = star_index_build(index, star, options, &job) ? MW_OK : mw__fail_memory(error);
+    status = mw__job_end(&job, status, error);
     index->seconds = mw__seconds() - begin;
-    *out = index;
-    return MW_OK;
+    if (status)
+        mw_star_index_destroy(index);
+    else
+        *out = index;
+    return status;
 }
 
 void mw_star_index_destroy(mw_star_index *index)

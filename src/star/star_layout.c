@@ -100,7 +100,7 @@ static void star_fill_guide(mw_star *star, const mw_key *keys)
     }
 }
 
-bool mw__star_lay_out(mw_star *star)
+bool mw__star_lay_out(mw_star *star, mw_job *job)
 {
     uint32_t n = star->tri_count, *slot = mw__alloc(n, sizeof *slot);
     mw_key *keys = mw__alloc(2 * (size_t)n, sizeof *keys);
@@ -108,7 +108,9 @@ bool mw__star_lay_out(mw_star *star)
     if (done) {
         facets_sort(star, keys, keys + n);
         for (uint32_t i = 0; i < n; i++) slot[keys[i].item] = i;
-        for (uint32_t i = 0; i < n; i++) star->facet[i] = facet_make(star, &star->tri[keys[i].item], slot);
+        for (uint32_t i = 0; i < n && mw__job_step(job, i, n); i++)
+            star->facet[i] = facet_make(star, &star->tri[keys[i].item], slot);
+        done = !mw__job_stopped(job);
         star_fill_guide(star, keys);
     }
     free(slot);

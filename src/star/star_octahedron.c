@@ -60,35 +60,49 @@ static octahedron_corners octahedron_corner_child(const octahedron_corners *pare
     return child;
 }
 
-static void octahedron_fill(mw_star_octahedron *octahedron, const mw_star *star, const octahedron_corners *triangle,
-                            uint32_t level, uint32_t cell, uint32_t *t)
+typedef struct octahedron_filling {
+    mw_star_octahedron *octahedron;
+    const mw_star *star;
+    mw_job *job;
+    uint32_t t;      /* the facet of the last cell */
+    uint32_t filled; /* cells */
+} octahedron_filling;
+
+/* The direction to the middle of a triangle in an octant. */
+static void octahedron_cell_middle(const octahedron_corners *triangle, uint32_t octant, double d[3])
 {
-    if (level == octahedron->levels) {
-        uint32_t octant = cell >> (2 * level);
-        double d[3];
-        for (int k = 0; k < 3; k++) {
-            d[k] = triangle->v[0][k] + triangle->v[1][k] + triangle->v[2][k];
-            if (octant >> k & 1) d[k] = -d[k];
-        }
-        *t = octahedron->facet[cell] = mw__star_facet_along(star, d, *t);
-        return;
-    }
-    octahedron_corners inner = octahedron_middle_child(triangle);
-    octahedron_fill(octahedron, star, &inner, level + 1, 4 * cell, t);
-    for (uint32_t k = 0; k < 3; k++) {
-        octahedron_corners child = octahedron_corner_child(triangle, &inner, k);
-        octahedron_fill(octahedron, star, &child, level + 1, 4 * cell + 1 + k, t);
+    for (int k = 0; k < 3; k++) {
+        d[k] = triangle->v[0][k] + triangle->v[1][k] + triangle->v[2][k];
+        if (octant >> k & 1) d[k] = -d[k];
     }
 }
 
-bool mw__star_octahedron_create(mw_star_octahedron *octahedron, const mw_star *star, uint32_t levels)
+/* Returns false if the job is to stop. */
+static bool octahedron_fill(octahedron_filling *f, const octahedron_corners *triangle, uint32_t level, uint32_t cell)
+{
+    if (level == f->octahedron->levels) {
+        double d[3];
+        octahedron_cell_middle(triangle, cell >> (2 * level), d);
+        f->t = f->octahedron->facet[cell] = mw__star_facet_along(f->star, d, f->t);
+        return mw__job_step(f->job, ++f->filled, mw__star_octahedron_cells(level));
+    }
+    octahedron_corners inner = octahedron_middle_child(triangle);
+    bool done = octahedron_fill(f, &inner, level + 1, 4 * cell);
+    for (uint32_t k = 0; k < 3 && done; k++) {
+        octahedron_corners child = octahedron_corner_child(triangle, &inner, k);
+        done = octahedron_fill(f, &child, level + 1, 4 * cell + 1 + k);
+    }
+    return done;
+}
+
+bool mw__star_octahedron_create(mw_star_octahedron *octahedron, const mw_star *star, uint32_t levels, mw_job *job)
 {
     octahedron->levels = levels;
     octahedron->facet = mw__alloc(mw__star_octahedron_cells(levels), sizeof *octahedron->facet);
-    uint32_t t = 0;
-    for (uint32_t octant = 0; octahedron->facet && octant < 8; octant++)
-        octahedron_fill(octahedron, star, &face, 0, octant, &t);
-    return octahedron->facet;
+    octahedron_filling filling = {.octahedron = octahedron, .star = star, .job = job};
+    bool done = octahedron->facet;
+    for (uint32_t octant = 0; done && octant < 8; octant++) done = octahedron_fill(&filling, &face, 0, octant);
+    return done;
 }
 
 void mw__star_octahedron_release(mw_star_octahedron *octahedron)

@@ -34,16 +34,20 @@ static uint32_t curve_buckets(const mw_curve *curve)
 }
 
 /* Put all tiles of the sample, every `stride`-th, between the two ends of the curve. */
-static void curve_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch)
+static bool curve_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch, mw_job *job)
 {
+    enum { SOME = 1 << 12 };
     uint32_t n = curve->count - 2, follow = 0;
     mw_key *sample = curve->sample + 1;
-    for (uint32_t i = 0; i < n; i++) sample[i] = (mw_key){tile_key(curve, tiling, i * stride), i * stride};
+    for (uint32_t i = 0; i < n && (i % SOME != 0 || mw__job_step(job, i, n)); i++)
+        sample[i] = (mw_key){tile_key(curve, tiling, i * stride), i * stride};
+    if (mw__job_stopped(job)) return false;
     mw__sort_keys(sample, scratch, n);
     sample[-1] = (mw_key){0, sample[0].item};
     sample[n] = (mw_key){UINT32_MAX, sample[n - 1].item};
     for (uint32_t i = 1; i < n; i++) follow += curve_follows(curve, sample[i].item, sample[i - 1].item);
     curve->regular = follow >= n - n / 8 - 1;
+    return true;
 }
 
 static void curve_fill_buckets(mw_curve *curve)
@@ -55,8 +59,9 @@ static void curve_fill_buckets(mw_curve *curve)
 }
 
 bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2], const double high[2],
-                      uint32_t samples)
+                      uint32_t samples, mw_job *job)
 {
+    mw__job_stage(job, "sampling along a curve", 1);
     uint32_t stride = samples ? (tiling->tri_count - 1) / samples + 1 : MW_CURVE_STRIDE;
     uint32_t n = (tiling->tri_count - 1) / stride + 1, bits = 1;
     while (UINT32_C(1) << bits < n) bits++;
@@ -64,11 +69,8 @@ bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low
     curve->sample = mw__alloc_lines(curve->count, sizeof *curve->sample);
     curve->from = mw__alloc_lines((size_t)curve_buckets(curve) + 1, sizeof *curve->from);
     mw_key *scratch = mw__alloc_lines(n, sizeof *scratch);
-    bool done = curve->sample && curve->from && scratch;
-    if (done) {
-        curve_sample(curve, tiling, stride, scratch);
-        curve_fill_buckets(curve);
-    }
+    bool done = curve->sample && curve->from && scratch && curve_sample(curve, tiling, stride, scratch, job);
+    if (done) curve_fill_buckets(curve);
     free(scratch);
     return done;
 }

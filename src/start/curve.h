@@ -19,10 +19,10 @@ typedef struct mw_curve {
 } mw_curve;
 
 /* Sample about `samples` tiles (0: MW_CURVE_STRIDE) of a tiling with the extent low..high. Returns
- * false when out of memory. */
+ * false when out of memory, or cancelled. A stage that takes the present part of the job. */
 #define MW_CURVE_STRIDE 32 /* one of so many tiles */
 bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2], const double high[2],
-                      uint32_t samples);
+                      uint32_t samples, mw_job *job);
 void mw__curve_release(mw_curve *curve);
 size_t mw__curve_bytes(const mw_curve *curve);
 

@@ -30,7 +30,6 @@
  * So one cell for two vertices: 2 bytes a vertex. */
 #include "start/grid.h"
 
-#include "base/threads.h"
 #include "start/start.h"
 #include "walk/walk.h"
 
@@ -46,14 +45,14 @@ enum {
 
 /* Of every few tiles, put the one nearest to the middle of a cell into it, and count them: share i,
  * with sites of its own. */
-static void shares_look(const mw_grid *grid, const mw_grid_plan *plan, int i, int shares)
+static void shares_look(const mw_grid *grid, const mw_grid_plan *plan, uint32_t i, uint32_t shares)
 {
     uint32_t cells = mw__lattice_cells(&grid->lattice);
     uint64_t looks = ((uint64_t)plan->tiling->tri_count + plan->stride - 1) / plan->stride;
-    uint64_t end = looks * (uint32_t)(i + 1) / (uint32_t)shares;
+    uint64_t end = looks * (i + 1) / shares;
     mw_grid_site *sites = plan->site + (size_t)i * cells;
     for (uint32_t c = 0; c < cells; c++) sites[c] = (mw_grid_site){INFINITY, MW_NONE, 0};
-    for (uint64_t look = looks * (uint32_t)i / (uint32_t)shares; look < end; look++) {
+    for (uint64_t look = looks * i / shares; look < end; look++) {
         float off;
         uint32_t t = (uint32_t)(look * plan->stride);
         mw_grid_site *site = &sites[mw__lattice_cell_off(&grid->lattice, mw__tile_middle(plan->tiling, t), &off)];
@@ -65,10 +64,10 @@ static void shares_look(const mw_grid *grid, const mw_grid_plan *plan, int i, in
 }
 
 /* Of a cell: what all shares have seen, in the order of the tiles. */
-static void cell_join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, int shares)
+static void cell_join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, uint32_t shares)
 {
     mw_grid_site *site = &plan->site[cell];
-    for (int i = 1; i < shares; i++) {
+    for (uint32_t i = 1; i < shares; i++) {
         const mw_grid_site *other = site + (size_t)i * mw__lattice_cells(&grid->lattice);
         site->count += other->count;
         if (!(other->off < site->off)) continue;
@@ -78,21 +77,23 @@ static void cell_join(mw_grid *grid, const mw_grid_plan *plan, uint32_t cell, in
     grid->tile[cell] = site->tile;
 }
 
-static void shares_look_together(mw_grid *grid, const mw_grid_plan *plan, int shares)
+typedef struct grid_looking {
+    mw_grid *grid;
+    const mw_grid_plan *plan;
+    uint32_t shares;
+} grid_looking;
+
+static void share_look(void *work, uint64_t share, uint32_t member)
 {
-#ifdef _OPENMP
-#pragma omp parallel num_threads(shares) if (shares > 1)
-#endif
-    {
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-        for (int i = 0; i < shares; i++) shares_look(grid, plan, i, shares);
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-        for (uint32_t c = 0; c < mw__lattice_cells(&grid->lattice); c++) cell_join(grid, plan, c, shares);
-    }
+    const grid_looking *l = work;
+    (void)member;
+    shares_look(l->grid, l->plan, (uint32_t)share, l->shares);
+}
+
+static void cells_join(void *work, uint64_t from, uint64_t to)
+{
+    const grid_looking *l = work;
+    for (uint32_t c = (uint32_t)from; c < to; c++) cell_join(l->grid, l->plan, c, l->shares);
 }
 
 static bool cell_has(const mw_grid_plan *plan, uint32_t cell, uint32_t tiles)
@@ -122,22 +123,22 @@ static void plan_choose(mw_grid_plan *plan, uint32_t cells)
 static bool grid_look(mw_grid *grid, mw_grid_plan *plan)
 {
     uint32_t count = mw__lattice_cells(&grid->lattice);
-    int shares = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
+    uint32_t shares = mw__job_team(plan->job, plan->tiling->tri_count / WORTHWHILE + 1);
     if (shares > MOST_SHARES) shares = MOST_SHARES;
     grid->tile = mw__alloc_lines(count, sizeof *grid->tile);
     plan->site = mw__alloc_lines((size_t)shares * count, sizeof *plan->site);
-    if (!grid->tile || !plan->site) {
-        free(plan->site);
-        return false;
-    }
-    shares_look_together(grid, plan, shares);
-    return true;
+    grid_looking looking = {grid, plan, shares};
+    bool done = grid->tile && plan->site && mw__job_chunks(plan->job, shares, shares, share_look, &looking) &&
+                mw__job_ranges(plan->job, count, cells_join, &looking);
+    if (!done) free(plan->site);
+    return done;
 }
 
 bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells)
 {
     if (cells == 0) cells = mw__lattice_choose(plan->tiling);
-    grid->lattice = mw__lattice_of(plan->tiling, low, high, cells);
+    mw__job_stage(plan->job, "laying a grid", 0.5);
+    grid->lattice = mw__lattice_of(plan->tiling, low, high, cells, plan->job);
     if (!grid_look(grid, plan)) return false;
     plan_choose(plan, mw__lattice_cells(&grid->lattice));
     return true;
@@ -214,9 +215,19 @@ static uint32_t tile_after(const mw_grid *grid, const mw_grid_plan *plan, uint32
     return cell_is_gap(plan, c) ? 0 : grid->tile[c];
 }
 
+typedef struct grid_filling {
+    mw_grid *grid;
+    const mw_grid_plan *plan;
+} grid_filling;
+
 /* The cells within the outermost ones. */
-static void grid_fill_band(mw_grid *grid, const mw_grid_plan *plan, uint32_t first)
+static void grid_fill_band(void *work, uint64_t band, uint32_t member)
 {
+    const grid_filling *filling = work;
+    mw_grid *grid = filling->grid;
+    const mw_grid_plan *plan = filling->plan;
+    uint32_t first = 1 + (uint32_t)band * BAND;
+    (void)member;
     uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows;
     for (uint32_t y = first; y < first + BAND && y + 1 < rows; y++)
         for (uint32_t x = 1; x + 1 < columns; x++) {
@@ -235,35 +246,35 @@ static uint32_t line_inwards(uint32_t line, uint32_t lines)
 
 /* The outermost cells come last, each from the one further in: tiles along the hull are long, so
  * that near the one of the last cell there may be none of the next. */
-static void grid_fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
+static bool grid_fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 {
     uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows, bands = rows > 2 ? (rows - 3) / BAND + 1 : 0;
-    int team = mw__team(plan->tiling->threads, plan->tiling->tri_count / WORTHWHILE + 1);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
-#endif
-    for (uint32_t b = 0; b < bands; b++) grid_fill_band(grid, plan, 1 + b * BAND);
+    uint32_t team = mw__job_team(plan->job, plan->tiling->tri_count / WORTHWHILE + 1);
+    grid_filling filling = {grid, plan};
+    if (!mw__job_chunks(plan->job, team < bands ? team : bands, bands, grid_fill_band, &filling)) return false;
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < columns; x++) {
             if (!cell_is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x)) continue;
             uint32_t t = grid->tile[line_inwards(y, rows) * columns + line_inwards(x, columns)];
             cell_fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
         }
+    return true;
 }
 
-void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
+bool mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
 {
-    grid_fill_gaps(grid, plan);
-    for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells; c++)
+    mw__job_stage(plan->job, "filling a grid", 0.5);
+    bool done = grid_fill_gaps(grid, plan);
+    for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells && done; c++)
         grid->tile[c] = sparse && cell_has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);
     free(plan->site);
+    return done;
 }
 
-void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
+void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride, mw_job *job)
 {
     mw_grid fine = {.lattice = mw__lattice_finer(&grid->lattice)};
-    mw_grid_plan plan = {.tiling = tiling, .stride = stride};
+    mw_grid_plan plan = {.tiling = tiling, .stride = stride, .job = job};
     if (!mw__lattice_is_finite(&fine.lattice)) return;
     if (!grid_look(&fine, &plan)) {
         mw__grid_release(&fine);
@@ -279,12 +290,11 @@ void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride)
     *grid = fine;
 }
 
-bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
+bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
+                     mw_job *job)
 {
-    mw_grid_plan plan = {.tiling = tiling, .stride = 1};
-    if (!mw__grid_begin(grid, &plan, low, high, cells)) return false;
-    mw__grid_end(grid, &plan, false);
-    return true;
+    mw_grid_plan plan = {.tiling = tiling, .stride = 1, .job = job};
+    return mw__grid_begin(grid, &plan, low, high, cells) && mw__grid_end(grid, &plan, false);
 }
 
 void mw__grid_release(mw_grid *grid)

@@ -10,8 +10,10 @@ typedef struct mw_grid {
 } mw_grid;
 
 /* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the
- * extent of the tiling. Returns false when out of memory. */
-bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
+ * extent of the tiling. Stages of the present part of the job. Returns false when out of memory, or
+ * cancelled; the grid may be released in either case. */
+bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
+                     mw_job *job);
 
 /* What is known of a cell while its grid is built. */
 typedef struct mw_grid_site {
@@ -26,18 +28,21 @@ typedef struct mw_grid_site {
 typedef struct mw_grid_plan {
     const mw_tiling *tiling;
     uint32_t stride;
+    mw_job *job;
     mw_grid_site *site; /* of each cell; released by mw__grid_end, or with free() */
     uint32_t taken;     /* cells that have a tile that was looked at              */
     bool crowded;       /* a quarter of the tiles lies in cells with very many    */
 } mw_grid_plan;
 
+/* Each is a stage that takes half of the present part. Returns false when out of memory, or
+ * cancelled. */
 bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells);
 /* With `sparse` crowded cells are left without a tile: MW_NONE. */
-void mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
+bool mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
 /* Make of each cell of a grid that ended four. Those in which no tile is, of every stride-th, have
  * the tile of that cell, which takes no walk. Where memory is short, or cells would be too small
  * for doubles, it stays as it was. For the time being it takes 16 bytes a cell more. */
-void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride);
+void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride, mw_job *job);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);
 

@@ -53,30 +53,39 @@ static void kd_select(mw_kd_vertex *v, uint32_t n, uint32_t middle, int axis, ui
     }
 }
 
-static void kd_build(mw_kd_vertex *v, uint32_t n, int axis, uint64_t *random)
+typedef struct kd_building {
+    uint64_t random;
+    mw_job *job;
+    uint32_t done, count; /* vertices in their places, and all */
+} kd_building;
+
+static bool kd_build(kd_building *b, mw_kd_vertex *v, uint32_t n, int axis)
 {
     while (n > LEAF) {
         uint32_t middle = n / 2;
-        kd_select(v, n, middle, axis, random);
+        kd_select(v, n, middle, axis, &b->random);
         axis = 1 - axis;
-        kd_build(v, middle, axis, random); /* half of it: no deeper than 32 */
+        if (!kd_build(b, v, middle, axis)) return false; /* half of it: no deeper than 32 */
         v += middle + 1;
         n -= middle + 1;
+        b->done++;
     }
+    b->done += n;
+    return mw__job_step(b->job, b->done, b->count);
 }
 
-bool mw__kd_tree_create(mw_kd_tree *tree, const mw_tiling *tiling)
+bool mw__kd_tree_create(mw_kd_tree *tree, const mw_tiling *tiling, mw_job *job)
 {
     uint32_t *at = mw__tile_of_vertices(tiling), used = 0;
-    uint64_t random = 1;
     *tree = (mw_kd_tree){0};
     for (uint32_t v = 0; at && v < tiling->point_count; v++) used += at[v] != MW_NONE;
     if (at) tree->vertex = mw__alloc_lines((size_t)used + 1, sizeof *tree->vertex);
     for (uint32_t v = 0; tree->vertex && v < tiling->point_count; v++)
         if (at[v] != MW_NONE) tree->vertex[tree->count++] = (mw_kd_vertex){tiling->point[v], at[v]};
     free(at);
-    if (tree->count) kd_build(tree->vertex, tree->count, 0, &random);
-    return tree->vertex != NULL;
+    kd_building building = {.random = 1, .job = job, .count = tree->count};
+    mw__job_stage(job, "building a tree of vertices", 1);
+    return tree->vertex && (tree->count == 0 || kd_build(&building, tree->vertex, tree->count, 0));
 }
 
 void mw__kd_tree_release(mw_kd_tree *tree)

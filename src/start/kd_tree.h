@@ -15,8 +15,9 @@ typedef struct mw_kd_tree {
     uint32_t count;
 } mw_kd_tree;
 
-/* Of the vertices of a tiling that have a tile. Returns false when out of memory. */
-bool mw__kd_tree_create(mw_kd_tree *tree, const mw_tiling *tiling);
+/* Of the vertices of a tiling that have a tile. A stage that takes the present part of
+ * the job. Returns false when out of memory, or cancelled. */
+bool mw__kd_tree_create(mw_kd_tree *tree, const mw_tiling *tiling, mw_job *job);
 void mw__kd_tree_release(mw_kd_tree *tree);
 size_t mw__kd_tree_bytes(const mw_kd_tree *tree);
 

@@ -70,7 +70,8 @@ static double tiles_shape(const mw_tiling *tiling, double direction[2])
     return least > 0 ? sqrt((sum / 2 + root) / least) : INFINITY;
 }
 
-static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
+static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
+                                mw_job *job)
 {
     static const double common = 4, most = 0x1p20; /* tiles that are less long than the first are common */
     mw_lattice lattice = mw__lattice(low, high, cells);
@@ -78,7 +79,7 @@ static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], co
     if (!(aspect > common)) return lattice;
     const double axis[2][2] = {{-d[1] * aspect, d[0] * aspect}, {d[0], d[1]}};
     double least[2], greatest[2];
-    mw__tiling_extent(tiling, lattice.middle, axis, least, greatest);
+    mw__tiling_extent(tiling, lattice.middle, axis, job, least, greatest);
     for (int k = 0; k < 2; k++)
         if (!(greatest[k] - least[k] > 0 && greatest[k] - least[k] < INFINITY)) return lattice;
     mw_lattice slanted = mw__lattice(least, greatest, cells);
@@ -95,10 +96,11 @@ static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], co
 }
 
 /* A line of cells beyond each side of the extent, unless there are few. */
-mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells)
+mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
+                          mw_job *job)
 {
     enum { FEW = 8 };
-    mw_lattice lattice = lattice_shape(tiling, low, high, cells);
+    mw_lattice lattice = lattice_shape(tiling, low, high, cells, job);
     for (int k = 0; k < 2; k++) {
         uint32_t *lines = k == 0 ? &lattice.columns : &lattice.rows;
         if (*lines < FEW) continue;

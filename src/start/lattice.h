@@ -18,8 +18,9 @@ mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells
 
 /* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so
  * too. Where there are more than a few, a margin of further cells surrounds the extent, to which
- * all points outside of it belong. */
-mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells);
+ * all points outside of it belong. Steps of the present stage. */
+mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
+                          mw_job *job);
 
 /* The same with cells half as wide and half as high. */
 mw_lattice mw__lattice_finer(const mw_lattice *lattice);

@@ -87,11 +87,11 @@ static mw_status layer_order_vertices(mw_layer *layer, mw_error *error)
 }
 
 /* Triangulate the points of a layer. MW_ERROR_INPUT where they lie on one line. */
-static mw_status layer_triangulate(mw_layer *layer, mw_error *error)
+static mw_status layer_triangulate(mw_layer *layer, mw_job *job, mw_error *error)
 {
     mw_tiling *tiling = &layer->tiling;
-    mw_status status =
-        mw__delaunay_triangles(tiling->point, tiling->point_count, NULL, NULL, &tiling->tri, &tiling->tri_count, error);
+    mw_status status = mw__delaunay_triangles(tiling->point, tiling->point_count, job, NULL, NULL, &tiling->tri,
+                                              &tiling->tri_count, error);
     if (!status) status = layer_order_vertices(layer, error);
     if (!status) status = mw__tiling_areas(tiling, error);
     return status;
@@ -112,13 +112,13 @@ static uint32_t layer_vertex_count(const mw_layers *layers, uint32_t i)
 
 /* Put a layer of `size` vertices above the highest, `tiling`, of which `at` has the tiles. */
 static mw_status layers_add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at, uint32_t size,
-                            uint64_t seed, mw_error *error)
+                            uint64_t seed, mw_job *job, mw_error *error)
 {
     mw_layer *layer = &layers->layer[layers->count - 1];
     uint32_t vertices = layer_vertex_count(layers, layers->count - 1);
     layer->tiling.embedding = true;
     bool chosen = layer_choose(tiling, at, vertices, size, mw__random_seed(seed, layers->count), layer);
-    mw_status status = chosen ? layer_triangulate(layer, error) : mw__fail_memory(error);
+    mw_status status = chosen ? layer_triangulate(layer, job, error) : mw__fail_memory(error);
     if (status)
         layer_release(layer);
     else
@@ -154,7 +154,8 @@ static mw_status layers_check(const mw_layers_options *options, mw_error *error)
     return MW_OK;
 }
 
-mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_layers *out, mw_error *error)
+mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job, mw_layers *out,
+                            mw_error *error)
 {
     *out = (mw_layers){.count = 1, .tiles = tiling->tri_count, .descent = options->descent};
     mw_status status = layers_check(options, error);
@@ -164,9 +165,13 @@ mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *op
     uint32_t wanted = options->layers ? options->layers : layers_by_size(size, ratio);
     out->vertices = size;
     mw_error reason;
+    double left = 1; /* of the job; the lowest layer has most of the vertices */
     while (at && !status && out->count < wanted && layer_size_above(size, ratio) < size) {
-        status = layers_add(out, tiling, at, layer_size_above(size, ratio), options->seed, &reason);
+        mw_job_span outer = mw__job_part(job, left * (1 - ratio));
+        status = layers_add(out, tiling, at, layer_size_above(size, ratio), options->seed, job, &reason);
+        mw__job_part_end(job, outer);
         if (status) break;
+        left *= ratio;
         tiling = &out->layer[out->count - 2].tiling;
         size = tiling->point_count;
         free(at);

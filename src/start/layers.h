@@ -37,8 +37,10 @@ typedef struct mw_layers_options {
 /* Layers above the tiling: of the vertices of one, the share `ratio`, or 3, chosen at random, make
  * the next. There may be fewer layers than asked for: they end where the vertices chosen would lie
  * on one line or be no fewer than those below. MW_ERROR_ARGUMENT for options out of range,
- * MW_ERROR_MEMORY. *out may be released in either case. */
-mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_layers *out, mw_error *error);
+ * MW_ERROR_MEMORY (also if cancelled). *out may be released in either case. Stages of the present
+ * part of the job. */
+mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job, mw_layers *out,
+                            mw_error *error);
 void mw__layers_release(mw_layers *layers);
 void mw__layers_cut(mw_layers *layers, uint32_t count); /* keep so many, the mesh itself counted */
 size_t mw__layers_bytes(const mw_layers *layers);       /* what it owns, beside *layers */

@@ -23,6 +23,7 @@ typedef struct mw_bucket_pass {
     const mw_lattice *lattice;
     uint32_t *from, *tile; /* without tile: cells are counted in from[c + 1]; else it is put at from[c]++ */
     uint64_t steps, most;  /* rows and cells looked at, at most so many */
+    mw_job *job;
 } mw_bucket_pass;
 
 /* The part of an edge between two heights: how far it reaches along the row. */
@@ -72,44 +73,57 @@ static void bucket_tile(mw_bucket_pass *p, const mw_tiling *tiling, uint32_t t)
     for (uint32_t row = first; row <= last && p->steps <= p->most; row++, p->steps++) bucket_row(p, corner, row, name);
 }
 
+/* Before tile t: is the job to go on? */
+static MW_INLINE bool pass_goes_on(const mw_bucket_pass *pass, const mw_tiling *tiling, uint32_t t)
+{
+    enum { SOME = 1 << 12 };
+    return t % SOME != 0 || mw__job_step(pass->job, t, tiling->tri_count);
+}
+
 /* Count the tiles of all buckets of a lattice. Returns false where they are too many. */
-static bool buckets_count(mw_triangle_buckets *buckets, const mw_tiling *tiling)
+static bool buckets_count(mw_triangle_buckets *buckets, const mw_tiling *tiling, mw_job *job)
 {
     uint32_t cells = mw__lattice_cells(&buckets->lattice);
     mw_bucket_pass pass = {.lattice = &buckets->lattice,
                            .from = buckets->from,
-                           .most = cells > 1 ? (uint64_t)MOST * tiling->tri_count : UINT64_MAX};
+                           .most = cells > 1 ? (uint64_t)MOST * tiling->tri_count : UINT64_MAX,
+                           .job = job};
     if (pass.most > UINT32_MAX / 2 && cells > 1) pass.most = UINT32_MAX / 2;
     memset(buckets->from, 0, ((size_t)cells + 1) * sizeof *buckets->from);
-    for (uint32_t t = 0; t < tiling->tri_count && pass.steps <= pass.most; t++) bucket_tile(&pass, tiling, t);
+    for (uint32_t t = 0; t < tiling->tri_count && pass.steps <= pass.most && pass_goes_on(&pass, tiling, t); t++)
+        bucket_tile(&pass, tiling, t);
     return pass.steps <= pass.most;
 }
 
-static bool buckets_fill(mw_triangle_buckets *buckets, const mw_tiling *tiling)
+static bool buckets_fill(mw_triangle_buckets *buckets, const mw_tiling *tiling, mw_job *job)
 {
     uint32_t cells = mw__lattice_cells(&buckets->lattice), *from = buckets->from;
     for (uint32_t c = 0; c < cells; c++) from[c + 1] += from[c];
     buckets->tile = mw__alloc_lines(from[cells] + 1, sizeof *buckets->tile);
     if (!buckets->tile) return false;
-    mw_bucket_pass pass = {.lattice = &buckets->lattice, .from = from, .tile = buckets->tile, .most = UINT64_MAX};
-    for (uint32_t t = 0; t < tiling->tri_count; t++) bucket_tile(&pass, tiling, t);
+    mw_bucket_pass pass = {
+        .lattice = &buckets->lattice, .from = from, .tile = buckets->tile, .most = UINT64_MAX, .job = job};
+    for (uint32_t t = 0; t < tiling->tri_count && pass_goes_on(&pass, tiling, t); t++) bucket_tile(&pass, tiling, t);
     memmove(from + 1, from, cells * sizeof *from); /* each has come to the beginning of the next */
     from[0] = 0;
-    return true;
+    return !mw__job_stopped(job);
 }
 
 bool mw__triangle_buckets_create(mw_triangle_buckets *buckets, const mw_tiling *tiling, const double low[2],
-                                 const double high[2], uint32_t cells)
+                                 const double high[2], uint32_t cells, mw_job *job)
 {
     if (cells == 0) cells = mw__lattice_choose(tiling);
     *buckets = (mw_triangle_buckets){.lattice = mw__lattice(low, high, cells)};
     buckets->from = mw__alloc_lines(mw__lattice_cells(&buckets->lattice) + 1, sizeof *buckets->from);
     if (!buckets->from) return false;
-    while (!buckets_count(buckets, tiling)) {
+    mw__job_stage(job, "counting triangles of buckets", 0.4);
+    while (!buckets_count(buckets, tiling, job)) {
         cells = cells > 4 ? cells / 4 : 1;
         buckets->lattice = mw__lattice(low, high, cells);
     }
-    return buckets_fill(buckets, tiling);
+    if (mw__job_stopped(job)) return false;
+    mw__job_stage(job, "filling buckets", 0.6);
+    return buckets_fill(buckets, tiling, job);
 }
 
 void mw__triangle_buckets_release(mw_triangle_buckets *buckets)

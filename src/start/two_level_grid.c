@@ -26,7 +26,15 @@ typedef struct two_level_build {
     uint32_t *vertices;  /* in each coarse cell        */
     double (*extent)[4]; /* of each fine grid: low x, y, then minus high x, y */
     uint32_t *queue;
+    mw_job *job;
 } two_level_build;
+
+/* Before vertex v: is the job to go on? */
+static MW_INLINE bool build_goes_on(const two_level_build *y, uint32_t v)
+{
+    enum { SOME = 1 << 12 };
+    return v % SOME != 0 || mw__job_step(y->job, v, y->tiling->point_count);
+}
 
 static uint32_t coarse_cell(const mw_two_level_grid *grid, const two_level_build *y, uint32_t v)
 {
@@ -41,11 +49,12 @@ static bool two_level_find_crowded(mw_two_level_grid *grid, two_level_build *y)
     y->vertices = mw__calloc(cells, sizeof *y->vertices);
     grid->coarse = mw__alloc_lines(cells, sizeof *grid->coarse);
     if (!y->tile || !y->vertices || !grid->coarse) return false;
-    for (uint32_t v = 0; v < y->tiling->point_count; v++)
+    mw__job_stage(y->job, "finding crowded cells", 0.2);
+    for (uint32_t v = 0; v < y->tiling->point_count && build_goes_on(y, v); v++)
         if (y->tile[v] != MW_NONE) y->vertices[coarse_cell(grid, y, v)]++;
     for (uint32_t c = 0; c < cells; c++)
         grid->coarse[c] = y->vertices[c] > CROWDED ? MW_FINE + grid->grid_count++ : MW_NONE;
-    return true;
+    return !mw__job_stopped(y->job);
 }
 
 /* Find the extent of the vertices of each crowded cell. */
@@ -55,7 +64,8 @@ static bool two_level_find_extents(const mw_two_level_grid *grid, two_level_buil
     if (!y->extent) return false;
     for (uint32_t i = 0; i < grid->grid_count; i++)
         for (int k = 0; k < 4; k++) y->extent[i][k] = INFINITY;
-    for (uint32_t v = 0; v < y->tiling->point_count; v++) {
+    mw__job_stage(y->job, "measuring crowded cells", 0.2);
+    for (uint32_t v = 0; v < y->tiling->point_count && build_goes_on(y, v); v++) {
         if (y->tile[v] == MW_NONE) continue;
         uint32_t entry = grid->coarse[coarse_cell(grid, y, v)];
         if (entry == MW_NONE) continue;
@@ -64,7 +74,7 @@ static bool two_level_find_extents(const mw_two_level_grid *grid, two_level_buil
         for (int k = 0; k < 4; k++)
             if (bound[k] < extent[k]) extent[k] = bound[k];
     }
-    return true;
+    return !mw__job_stopped(y->job);
 }
 
 /* Lay out a fine grid for each crowded cell. */
@@ -90,7 +100,8 @@ static bool two_level_fill(mw_two_level_grid *grid, two_level_build *y)
     y->queue = mw__alloc(cells > grid->fine_count ? cells : grid->fine_count, sizeof *y->queue);
     if (!y->queue) return false;
     for (uint32_t c = 0; c < grid->fine_count; c++) grid->fine[c] = MW_NONE;
-    for (uint32_t v = 0; v < y->tiling->point_count; v++) {
+    mw__job_stage(y->job, "filling a grid", 0.5);
+    for (uint32_t v = 0; v < y->tiling->point_count && build_goes_on(y, v); v++) {
         if (y->tile[v] == MW_NONE) continue;
         uint32_t *entry = &grid->coarse[coarse_cell(grid, y, v)];
         if (*entry != MW_NONE && *entry & MW_FINE) {
@@ -99,6 +110,7 @@ static bool two_level_fill(mw_two_level_grid *grid, two_level_build *y)
         }
         *entry = y->tile[v];
     }
+    if (mw__job_stopped(y->job)) return false;
     mw__lattice_fill(&grid->lattice, grid->coarse, y->queue);
     for (uint32_t i = 0; i < grid->grid_count; i++)
         mw__lattice_fill(&grid->grid[i].lattice, grid->fine + grid->grid[i].first, y->queue);
@@ -106,11 +118,12 @@ static bool two_level_fill(mw_two_level_grid *grid, two_level_build *y)
 }
 
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
-                               const double high[2], uint32_t cells)
+                               const double high[2], uint32_t cells, mw_job *job)
 {
-    two_level_build y = {.tiling = tiling};
-    *grid =
-        (mw_two_level_grid){.lattice = mw__lattice_of(tiling, low, high, cells ? cells : mw__lattice_choose(tiling))};
+    two_level_build y = {.tiling = tiling, .job = job};
+    mw__job_stage(job, "laying a grid", 0.1);
+    uint32_t wanted = cells ? cells : mw__lattice_choose(tiling);
+    *grid = (mw_two_level_grid){.lattice = mw__lattice_of(tiling, low, high, wanted, job)};
     bool done = two_level_find_crowded(grid, &y) && two_level_find_extents(grid, &y) && two_level_lay_out(grid, &y) &&
                 two_level_fill(grid, &y);
     free(y.tile);

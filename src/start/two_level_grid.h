@@ -22,9 +22,10 @@ typedef struct mw_two_level_grid {
 } mw_two_level_grid;
 
 /* About `cells` coarse cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high,
- * the extent of the tiling. Returns false when out of memory. */
+ * the extent of the tiling. Stages of the present part of the job. Returns false when out of memory,
+ * or cancelled. */
 bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
-                               const double high[2], uint32_t cells);
+                               const double high[2], uint32_t cells, mw_job *job);
 /* See mw__lattice_put. */
 void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_cell_entry *e);
 /* Does p lie in a cell of its own level, and not beyond the outermost cells of a grid? */

@@ -16,14 +16,17 @@
 #include <stdlib.h>
 
 bool mw__vertex_buckets_create(mw_vertex_buckets *buckets, const mw_tiling *tiling, const double low[2],
-                               const double high[2], uint32_t cells)
+                               const double high[2], uint32_t cells, mw_job *job)
 {
+    enum { SOME = 1 << 12 }; /* vertices between two steps of the job */
+    mw__job_stage(job, "filling buckets", 1);
     buckets->lattice = mw__lattice(low, high, cells ? cells : mw__lattice_choose(tiling));
     uint32_t count = mw__lattice_cells(&buckets->lattice), *at = mw__tile_of_vertices(tiling);
     buckets->tile = mw__alloc_lines(count, sizeof *buckets->tile);
     bool done = at && buckets->tile;
     for (uint32_t c = 0; done && c < count; c++) buckets->tile[c] = MW_NONE;
     for (uint32_t v = 0; done && v < tiling->point_count; v++) {
+        if (v % SOME == 0) done = mw__job_step(job, v, tiling->point_count);
         if (at[v] == MW_NONE) continue;
         uint32_t *tile = &buckets->tile[mw__lattice_cell(&buckets->lattice, tiling->point[v])];
         if (*tile == MW_NONE) *tile = at[v];

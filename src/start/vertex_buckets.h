@@ -10,9 +10,10 @@ typedef struct mw_vertex_buckets {
 } mw_vertex_buckets;
 
 /* About `cells` buckets (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the
- * extent of the tiling. Returns false when out of memory. */
+ * extent of the tiling. A stage that takes the present part of the job. Returns false
+ * when out of memory, or cancelled. */
 bool mw__vertex_buckets_create(mw_vertex_buckets *buckets, const mw_tiling *tiling, const double low[2],
-                               const double high[2], uint32_t cells);
+                               const double high[2], uint32_t cells, mw_job *job);
 void mw__vertex_buckets_release(mw_vertex_buckets *buckets);
 size_t mw__vertex_buckets_bytes(const mw_vertex_buckets *buckets);
 

@@ -28,12 +28,15 @@ static bool surface_take_points(mw_surface *surface, const mw_arrays *arrays)
 }
 
 /* Find the neighbours. In a welded surface, representatives stand for the vertices meanwhile. */
-static mw_status surface_link_triangles(mw_surface *surface, const mw_arrays *arrays, mw_error *error)
+static mw_status surface_link_triangles(mw_surface *surface, const mw_arrays *arrays, mw_job *job, mw_error *error)
 {
     mw_links links;
     for (uint32_t t = 0; t < surface->tri_count && surface->coincident; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = surface->coincident[surface->tri[t].v[k]];
-    if (!mw__connect(surface->tri, surface->tri_count, surface->point_count, 1, &links)) return mw__fail_memory(error);
+    mw_job_span outer = mw__job_part(job, 0.6);
+    bool done = mw__connect(surface->tri, surface->tri_count, surface->point_count, job, &links);
+    mw__job_part_end(job, outer);
+    if (!done) return mw__fail_memory(error);
     for (uint32_t t = 0; t < surface->tri_count && surface->coincident; t++)
         for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = mw__index_at(arrays, 3 * (size_t)t + k % 3);
     if (links.extra == MW_NONE || surface->tolerant) return MW_OK;
@@ -42,19 +45,41 @@ static mw_status surface_link_triangles(mw_surface *surface, const mw_arrays *ar
 }
 
 static mw_status surface_fill(mw_surface *surface, const mw_arrays *arrays, const mw_surface_options *options,
-                              mw_error *error)
+                              mw_job *job, mw_error *error)
 {
+    mw__job_stage(job, "copying triangles", 0.2);
     if (!surface_take_points(surface, arrays)) return mw__fail_memory(error);
     surface->tri = mw__alloc_lines(surface->tri_count, sizeof *surface->tri);
     if (!surface->tri) return mw__fail_memory(error);
     for (uint32_t t = 0; t < surface->tri_count; t++) {
+        if (!mw__job_step(job, t, surface->tri_count)) return mw__fail_memory(error);
         mw_status status = mw__copy_triangle(arrays, 3, surface->tolerant, t, &surface->tri[t], error);
         if (status) return status;
     }
+    mw__job_stage(job, "finding coincident vertices", 0.2);
     if (options->weld && !(surface->coincident = mw__coincident_create(surface->point, surface->point_count)))
         return mw__fail_memory(error);
     if (options->shared && !(surface->rwlock = mw__rwlock_create())) return mw__fail_memory(error);
-    return surface_link_triangles(surface, arrays, error);
+    return surface_link_triangles(surface, arrays, job, error);
+}
+
+mw_status mw__surface_create(const mw_arrays *arrays, const mw_surface_options *options, mw_job *job, mw_surface **out,
+                             mw_error *error)
+{
+    mw_status status = surface_check_arguments(arrays, options, error);
+    if (status) return status;
+    mw_surface *surface = mw__calloc(1, sizeof *surface);
+    if (!surface) return mw__fail_memory(error);
+    surface->tolerant = options->tolerant;
+    surface->borrowed = options->borrow;
+    surface->point_count = (uint32_t)arrays->point_count;
+    surface->tri_count = (uint32_t)arrays->triangle_count;
+    status = surface_fill(surface, arrays, options, job, error);
+    if (status)
+        mw_surface_destroy(surface);
+    else
+        *out = surface;
+    return status;
 }
 
 mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_options *options, mw_surface **out,
@@ -64,19 +89,12 @@ mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_options *o
     if (!options) options = &defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the surface");
     *out = NULL;
-    mw_status status = surface_check_arguments(arrays, options, error);
-    if (status) return status;
-    mw_surface *surface = mw__calloc(1, sizeof *surface);
-    if (!surface) return mw__fail_memory(error);
-    surface->tolerant = options->tolerant;
-    surface->borrowed = options->borrow;
-    surface->point_count = (uint32_t)arrays->point_count;
-    surface->tri_count = (uint32_t)arrays->triangle_count;
-    status = surface_fill(surface, arrays, options, error);
-    if (status)
-        mw_surface_destroy(surface);
-    else
-        *out = surface;
+    mw_job job = mw__job(1, options->progress);
+    mw_status status = mw__job_end(&job, mw__surface_create(arrays, options, &job, out, error), error);
+    if (status) {
+        mw_surface_destroy(*out);
+        *out = NULL;
+    }
     return status;
 }
 

@@ -4,6 +4,7 @@
 #define MW_SRC_SURFACE_SURFACE_H
 
 #include "surface/rwlock.h"
+#include "base/job.h"
 #include "mesh/mesh.h"
 
 #include <meshwalk/surface.h>
@@ -60,5 +61,12 @@ static MW_INLINE void mw__surface_read_unlock(const mw_surface *surface)
 {
     if (surface->rwlock) mw__rwlock_read_unlock(surface->rwlock);
 }
+
+/* As mw_surface_create, as stages of the present part of the job. *out is not changed on failure. */
+mw_status mw__surface_create(const mw_arrays *arrays, const mw_surface_options *options, mw_job *job, mw_surface **out,
+                             mw_error *error);
+
+/* As mw_surface_check_arrays, likewise; the check may hold something on failure. */
+mw_status mw__surface_check(const mw_arrays *arrays, int weld, mw_job *job, mw_check *check, mw_error *error);
 
 #endif

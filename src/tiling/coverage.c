@@ -118,8 +118,9 @@ static bool coverage_force_edge(mw_coverage *c, uint32_t edge, mw_defects *defec
  * edges. Once such edges have searched all cells many times, the mesh is no embedding anyway. From
  * then on an edge only searches near its ends. An edge that this does not find is left out and not
  * reported. */
-static bool coverage_force_edges(mw_coverage *c, mw_defects *defects)
+static bool coverage_force_edges(mw_coverage *c, mw_job *job, mw_defects *defects)
 {
+    mw__job_stage(job, "forcing the border", 0.5);
     enum { PATIENCE = 64, NEAR = 64 }; /* PATIENCE: times all cells; NEAR: cells */
     /* Subsegments are edges of the cells. */
     size_t most = 2 * ((size_t)c->cell_count + c->outline->node_count);
@@ -129,7 +130,7 @@ static bool coverage_force_edges(mw_coverage *c, mw_defects *defects)
     uint32_t *order = mw__brio_order(c->outline->half_count);
     bool done = order;
     for (uint32_t i = 0; i < c->outline->half_count && done; i++) {
-        done = coverage_force_edge(c, order[i], defects);
+        done = coverage_force_edge(c, order[i], defects) && mw__job_step(job, i, c->outline->half_count);
         if (c->net.wasted / PATIENCE > c->cell_count) c->net.reach = NEAR;
     }
     free(order);
@@ -239,15 +240,18 @@ static bool coverage_find_degrees(mw_coverage *c)
     return true;
 }
 
-mw_status mw__coverage_create(mw_coverage *coverage, const mw_outline *outline, mw_defects *defects, mw_error *error)
+mw_status mw__coverage_create(mw_coverage *coverage, const mw_outline *outline, mw_job *job, mw_defects *defects,
+                              mw_error *error)
 {
     *coverage = (mw_coverage){.outline = outline};
-    mw_status status = mw__delaunay_triangles(outline->point, outline->node_count, NULL, NULL, &coverage->cell,
+    mw_job_span outer = mw__job_part(job, 0.5);
+    mw_status status = mw__delaunay_triangles(outline->point, outline->node_count, job, NULL, NULL, &coverage->cell,
                                               &coverage->cell_count, error);
+    mw__job_part_end(job, outer);
     if (status) return status;
     bool done = mw__segment_insertion_create(&coverage->net, outline->point, outline->node_count, coverage->cell,
                                              coverage->cell_count) &&
-                coverage_force_edges(coverage, defects) && coverage_spread_left_out(coverage) &&
+                coverage_force_edges(coverage, job, defects) && coverage_spread_left_out(coverage) &&
                 splits_sort(coverage) && coverage_find_degrees(coverage);
     return done ? MW_OK : mw__fail_memory(error);
 }

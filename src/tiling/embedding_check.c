@@ -51,23 +51,27 @@ static bool embedding_has_no_defect(const mw_embedding_check *s)
     return true;
 }
 
-static mw_status embedding_check_cover(mw_embedding_check *s, mw_error *error)
+static mw_status embedding_check_cover(mw_embedding_check *s, mw_job *job, mw_error *error)
 {
-    mw_status status = mw__coverage_create(&s->coverage, &s->outline, &s->defects, error);
+    mw_job_span outer = mw__job_part(job, 0.7);
+    mw_status status = mw__coverage_create(&s->coverage, &s->outline, job, &s->defects, error);
+    mw__job_part_end(job, outer);
     if (status) return status;
+    mw__job_stage(job, "looking for overlaps", 0.1);
     if (!mw__regions_create(&s->regions, &s->coverage) || !overlaps_find(s)) return mw__fail_memory(error);
     return MW_OK;
 }
 
-mw_status mw__embedding_check_create(mw_embedding_check *check, const mw_mesh *mesh, mw_error *error)
+mw_status mw__embedding_check_create(mw_embedding_check *check, const mw_mesh *mesh, mw_job *job, mw_error *error)
 {
     *check = (mw_embedding_check){.mesh = mesh};
+    mw__job_stage(job, "looking for defects", 0.2);
     check->convex = check->embedding = mw__mesh_is_convex(mesh);
     if (check->convex) return MW_OK;
     if (!mw__outline_create(&check->outline, mesh) || !mw__find_local_defects(&check->outline, &check->defects))
         return mw__fail_memory(error);
     if (check->outline.half_count > 0) {
-        mw_status status = embedding_check_cover(check, error);
+        mw_status status = embedding_check_cover(check, job, error);
         if (status) return status;
     }
     check->embedding = embedding_has_no_defect(check);

@@ -103,9 +103,10 @@ uint32_t mw__ghosts_count(const mw_coverage *coverage)
     return count;
 }
 
-mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_tiling *tiling, mw_error *error)
+mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_job *job, mw_tiling *tiling, mw_error *error)
 {
     const mw_mesh *mesh = check->mesh;
+    mw__job_stage(job, "filling holes", 0.3);
     tile_maker m = {.outline = &check->outline, .coverage = &check->coverage, .tiling = tiling};
     tiling->ghost_count = fill ? mw__ghosts_count(m.coverage) : 0;
     tiling->hole_count = check->regions.hole_count;
@@ -123,7 +124,8 @@ mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_tiling 
     for (uint32_t t = 0; t < mesh->tri_count; t++)
         if (!mw__is_flat(m.outline, t)) tiles_add_user(&m, t);
     if (fill) tiles_add_ghosts(&m, &check->regions);
-    return mw__connect(tiling->tri, tiling->tri_count, tiling->point_count, tiling->threads, NULL)
-               ? MW_OK
-               : mw__fail_memory(error);
+    mw_job_span outer = mw__job_part(job, 0.7);
+    bool done = mw__connect(tiling->tri, tiling->tri_count, tiling->point_count, job, NULL);
+    mw__job_part_end(job, outer);
+    return done ? MW_OK : mw__fail_memory(error);
 }

@@ -1,5 +1,6 @@
 /* mesh_describe.c - the public description of a mesh. */
 #include "mesh/compensated_sum.h"
+#include "base/options.h"
 #include "tiling/tiling_create.h"
 #include "topology/topology_counts.h"
 
@@ -79,10 +80,10 @@ static bool tiling_is_delaunay(const mw_tiling *tiling)
     return true;
 }
 
-static mw_status mesh_describe_tiling(const mw_mesh *mesh, mw_mesh_info *info, mw_error *error)
+static mw_status mesh_describe_tiling(const mw_mesh *mesh, mw_job *job, mw_mesh_info *info, mw_error *error)
 {
     mw_tiling tiling;
-    mw_status status = mw__tiling_create(mesh, true, &tiling, error);
+    mw_status status = mw__tiling_create(mesh, (mw_tiling_options){.any = true}, job, &tiling, error);
     if (status) return status;
     info->embedding = tiling.embedding;
     if (tiling.embedding && tiling.tri_count > 0) {
@@ -94,18 +95,27 @@ static mw_status mesh_describe_tiling(const mw_mesh *mesh, mw_mesh_info *info, m
     return MW_OK;
 }
 
-mw_status mw_mesh_describe(const mw_mesh *mesh, mw_mesh_info *info, mw_error *error)
+mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *options, mw_mesh_info *info, mw_error *error)
 {
+    static const mw_check_options defaults;
     if (!mesh || !info) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh, or no place for its description");
+    if (!options) options = &defaults;
+    mw_status status = MW_RESERVED_CHECK(mw_check_options, options, error);
+    if (status) return status;
+    mw_job job = mw__job(options->threads, options->progress);
     *info = (mw_mesh_info){.vertices = mesh->point_count,
                            .triangles = mesh->tri_count,
                            .flat_triangles = mesh->flat_count,
                            .clockwise_triangles = mesh->reversed_count,
                            .low = {NAN, NAN},
                            .high = {NAN, NAN}};
+    mw__job_stage(&job, "measuring the mesh", 0.1);
     mesh_count_edges(mesh, info);
     mesh_sum_areas(mesh, info);
     mesh_find_extent(mesh, info);
     if (!mesh_count_components(mesh, info)) return mw__fail_memory(error);
-    return mesh_describe_tiling(mesh, info, error);
+    mw_job_span outer = mw__job_part(&job, 0.9);
+    status = mesh_describe_tiling(mesh, &job, info, error);
+    mw__job_part_end(&job, outer);
+    return mw__job_end(&job, status, error);
 }

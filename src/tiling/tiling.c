@@ -1,8 +1,7 @@
 /* tiling.c - what a tiling is asked for, and its end. */
 #include "tiling/tiling.h"
 
-#include "base/threads.h"
-
+#include <pthread.h>
 #include <stdlib.h>
 
 uint32_t mw__lowest_around_vertex(const mw_tiling *tiling, uint32_t first, uint32_t v)
@@ -52,33 +51,51 @@ size_t mw__tiling_copy_bytes(const mw_tiling *tiling)
     return tiling->point_count * sizeof *tiling->point + tiling->tri_count * sizeof *tiling->tri;
 }
 
-void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], double low[2],
-                       double high[2])
+typedef struct tiling_measuring {
+    const mw_tiling *tiling;
+    const double *middle;
+    const double (*axis)[2];
+    pthread_mutex_t lock; /* of the extent */
+    double low[2], high[2];
+} tiling_measuring;
+
+static void tiling_measure(void *work, uint64_t from, uint64_t to)
 {
-    enum { WORTHWHILE = 1 << 15 };
+    tiling_measuring *m = work;
+    const mw_tiling *tiling = m->tiling;
+    const double middle[2] = {m->middle[0], m->middle[1]}, ax = m->axis[0][0], ay = m->axis[0][1], bx = m->axis[1][0],
+                 by = m->axis[1][1];
     double left = INFINITY, bottom = INFINITY, right = -INFINITY, top = -INFINITY;
-    int team = mw__team(tiling->threads, tiling->point_count / WORTHWHILE + 1);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1) reduction(min                                \
-                                                                                    : left, bottom)                    \
-    reduction(max                                                                                                      \
-              : right, top)
-#endif
-    for (uint32_t v = 0; v < tiling->point_count; v++) {
+    for (uint32_t v = (uint32_t)from; v < to; v++) {
         if (!mw__vertex_is_used(tiling, v)) continue;
         double x = tiling->point[v].x - middle[0], y = tiling->point[v].y - middle[1];
-        double along = x * axis[0][0] + y * axis[0][1], across = x * axis[1][0] + y * axis[1][1];
+        double along = x * ax + y * ay, across = x * bx + y * by;
         left = along < left ? along : left;
         bottom = across < bottom ? across : bottom;
         right = along > right ? along : right;
         top = across > top ? across : top;
     }
-    /* makes -0 a 0: which of the two equal numbers comes last depends on the threads */
-    low[0] = left + 0.0;
-    low[1] = bottom + 0.0;
-    high[0] = right + 0.0;
-    high[1] = top + 0.0;
+    pthread_mutex_lock(&m->lock);
+    m->low[0] = left < m->low[0] ? left : m->low[0];
+    m->low[1] = bottom < m->low[1] ? bottom : m->low[1];
+    m->high[0] = right > m->high[0] ? right : m->high[0];
+    m->high[1] = top > m->high[1] ? top : m->high[1];
+    pthread_mutex_unlock(&m->lock);
+}
+
+void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], mw_job *job,
+                       double low[2], double high[2])
+{
+    tiling_measuring m = {
+        .tiling = tiling, .middle = middle, .axis = axis, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    pthread_mutex_init(&m.lock, NULL);
+    mw__job_ranges(job, tiling->point_count, tiling_measure, &m);
+    pthread_mutex_destroy(&m.lock);
+    /* + 0.0 makes -0 a 0: which of the two equal numbers comes last depends on the threads */
+    for (int k = 0; k < 2; k++) {
+        low[k] = m.low[k] + 0.0;
+        high[k] = m.high[k] + 0.0;
+    }
 }
 
 size_t mw__tiling_bytes(const mw_tiling *tiling)

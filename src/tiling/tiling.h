@@ -14,6 +14,7 @@
 #ifndef MW_SRC_TILING_TILING_H
 #define MW_SRC_TILING_TILING_H
 
+#include "base/job.h"
 #include "tiling/border_loops.h"
 #include "mesh/mesh.h"
 
@@ -46,7 +47,6 @@ typedef struct mw_tiling {
     bool slots_are_numbers; /* of an edited tiling: most tiles have their slot as number */
     /* Of an edited tiling: numbers below this lead to a tile, those of undone edits, too. */
     uint32_t name_count;
-    uint32_t threads; /* for building this tiling and its parts; 0: OpenMP's choice */
 } mw_tiling;
 
 #define MW_GONE (UINT32_C(1) << 31)
@@ -96,9 +96,9 @@ static MW_INLINE uint32_t mw__tile_name(const mw_tiling *tiling, uint32_t t)
 void mw__tiling_release(mw_tiling *tiling);
 
 /* The extent along two axes, seen from `middle`, of the vertices of all triangles with an area. The
- * same for any number of threads. */
-void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], double low[2],
-                       double high[2]);
+ * same for any number of threads. Steps of the present stage; unspecified if it is cancelled. */
+void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], mw_job *job,
+                       double low[2], double high[2]);
 
 size_t mw__tiling_bytes(const mw_tiling *tiling);      /* of everything that it owns */
 size_t mw__tiling_copy_bytes(const mw_tiling *tiling); /* of its own tiles and points */

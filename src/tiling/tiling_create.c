@@ -1,7 +1,6 @@
 /* tiling_create.c - makes the tiling of a mesh: borrows the arrays of the mesh or makes new ones. */
 #include "tiling/tiling_create.h"
 
-#include "base/threads.h"
 #include "tiling/ghosts.h"
 #include "tiling/border_loops_create.h"
 #include "tiling/loop_edges.h"
@@ -25,38 +24,45 @@ static void tiling_find_lowest(const mw_tiling *tiling, uint32_t tile, uint32_t 
     }
 }
 
+typedef struct owner_search {
+    mw_tiling *tiling;
+    uint32_t shares;
+    uint32_t *others; /* what the shares from 1 on have found */
+} owner_search;
+
+static void owner_search_share(void *work, uint64_t i, uint32_t member)
+{
+    const owner_search *s = work;
+    const mw_tiling *tiling = s->tiling;
+    (void)member;
+    tiling_find_lowest(tiling, (uint32_t)(tiling->tri_count * i / s->shares),
+                       (uint32_t)(tiling->tri_count * (i + 1) / s->shares),
+                       i == 0 ? tiling->owner : s->others + (i - 1) * tiling->point_count);
+}
+
+static void owner_search_join(void *work, uint64_t from, uint64_t to)
+{
+    const owner_search *s = work;
+    uint32_t *owner = s->tiling->owner;
+    for (uint32_t i = 1; i < s->shares; i++) {
+        const uint32_t *other = s->others + (size_t)(i - 1) * s->tiling->point_count;
+        for (uint64_t v = from; v < to; v++) owner[v] = other[v] < owner[v] ? other[v] : owner[v];
+    }
+}
+
 /* Each thread finds the lowest triangles in its share of the tiles. The lowest of these are the
- * owners. */
-static bool tiling_find_owners(mw_tiling *tiling)
+ * owners. Returns false when out of memory, or cancelled. */
+static bool tiling_find_owners(mw_tiling *tiling, mw_job *job)
 {
     enum { WORTHWHILE = 1 << 15, MOST_SHARES = 8 }; /* each share has an array over all vertices */
-    uint32_t n = tiling->point_count, tiles = tiling->tri_count;
-    int shares = mw__team(tiling->threads, tiles / WORTHWHILE + 1);
+    uint32_t n = tiling->point_count, shares = mw__job_team(job, tiling->tri_count / WORTHWHILE + 1);
     if (shares > MOST_SHARES) shares = MOST_SHARES;
+    mw__job_stage(job, "finding the owners of vertices", 0.2);
     tiling->owner = mw__alloc(n, sizeof *tiling->owner);
-    uint32_t *others = mw__alloc((size_t)(shares - 1) * n, sizeof *others);
-    bool done = tiling->owner && others;
-#ifdef _OPENMP
-#pragma omp parallel num_threads(shares) if (shares > 1 && done)
-#endif
-    if (done) {
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-        for (int i = 0; i < shares; i++)
-            tiling_find_lowest(tiling, (uint32_t)((uint64_t)tiles * (uint32_t)i / (uint32_t)shares),
-                               (uint32_t)((uint64_t)tiles * (uint32_t)(i + 1) / (uint32_t)shares),
-                               i == 0 ? tiling->owner : others + (size_t)(i - 1) * n);
-#ifdef _OPENMP
-#pragma omp for schedule(static)
-#endif
-        for (uint32_t v = 0; v < n; v++)
-            for (int i = 1; i < shares; i++) {
-                uint32_t other = others[(size_t)(i - 1) * n + v];
-                if (other < tiling->owner[v]) tiling->owner[v] = other;
-            }
-    }
-    free(others);
+    owner_search search = {tiling, shares, mw__alloc((size_t)(shares - 1) * n, sizeof *search.others)};
+    bool done = tiling->owner && search.others && mw__job_chunks(job, shares, shares, owner_search_share, &search) &&
+                (shares == 1 || mw__job_ranges(job, n, owner_search_join, &search));
+    free(search.others);
     return done;
 }
 
@@ -89,12 +95,13 @@ static bool mesh_is_own_tiling(const mw_embedding_check *check)
     return true;
 }
 
-static mw_status tiling_make_without_ghosts(const mw_embedding_check *check, mw_tiling *tiling, mw_error *error)
+static mw_status tiling_make_without_ghosts(const mw_embedding_check *check, mw_job *job, mw_tiling *tiling,
+                                            mw_error *error)
 {
     if (mesh_is_own_tiling(check)) {
         tiling_borrow(check->mesh, tiling);
     } else {
-        mw_status status = mw__ghosts_fill(check, false, tiling, error);
+        mw_status status = mw__ghosts_fill(check, false, job, tiling, error);
         if (status) return status;
     }
     tiling->hole_count = check->regions.hole_count;
@@ -102,33 +109,35 @@ static mw_status tiling_make_without_ghosts(const mw_embedding_check *check, mw_
     return tiling->loop_edges ? MW_OK : mw__fail_memory(error);
 }
 
-static mw_status tiling_make(const mw_embedding_check *check, bool any, bool fill, mw_tiling *tiling, mw_error *error)
+static mw_status tiling_make(const mw_embedding_check *check, mw_tiling_options options, mw_job *job, mw_tiling *tiling,
+                             mw_error *error)
 {
     tiling->embedding = check->embedding;
-    if (!check->embedding && !any) return tiling_refuse(check, error);
+    if (!check->embedding && !options.any) return tiling_refuse(check, error);
     if (check->embedding && !check->convex)
-        return fill || mw__ghosts_count(&check->coverage) == 0 ? mw__ghosts_fill(check, true, tiling, error)
-                                                               : tiling_make_without_ghosts(check, tiling, error);
+        return !options.without_ghosts || mw__ghosts_count(&check->coverage) == 0
+                   ? mw__ghosts_fill(check, true, job, tiling, error)
+                   : tiling_make_without_ghosts(check, job, tiling, error);
     tiling_borrow(check->mesh, tiling);
     if (!check->embedding) tiling->defect = check->defects.list[0];
     return MW_OK;
 }
 
-mw_status mw__tiling_create_with(const mw_mesh *mesh, mw_tiling_options options, mw_tiling *tiling, mw_error *error)
+mw_status mw__tiling_create(const mw_mesh *mesh, mw_tiling_options options, mw_job *job, mw_tiling *tiling,
+                            mw_error *error)
 {
-    *tiling = (mw_tiling){.threads = options.threads};
+    *tiling = (mw_tiling){0};
     mw_embedding_check check;
-    mw_status status = mw__embedding_check_create(&check, mesh, error);
-    if (!status) status = tiling_make(&check, options.any, !options.without_ghosts, tiling, error);
+    mw_job_span outer = mw__job_part(job, 0.5);
+    mw_status status = mw__embedding_check_create(&check, mesh, job, error);
+    mw__job_part_end(job, outer);
+    outer = mw__job_part(job, 0.3);
+    if (!status) status = tiling_make(&check, options, job, tiling, error);
+    mw__job_part_end(job, outer);
     mw__embedding_check_release(&check);
-    if (!status && !tiling_find_owners(tiling)) status = mw__fail_memory(error);
+    if (!status && !tiling_find_owners(tiling, job)) status = mw__fail_memory(error);
     if (status) mw__tiling_release(tiling);
     return status;
-}
-
-mw_status mw__tiling_create(const mw_mesh *mesh, bool any, mw_tiling *tiling, mw_error *error)
-{
-    return mw__tiling_create_with(mesh, (mw_tiling_options){.any = any, .threads = 1}, tiling, error);
 }
 
 mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error)

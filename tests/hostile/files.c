@@ -103,7 +103,7 @@ static void write_valid(const char *path, const char *format, uint64_t *random)
     mw_mesh_file file = {
         .points = xyz, .point_count = a.point_count, .triangles = a.triangles, .triangle_count = a.triangle_count};
     mw_error error;
-    expect_ok(mw_write_mesh(path, &file, format, &error), "writing a mesh", &error);
+    expect_ok(mw_write_mesh(path, &file, format, NULL, &error), "writing a mesh", &error);
     free(xyz);
     arrays_free(&a);
 }
@@ -123,14 +123,14 @@ static void expect_sound(const mw_mesh_file *file, const char *path)
     mw_arrays view = mw_mesh_file_arrays(file);
     mw_check check;
     mw_error error;
-    if (mw_check_arrays(&view, &check, &error) == MW_OK) mw_check_release(&check);
+    if (mw_check_arrays(&view, NULL, &check, &error) == MW_OK) mw_check_release(&check);
 }
 
 static void read_as_mesh(const char *path)
 {
     mw_mesh_file file;
     mw_error error;
-    if (mw_read_mesh(path, &file, &error)) {
+    if (mw_read_mesh(path, NULL, &file, &error)) {
         expect_error_names(&error, path);
         return;
     }
@@ -163,7 +163,7 @@ static void read_as_constraints(const char *path)
 {
     mw_constraint_file file;
     mw_error error;
-    if (mw_read_constraints(path, &file, &error)) {
+    if (mw_read_constraints(path, NULL, &file, &error)) {
         expect_error_names(&error, path);
         return;
     }

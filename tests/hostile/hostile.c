@@ -21,9 +21,9 @@ typedef struct subject {
 } subject;
 
 static const subject subjects[] = {
-    {"soup", hostile_soup},           {"graded", hostile_graded}, {"hubs", hostile_hubs},
-    {"exponents", hostile_exponents}, {"stars", hostile_stars},   {"probes", hostile_probes},
-    {"edits", hostile_edits},         {"memory", hostile_memory}, {"files", hostile_files},
+    {"soup", hostile_soup},   {"graded", hostile_graded},   {"hubs", hostile_hubs},   {"exponents", hostile_exponents},
+    {"stars", hostile_stars}, {"probes", hostile_probes},   {"edits", hostile_edits}, {"memory", hostile_memory},
+    {"files", hostile_files}, {"cancels", hostile_cancels}, {"forks", hostile_forks},
 };
 enum { SUBJECTS = sizeof subjects / sizeof *subjects, LONGEST_ROUND = 300 /* seconds */ };
 

@@ -19,9 +19,11 @@ hostile_round hostile_exponents; /* coordinates up to both ends of the doubles  
 hostile_round hostile_stars;  /* polyhedra that are, or are not, star-shaped */
 hostile_round hostile_probes; /* lines against surfaces and soups            */
 /* Others, a file each. */
-hostile_round hostile_edits;  /* streams of edits                            */
-hostile_round hostile_memory; /* one allocation fails, anywhere              */
-hostile_round hostile_files;  /* files with bytes changed                    */
+hostile_round hostile_edits;   /* streams of edits                            */
+hostile_round hostile_memory;  /* one allocation fails, anywhere              */
+hostile_round hostile_files;   /* files with bytes changed                    */
+hostile_round hostile_cancels; /* calls cancelled at any report               */
+hostile_round hostile_forks;   /* children that call after their parent       */
 
 /* Ends the program with the message, the subject and the seed that repeats the round. */
 _Noreturn void hostile_failed(const char *format, ...) __attribute__((format(printf, 1, 2)));

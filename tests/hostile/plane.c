@@ -61,7 +61,7 @@ void hostile_soup(uint64_t *random)
     mw_arrays view = arrays_view(&a);
     mw_check check;
     mw_error error;
-    expect_ok(mw_check_arrays(&view, &check, &error), "a check", &error);
+    expect_ok(mw_check_arrays(&view, NULL, &check, &error), "a check", &error);
     if ((check.valid != 0) != embedding)
         hostile_failed(embedding ? "an embedding is refused" : "a soup is taken for an embedding");
     if (!embedding && check.defect_count == 0) hostile_failed("refused without a defect");

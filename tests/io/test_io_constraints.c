@@ -22,7 +22,7 @@ static mw_constraint_file read_text(const char *name, const char *text)
     mw_constraint_file file;
     mw_error error;
     files_write_text(name, text);
-    if (mw_read_constraints(name, &file, &error) != MW_OK) fail_msg("%s: refused: %s", text, error.message);
+    if (mw_read_constraints(name, NULL, &file, &error) != MW_OK) fail_msg("%s: refused: %s", text, error.message);
     return file;
 }
 
@@ -97,7 +97,7 @@ static void test_poly_and_node(void **state)
     mw_constraint_file file;
     mw_error error;
     files_write_text("b.poly", poly);
-    assert_int_equal(mw_read_constraints("b.poly", &file, &error), MW_ERROR_SYSTEM);
+    assert_int_equal(mw_read_constraints("b.poly", NULL, &file, &error), MW_ERROR_SYSTEM);
     assert_non_null(strstr(error.message, "b.node"));
     files_write_text("b.node", node);
     for (int zipped = 0; zipped < 2; zipped++) {
@@ -106,7 +106,7 @@ static void test_poly_and_node(void **state)
             files_write_gzip("b.poly.gz", BYTES(poly));
             files_write_gzip("b.node.gz", BYTES(node));
         }
-        assert_int_equal(mw_read_constraints(zipped ? "b.poly.gz" : "b.poly", &file, &error), MW_OK);
+        assert_int_equal(mw_read_constraints(zipped ? "b.poly.gz" : "b.poly", NULL, &file, &error), MW_OK);
         expect_counts(&file, 3, 1, 0, 0);
         expect_segment(&file, 0, 0, 2, MW_NONE, 3);
         assert_int_equal(file.field_count, 1);
@@ -121,7 +121,7 @@ static void refused(const char *name, const char *text, int64_t line, const char
     mw_error error;
     files_write_text(name, text);
     memset(&file, 0xee, sizeof file);
-    if (mw_read_constraints(name, &file, &error) == MW_OK) fail_msg("taken: %s", text);
+    if (mw_read_constraints(name, NULL, &file, &error) == MW_OK) fail_msg("taken: %s", text);
     files_expect_error(&error, MW_ERROR_INPUT, line, says);
     if (strncmp(error.message, name, strlen(name)) != 0) fail_msg("does not begin with the file: %s", error.message);
     static const mw_constraint_file empty;
@@ -165,9 +165,9 @@ static void test_other_files(void **state)
     assert_int_equal(mw_constraints_known("x.off"), 0);
     assert_int_equal(mw_constraints_known("absent.poly"), 0);
     assert_int_equal(mw_constraints_known(NULL), 0);
-    assert_int_equal(mw_read_constraints("absent.poly", &file, &error), MW_ERROR_SYSTEM);
-    assert_int_equal(mw_read_constraints(NULL, &file, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_read_constraints("x.off", NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_read_constraints("absent.poly", NULL, &file, &error), MW_ERROR_SYSTEM);
+    assert_int_equal(mw_read_constraints(NULL, NULL, &file, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_read_constraints("x.off", NULL, NULL, &error), MW_ERROR_ARGUMENT);
     files_clear();
 }
 
@@ -307,7 +307,7 @@ static void test_geojson_zipped(void **state)
     for (int i = 1; i < 900; i++) sprintf(text + strlen(text), ",[%d,%d]", i * i % 97, i);
     strcat(text, "]}");
     files_write_gzip("z.geojson.gz", (bytes){text, strlen(text)});
-    assert_int_equal(mw_read_constraints("z.geojson.gz", &file, &error), MW_OK);
+    assert_int_equal(mw_read_constraints("z.geojson.gz", NULL, &file, &error), MW_OK);
     expect_counts(&file, 900, 0, 0, 0);
     mw_constraint_file_release(&file);
     size_t size;
@@ -315,7 +315,7 @@ static void test_geojson_zipped(void **state)
     assert_non_null(zipped);
     for (size_t cut = 11; cut < size; cut += cut + 20 < size ? 17 : 1) {
         files_write("cut.geojson.gz", (bytes){zipped, cut});
-        if (mw_read_constraints("cut.geojson.gz", &file, &error) == MW_OK) fail_msg("cut at %zu: taken", cut);
+        if (mw_read_constraints("cut.geojson.gz", NULL, &file, &error) == MW_OK) fail_msg("cut at %zu: taken", cut);
         assert_int_equal(error.status, MW_ERROR_INPUT);
         assert_non_null(strstr(error.message, "cut.geojson.gz"));
     }
@@ -329,7 +329,7 @@ static void fail_each(const char *path)
         mw_constraint_file file;
         mw_error error = {0};
         allocations_left = k;
-        mw_status status = mw_read_constraints(path, &file, &error);
+        mw_status status = mw_read_constraints(path, NULL, &file, &error);
         bool reached = allocations_left < 0;
         allocations_left = -1;
         if (!reached) {
@@ -397,7 +397,7 @@ static void test_real_files(void **state)
         if (!path || (strstr(path, "geojson") && no_geojson())) continue;
         mw_constraint_file file;
         mw_error error;
-        if (mw_read_constraints(path, &file, &error) != MW_OK) fail_msg("%s", error.message);
+        if (mw_read_constraints(path, NULL, &file, &error) != MW_OK) fail_msg("%s", error.message);
         expect_counts(&file, real[i].points, real[i].segments, real[i].polygons, real[i].holes);
         mw_constraint_file_release(&file);
     }

@@ -88,11 +88,11 @@ static outcome work(void)
     mw_edit_reader *edits;
     mw_error error;
     close_streams();
-    o.read = mw_read_mesh("mesh.off", &mesh, NULL) == MW_OK;
+    o.read = mw_read_mesh("mesh.off", NULL, &mesh, NULL) == MW_OK;
     o.closed = o.closed && streams_are_closed();
     o.points = mw_point_reader_open("points.txt", NULL, &points, NULL) == MW_OK;
     o.closed = o.closed && streams_are_closed();
-    o.constraints = mw_read_constraints("lines.poly", &constraints, NULL) == MW_OK;
+    o.constraints = mw_read_constraints("lines.poly", NULL, &constraints, NULL) == MW_OK;
     o.edits = mw_edit_reader_open("edits.txt", NULL, &edits, NULL) == MW_OK;
     o.closed = o.closed && streams_are_closed();
     o.written = write_output(&o.closed);

@@ -53,7 +53,7 @@ static void test_meshes(void **state)
         mw_mesh_file file;
         mw_error error;
         files_write_text(meshes[i].name, meshes[i].text);
-        expect_named(mw_read_mesh(meshes[i].name, &file, &error), &error, &meshes[i]);
+        expect_named(mw_read_mesh(meshes[i].name, NULL, &file, &error), &error, &meshes[i]);
     }
     files_clear();
 }
@@ -76,7 +76,7 @@ static void test_pairs(void **state)
         mw_error error;
         files_write_text("pair.node", pairs[i].node);
         files_write_text("pair.ele", pairs[i].ele);
-        expect_named(mw_read_mesh("pair.node", &file, &error), &error, &shown);
+        expect_named(mw_read_mesh("pair.node", NULL, &file, &error), &error, &shown);
     }
     files_clear();
 }
@@ -94,7 +94,7 @@ static void test_constraints(void **state)
         mw_constraint_file file;
         mw_error error;
         files_write_text(files[i].name, files[i].text);
-        expect_named(mw_read_constraints(files[i].name, &file, &error), &error, &files[i]);
+        expect_named(mw_read_constraints(files[i].name, NULL, &file, &error), &error, &files[i]);
     }
     files_clear();
 }
@@ -130,7 +130,7 @@ static void test_binary(void **state)
     files_write("huge.ply", (bytes){file, sizeof head + sizeof data - 2});
     mw_mesh_file mesh;
     mw_error error;
-    assert_int_equal(mw_read_mesh("huge.ply", &mesh, &error), MW_ERROR_INPUT);
+    assert_int_equal(mw_read_mesh("huge.ply", NULL, &mesh, &error), MW_ERROR_INPUT);
     assert_non_null(strstr(error.message, "the number 18446744073709551615 is too large"));
     files_clear();
 }

@@ -148,7 +148,7 @@ static void test_malformed(void **state)
         mw_error error;
         char place[64];
         files_write_text(bads[i].name, bads[i].text);
-        if (mw_read_mesh(bads[i].name, &file, &error) != MW_ERROR_INPUT)
+        if (mw_read_mesh(bads[i].name, NULL, &file, &error) != MW_ERROR_INPUT)
             fail_msg("case %zu, '%s' (%s) was taken", i, bads[i].text, bads[i].says);
         files_expect_error(&error, MW_ERROR_INPUT, bads[i].line, bads[i].says);
         if (bads[i].line > 0) {
@@ -156,7 +156,7 @@ static void test_malformed(void **state)
             assert_int_equal(strncmp(error.message, place, strlen(place)), 0);
         }
         assert_null(file.points);
-        assert_int_equal(mw_read_mesh(bads[i].name, &file, NULL), MW_ERROR_INPUT);
+        assert_int_equal(mw_read_mesh(bads[i].name, NULL, &file, NULL), MW_ERROR_INPUT);
         unlink(bads[i].name);
     }
 }
@@ -198,7 +198,7 @@ static void test_malformed_pairs(void **state)
         mw_error error;
         files_write_text("p.node", cases[i].node);
         files_write_text("p.ele", cases[i].ele);
-        if (mw_read_mesh("p", &file, &error) != MW_ERROR_INPUT) fail_msg("case %zu was taken", i);
+        if (mw_read_mesh("p", NULL, &file, &error) != MW_ERROR_INPUT) fail_msg("case %zu was taken", i);
         files_expect_error(&error, MW_ERROR_INPUT, cases[i].line, cases[i].says);
         assert_null(file.points);
     }
@@ -210,7 +210,7 @@ static void expect_bad_bytes(const char *name, bytes contents, const char *says)
     mw_mesh_file file;
     mw_error error;
     files_write(name, contents);
-    assert_int_equal(mw_read_mesh(name, &file, &error), MW_ERROR_INPUT);
+    assert_int_equal(mw_read_mesh(name, NULL, &file, &error), MW_ERROR_INPUT);
     files_expect_error(&error, MW_ERROR_INPUT, error.line, says);
     unlink(name);
 }
@@ -260,7 +260,7 @@ static void test_gzip(void **state)
     for (size_t cut = 10; cut < size; cut++) {
         mw_error error;
         files_write("cut.off", (bytes){packed, cut});
-        assert_int_equal(mw_read_mesh("cut.off", &file, &error), MW_ERROR_INPUT);
+        assert_int_equal(mw_read_mesh("cut.off", NULL, &file, &error), MW_ERROR_INPUT);
         assert_non_null(strstr(error.message, "cut.off:"));
         assert_non_null(strstr(error.message, "gzip data end early"));
     }
@@ -268,7 +268,7 @@ static void test_gzip(void **state)
     packed[size - 6] ^= 1; /* the checksum */
     files_write("damaged.off", (bytes){packed, size});
     mw_error error;
-    assert_int_equal(mw_read_mesh("damaged.off", &file, &error), MW_ERROR_INPUT);
+    assert_int_equal(mw_read_mesh("damaged.off", NULL, &file, &error), MW_ERROR_INPUT);
     assert_non_null(strstr(error.message, "gzip data are damaged"));
     free(packed);
     files_clear();
@@ -290,7 +290,7 @@ static void test_prefixes(void **state)
             mw_mesh_file file;
             mw_error error;
             files_write(files[i].name, (bytes){files[i].text, cut});
-            mw_status status = mw_read_mesh(files[i].name, &file, &error);
+            mw_status status = mw_read_mesh(files[i].name, NULL, &file, &error);
             /* OBJ announces nothing; of the others only the last line end, or a shorter last number, may be missed */
             if (status == MW_OK && i != 1 && cut + 2 < size) fail_msg("%s of %zu bytes was taken", files[i].name, cut);
             if (status != MW_OK) assert_int_equal(status, MW_ERROR_INPUT);
@@ -322,12 +322,12 @@ static void test_not_there(void **state)
     (void)state;
     mw_mesh_file file;
     mw_error error;
-    assert_int_equal(mw_read_mesh("missing.off", &file, &error), MW_ERROR_SYSTEM);
+    assert_int_equal(mw_read_mesh("missing.off", NULL, &file, &error), MW_ERROR_SYSTEM);
     files_expect_error(&error, MW_ERROR_SYSTEM, -1, "missing.off: No such file or directory");
-    assert_int_equal(mw_read_mesh(".", &file, &error), MW_ERROR_SYSTEM);
+    assert_int_equal(mw_read_mesh(".", NULL, &file, &error), MW_ERROR_SYSTEM);
     files_expect_error(&error, MW_ERROR_SYSTEM, -1, "Is a directory");
-    assert_int_equal(mw_read_mesh(NULL, &file, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_read_mesh("x", NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_read_mesh(NULL, NULL, &file, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_read_mesh("x", NULL, NULL, &error), MW_ERROR_ARGUMENT);
     mw_mesh_file_release(&file);
     mw_mesh_file_release(NULL);
 }

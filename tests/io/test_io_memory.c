@@ -100,7 +100,7 @@ static void fail_each(io_work *job, const char *argument)
 static mw_status read_mesh(const char *path, mw_error *error)
 {
     mw_mesh_file file;
-    mw_status status = mw_read_mesh(path, &file, error);
+    mw_status status = mw_read_mesh(path, NULL, &file, error);
     if (status) assert_null(file.points);
     mw_mesh_file_release(&file);
     return status;
@@ -158,7 +158,7 @@ static mw_status write_mesh(const char *path, mw_error *error)
                          .field_names = names,
                          .fields = fields,
                          .field_count = 1};
-    return mw_write_mesh(path, &file, NULL, error);
+    return mw_write_mesh(path, &file, NULL, NULL, error);
 }
 
 static void test_read_meshes(void **state)

@@ -161,7 +161,7 @@ static void test_ply_binary(void **state)
         for (size_t cut = 0; cut < n; cut++) {
             mw_error error;
             files_write("cut.ply", (bytes){file_bytes, cut});
-            assert_int_equal(mw_read_mesh("cut.ply", &file, &error), MW_ERROR_INPUT);
+            assert_int_equal(mw_read_mesh("cut.ply", NULL, &file, &error), MW_ERROR_INPUT);
             if (cut > header) files_expect_error(&error, MW_ERROR_INPUT, -1, "cut.ply: at byte ");
         }
     }
@@ -273,7 +273,7 @@ static void test_node_ele(void **state)
     mw_mesh_file_release(&file);
     unlink("q.ele");
     mw_error error;
-    assert_int_equal(mw_read_mesh("q.node.gz", &file, &error), MW_ERROR_SYSTEM);
+    assert_int_equal(mw_read_mesh("q.node.gz", NULL, &file, &error), MW_ERROR_SYSTEM);
     files_expect_error(&error, MW_ERROR_SYSTEM, -1, "q.ele: No such file or directory");
     files_clear();
 }
@@ -310,7 +310,7 @@ static void test_standard_input(void **state)
     files_write_text("in.off", "OFF\n4 1 0\n0 0\n");
     assert_non_null(freopen("in.off", "r", stdin));
     mw_error error;
-    assert_int_equal(mw_read_mesh("-", &file, &error), MW_ERROR_INPUT);
+    assert_int_equal(mw_read_mesh("-", NULL, &file, &error), MW_ERROR_INPUT);
     files_expect_error(&error, MW_ERROR_INPUT, 3, "standard input:3: ");
     if (saved >= 0) dup2(saved, STDIN_FILENO);
     close(saved);

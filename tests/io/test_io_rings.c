@@ -28,7 +28,7 @@ static bool read_rings(const char *text, mw_constraint_file *file)
 {
     mw_error error;
     files_write_text("rings.geojson", text);
-    mw_status status = mw_read_constraints("rings.geojson", file, &error);
+    mw_status status = mw_read_constraints("rings.geojson", NULL, file, &error);
     if (status && strstr(error.message, "built without Jansson")) return false;
     if (status) fail_msg("%s", error.message);
     return true;

@@ -96,7 +96,7 @@ static const char *const words[FIELDS] = {"depth", "velocity_u", "x_3"};
 static mw_mesh_file write_and_read(const char *path, const char *format, const mw_mesh_file *file)
 {
     mw_error error;
-    if (mw_write_mesh(path, file, format, &error) != MW_OK) fail_msg("%s", error.message);
+    if (mw_write_mesh(path, file, format, NULL, &error) != MW_OK) fail_msg("%s", error.message);
     return mesh_file_read(path);
 }
 
@@ -157,7 +157,7 @@ static void test_stl_normals(void **state)
     double points[] = {0, 0, 0, 2, 0, 0, 0, 3, 0};
     uint32_t triangles[] = {0, 1, 2, 0, 0, 1};
     mw_mesh_file file = {.points = points, .triangles = triangles, .point_count = 3, .triangle_count = 2};
-    assert_int_equal(mw_write_mesh("n.stl", &file, NULL, NULL), MW_OK);
+    assert_int_equal(mw_write_mesh("n.stl", &file, NULL, NULL, NULL), MW_OK);
     char *text = files_read("n.stl", NULL);
     assert_non_null(text);
     assert_non_null(strstr(text, "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"));
@@ -173,7 +173,7 @@ static void test_csv(void **state)
     sample *s = malloc(sizeof *s);
     assert_non_null(s);
     fill(s, 6, 1);
-    assert_int_equal(mw_write_mesh("a.csv", &s->file, NULL, NULL), MW_OK);
+    assert_int_equal(mw_write_mesh("a.csv", &s->file, NULL, NULL, NULL), MW_OK);
     mw_point_reader_options options = {.columns = "triangle,corner,vertex,x,y,z,depth,velocity_u,x_3"};
     mw_point_reader *reader;
     assert_int_equal(mw_point_reader_open("a.csv", &options, &reader, NULL), MW_OK);
@@ -211,7 +211,7 @@ static void test_vtk(void **state)
                          .field_names = names,
                          .fields = fields,
                          .field_count = 1};
-    assert_int_equal(mw_write_mesh("a.vtk", &file, NULL, NULL), MW_OK);
+    assert_int_equal(mw_write_mesh("a.vtk", &file, NULL, NULL, NULL), MW_OK);
     char *text = files_read("a.vtk", NULL);
     assert_non_null(text);
     assert_string_equal(text,
@@ -240,7 +240,7 @@ static void test_empty(void **state)
     static const char *const formats[] = {"off", "ply", "ply-ascii", "node", "stl", "csv", "vtk", "obj"};
     mw_mesh_file nothing = {0};
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-        assert_int_equal(mw_write_mesh("nothing.node", &nothing, formats[i], NULL), MW_OK);
+        assert_int_equal(mw_write_mesh("nothing.node", &nothing, formats[i], NULL, NULL), MW_OK);
     files_clear();
 }
 
@@ -274,7 +274,7 @@ static void expect_refused(const char *path, const char *format, const mw_mesh_f
                            const char *says)
 {
     mw_error error;
-    assert_int_equal(mw_write_mesh(path, file, format, &error), status);
+    assert_int_equal(mw_write_mesh(path, file, format, NULL, &error), status);
     files_expect_error(&error, status, -1, says);
     assert_int_equal(files_count(), 0);
 }
@@ -308,13 +308,13 @@ static void test_pair_or_nothing(void **state)
     mw_mesh_file file = {.points = points, .point_count = 1};
     assert_int_equal(mkdir("a.ele", 0700), 0);
     mw_error error;
-    assert_int_equal(mw_write_mesh("a.node", &file, NULL, &error), MW_ERROR_SYSTEM);
+    assert_int_equal(mw_write_mesh("a.node", &file, NULL, NULL, &error), MW_ERROR_SYSTEM);
     files_expect_error(&error, MW_ERROR_SYSTEM, -1, "a.ele: Is a directory");
     assert_false(files_exists("a.node"));
     assert_int_equal(rmdir("a.ele"), 0);
     if (access("/dev/full", W_OK) == 0) {
         assert_int_equal(symlink("/dev/full", "a.ele"), 0);
-        assert_int_equal(mw_write_mesh("a.node", &file, NULL, &error), MW_ERROR_SYSTEM);
+        assert_int_equal(mw_write_mesh("a.node", &file, NULL, NULL, &error), MW_ERROR_SYSTEM);
         files_expect_error(&error, MW_ERROR_SYSTEM, -1, "a.ele: No space left on device");
         assert_false(files_exists("a.node"));
     }

@@ -93,7 +93,7 @@ static void test_meshes(void **state)
         mw_error error;
         char path[1024];
         snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, meshes[i].name);
-        if (mw_read_mesh(path, &file, &error) != MW_OK) fail_msg("%s", error.message);
+        if (mw_read_mesh(path, NULL, &file, &error) != MW_OK) fail_msg("%s", error.message);
         if (file.point_count != meshes[i].points || file.triangle_count != meshes[i].triangles)
             fail_msg("%s: %zu vertices, %zu triangles", path, file.point_count, file.triangle_count);
         for (size_t k = 0; k < 3 * file.triangle_count; k++) assert_true(file.triangles[k] < file.point_count);
@@ -130,7 +130,7 @@ static void test_refused(void **state)
         mw_error error;
         char path[1024];
         snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, refused[i].name);
-        assert_int_equal(mw_read_mesh(path, &file, &error), MW_ERROR_INPUT);
+        assert_int_equal(mw_read_mesh(path, NULL, &file, &error), MW_ERROR_INPUT);
         files_expect_error(&error, MW_ERROR_INPUT, refused[i].line, refused[i].says);
     }
 }

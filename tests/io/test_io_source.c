@@ -164,7 +164,7 @@ static void expect_limit(const char *name, const char *before, const char *repea
         assert_int_equal(mw_point_reader_open(name, NULL, &reader, &error), MW_ERROR_INPUT);
     } else {
         mw_mesh_file file;
-        assert_int_equal(mw_read_mesh(name, &file, &error), MW_ERROR_INPUT);
+        assert_int_equal(mw_read_mesh(name, NULL, &file, &error), MW_ERROR_INPUT);
     }
     files_expect_error(&error, MW_ERROR_INPUT, error.line, says);
     unlink(name);

@@ -179,10 +179,10 @@ static void test_real_meshes(void **state)
         if (!have(names[i], path)) continue;
         mw_mesh_file file;
         mw_error error;
-        if (mw_read_mesh(path, &file, &error)) fail_msg("%s", error.message);
+        if (mw_read_mesh(path, NULL, &file, &error)) fail_msg("%s", error.message);
         mw_arrays view = mw_mesh_file_arrays(&file);
         mw_check check;
-        assert_int_equal(mw_check_arrays(&view, &check, NULL), MW_OK);
+        assert_int_equal(mw_check_arrays(&view, NULL, &check, NULL), MW_OK);
         if (check.valid) {
             arrays a = arrays_make((uint32_t)file.point_count, (uint32_t)file.triangle_count);
             for (size_t v = 0; v < file.point_count; v++) arrays_point(&a, file.points[3 * v], file.points[3 * v + 1]);

@@ -38,7 +38,7 @@ static bool is_refused(const arrays *a)
 {
     mw_arrays view = arrays_view(a);
     mw_check check;
-    assert_int_equal(mw_check_arrays(&view, &check, NULL), MW_OK);
+    assert_int_equal(mw_check_arrays(&view, NULL, &check, NULL), MW_OK);
     bool refused = !check.valid;
     mw_check_release(&check);
     return refused;
@@ -447,7 +447,7 @@ static void longest(const arrays *a, const double *q, size_t n, double most[2])
     mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
     mw_locator *open = locator_of(mesh, MW_FILL_NO);
     mw_mesh_info info;
-    assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
+    assert_int_equal(mw_mesh_describe(mesh, NULL, &info, NULL), MW_OK);
     mw_query_options options = {.start = MW_START_LAST, .counters = 1};
     most[0] = most[1] = 0;
     for (uint32_t t = 0; t < a->triangle_count; t++)
@@ -519,7 +519,7 @@ static void test_long_ways(void **state)
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     mw_locator *open = locator_of(mesh, MW_FILL_NO);
     mw_mesh_info info;
-    assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
+    assert_int_equal(mw_mesh_describe(mesh, NULL, &info, NULL), MW_OK);
     for (int i = 0; i < 2 * N; i++) q[i] = 800 * random_unit(&random) - 400;
     mw_location *want = expect(&a, mesh, q, N, 0);
     for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {

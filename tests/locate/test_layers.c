@@ -175,12 +175,12 @@ static void test_structure(void **state)
     for (int i = 0; i < MESHES; i++) {
         mw_mesh *mesh = mesh_number(i, &random);
         mw_tiling tiling;
-        assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+        assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
         for (uint32_t wanted = 0; wanted <= MW_MAX_LAYERS; wanted++)
             for (size_t r = 0; r < sizeof ratio / sizeof *ratio; r++) {
                 mw_layers layers;
                 mw_layers_options options = {.layers = wanted, .ratio = ratio[r], .seed = mw__random(&random)};
-                assert_int_equal(mw__layers_create(&tiling, &options, &layers, NULL), MW_OK);
+                assert_int_equal(mw__layers_create(&tiling, &options, MW_ALONE, &layers, NULL), MW_OK);
                 check_layers(&layers, &tiling, wanted);
                 descend(&layers, &tiling, &random);
                 mw__layers_release(&layers);
@@ -206,9 +206,9 @@ static void test_sizes(void **state)
         mw_mesh *mesh = points_mesh(cases[i].points, random_unit, &random);
         mw_tiling tiling;
         mw_layers layers;
-        assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+        assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
         mw_layers_options options = {.layers = cases[i].asked, .ratio = cases[i].ratio};
-        assert_int_equal(mw__layers_create(&tiling, &options, &layers, NULL), MW_OK);
+        assert_int_equal(mw__layers_create(&tiling, &options, MW_ALONE, &layers, NULL), MW_OK);
         uint32_t vertices[MW_MAX_LAYERS];
         mw__layers_describe(&layers, vertices);
         assert_int_equal(layers.count, cases[i].count);
@@ -232,10 +232,11 @@ static void test_no_layer(void **state)
     arrays_point(&flat, 25.5, 0.5);
     mw_mesh *mesh = delaunay_of(&flat);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     mw_layers layers;
-    assert_int_equal(
-        mw__layers_create(&tiling, &(mw_layers_options){.layers = 3, .ratio = 1e-9, .seed = 1}, &layers, NULL), MW_OK);
+    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 3, .ratio = 1e-9, .seed = 1}, MW_ALONE,
+                                       &layers, NULL),
+                     MW_OK);
     assert_int_equal(layers.count, 1);
     bool seen[64] = {false};
     mw_layer_walk how = {MW_WALK_REMEMBERING, MW_WALK_REMEMBERING, true, true, NULL};
@@ -258,9 +259,10 @@ static void test_any(void **state)
     for (uint32_t i = 3; i < a.point_count; i += 5) memcpy(a.points + 2 * i, a.points, 2 * sizeof *a.points);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.tolerant = 1});
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, true, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, NULL), MW_OK);
     mw_layers layers;
-    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 4, .ratio = 0.5}, &layers, NULL), MW_OK);
+    assert_int_equal(
+        mw__layers_create(&tiling, &(mw_layers_options){.layers = 4, .ratio = 0.5}, MW_ALONE, &layers, NULL), MW_OK);
     assert_true(layers.count > 2);
     check_layers(&layers, &tiling, 4);
     descend(&layers, &tiling, &random);
@@ -296,9 +298,9 @@ static void check_near(mw_mesh *mesh)
 {
     uint64_t random = 24;
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     mw_layers layers;
-    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){0}, &layers, NULL), MW_OK);
+    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){0}, MW_ALONE, &layers, NULL), MW_OK);
     for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
         for (int i = 0; i < 2 * DESCENTS; i++) {
             mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, i % 2, true, NULL};
@@ -377,9 +379,9 @@ static void test_descent(void **state)
     uint64_t random = 26;
     mw_mesh *mesh = points_mesh(5000, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     mw_layers layers;
-    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 2}, &layers, NULL), MW_OK);
+    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 2}, MW_ALONE, &layers, NULL), MW_OK);
     for (int i = 0; i < 300; i++) {
         mw_point q = {1.2 * random_unit(&random) - 0.1, 1.2 * random_unit(&random) - 0.1};
         for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
@@ -397,10 +399,11 @@ static void test_seed(void **state)
     uint64_t random = 27;
     mw_mesh *mesh = points_mesh(5000, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     mw_layers layers[3];
     for (uint64_t i = 0; i < 3; i++)
-        assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.seed = i / 2}, &layers[i], NULL), MW_OK);
+        assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.seed = i / 2}, MW_ALONE, &layers[i], NULL),
+                         MW_OK);
     const mw_tiling *one = &layers[0].layer[0].tiling, *same = &layers[1].layer[0].tiling;
     const mw_tiling *other = &layers[2].layer[0].tiling;
     assert_int_equal(one->point_count, same->point_count);
@@ -420,12 +423,12 @@ static void test_chance(void **state)
     uint64_t random = 33;
     mw_mesh *mesh = points_mesh(POINTS, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     int times[POINTS] = {0};
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         mw_layers layers;
         mw_layers_options options = {.layers = 2, .ratio = 0.25, .seed = seed};
-        assert_int_equal(mw__layers_create(&tiling, &options, &layers, NULL), MW_OK);
+        assert_int_equal(mw__layers_create(&tiling, &options, MW_ALONE, &layers, NULL), MW_OK);
         assert_int_equal(layers.layer[0].tiling.point_count, POINTS / 4);
         for (int v = 0; v < POINTS; v++) times[v] += has_point(&layers.layer[0].tiling, 0, tiling.point[v]);
         mw__layers_release(&layers);
@@ -441,7 +444,7 @@ static void test_options(void **state)
     uint64_t random = 28;
     mw_mesh *mesh = grid(4, 0, 0, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     const mw_layers_options wrong[] = {{.layers = MW_MAX_LAYERS + 1},
                                        {.ratio = -0.1},
                                        {.ratio = 1},
@@ -452,7 +455,7 @@ static void test_options(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         mw_layers layers;
         mw_error error;
-        assert_int_equal(mw__layers_create(&tiling, &wrong[i], &layers, &error), MW_ERROR_ARGUMENT);
+        assert_int_equal(mw__layers_create(&tiling, &wrong[i], MW_ALONE, &layers, &error), MW_ERROR_ARGUMENT);
         assert_int_equal(error.status, MW_ERROR_ARGUMENT);
         mw__layers_release(&layers);
     }
@@ -596,13 +599,14 @@ static void test_memory(void **state)
     uint64_t random = 29;
     mw_mesh *mesh = points_mesh(300, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     bool failed = true;
     for (long after = 0; failed; after++) {
         mw_layers layers;
         mw_error error = {0};
         allocations_left = after;
-        mw_status status = mw__layers_create(&tiling, &(mw_layers_options){.layers = 3, .ratio = 0.3}, &layers, &error);
+        mw_status status =
+            mw__layers_create(&tiling, &(mw_layers_options){.layers = 3, .ratio = 0.3}, MW_ALONE, &layers, &error);
         failed = allocations_left < 0;
         allocations_left = -1;
         assert_int_equal(status, failed ? MW_ERROR_MEMORY : MW_OK);

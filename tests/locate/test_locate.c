@@ -36,7 +36,7 @@ static mw_locator *locator_of(const mw_mesh *mesh, int border)
 static bool is_embedding(const mw_arrays *view)
 {
     mw_check check;
-    assert_int_equal(mw_check_arrays(view, &check, NULL), MW_OK);
+    assert_int_equal(mw_check_arrays(view, NULL, &check, NULL), MW_OK);
     bool embedding = check.valid;
     mw_check_release(&check);
     return embedding;

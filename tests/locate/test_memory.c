@@ -20,7 +20,7 @@ typedef mw_status mesh_job(const mw_arrays *view, mw_error *error);
 static mw_status check_job(const mw_arrays *view, mw_error *error)
 {
     mw_check check;
-    mw_status status = mw_check_arrays(view, &check, error);
+    mw_status status = mw_check_arrays(view, NULL, &check, error);
     if (!status) mw_check_release(&check);
     return status;
 }
@@ -37,7 +37,7 @@ static mw_status describe_job(const mw_arrays *view, mw_error *error)
     mw_status status;
     mw_mesh *mesh = make(view, &status, error);
     mw_mesh_info info;
-    if (!status) status = mw_mesh_describe(mesh, &info, error);
+    if (!status) status = mw_mesh_describe(mesh, NULL, &info, error);
     mw_mesh_destroy(mesh);
     return status;
 }
@@ -47,7 +47,7 @@ static mw_status tile_job(const mw_arrays *view, mw_error *error)
     mw_status status;
     mw_mesh *mesh = make(view, &status, error);
     mw_tiling tiling = {0};
-    if (!status) status = mw__tiling_create(mesh, true, &tiling, error);
+    if (!status) status = mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, error);
     mw__tiling_release(&tiling);
     mw_mesh_destroy(mesh);
     return status;

@@ -42,7 +42,7 @@ static int trap_read(void **state)
     static trap_data trap;
     mw_mesh_file file;
     mw_error error;
-    if (mw_read_mesh(MW_TEST_SOURCE "/data/trap.off", &file, &error)) fail_msg("%s", error.message);
+    if (mw_read_mesh(MW_TEST_SOURCE "/data/trap.off", NULL, &file, &error)) fail_msg("%s", error.message);
     mw_arrays view = mw_mesh_file_arrays(&file);
     if (mw_mesh_create(&view, NULL, &trap.mesh, &error)) fail_msg("%s", error.message);
     mw_mesh_file_release(&file);
@@ -184,7 +184,7 @@ static void test_mesh(void **state)
 {
     trap_data *trap = *state;
     mw_mesh_info info;
-    assert_int_equal(mw_mesh_describe(trap->mesh, &info, NULL), MW_OK);
+    assert_int_equal(mw_mesh_describe(trap->mesh, NULL, &info, NULL), MW_OK);
     assert_int_equal(info.triangles, TRIANGLES);
     assert_true(info.convex && !info.delaunay);
     assert_int_equal(info.flat_triangles + info.clockwise_triangles + info.unused_vertices, 0);

@@ -21,7 +21,7 @@ static mw_arrays literal(const double *points, size_t n, const uint32_t *triangl
 static mw_check check_of(mw_arrays a)
 {
     mw_check check;
-    assert_int_equal(mw_check_arrays(&a, &check, NULL), MW_OK);
+    assert_int_equal(mw_check_arrays(&a, NULL, &check, NULL), MW_OK);
     for (size_t i = 1; i < check.defect_count; i++) {
         const mw_defect *p = &check.defects[i - 1], *q = &check.defects[i];
         assert_true(p->kind < q->kind || (p->kind == q->kind && p->triangle <= q->triangle));
@@ -343,15 +343,15 @@ static void test_arguments(void **state)
     mw_check check;
     mw_error error;
     mw_arrays a = {.point_count = 3};
-    assert_int_equal(mw_check_arrays(&a, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_check_arrays(NULL, &check, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_check_arrays(&a, &check, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_check_arrays(&a, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_check_arrays(NULL, NULL, &check, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_check_arrays(&a, NULL, &check, &error), MW_ERROR_ARGUMENT);
     a = (mw_arrays){.points = (const double[]){0},
                     .point_count = 1,
                     .triangles = &a,
                     .triangle_count = (size_t)MW_MAX_TRIANGLES + 1};
-    assert_int_equal(mw_check_arrays(&a, &check, &error), MW_ERROR_LIMIT);
-    assert_int_equal(mw_mesh_describe(NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_check_arrays(&a, NULL, &check, &error), MW_ERROR_LIMIT);
+    assert_int_equal(mw_mesh_describe(NULL, NULL, NULL, &error), MW_ERROR_ARGUMENT);
 }
 
 /* --- the description --- */
@@ -361,7 +361,7 @@ static mw_mesh_info describe(mw_arrays a)
     mw_mesh *mesh;
     mw_mesh_info info;
     assert_int_equal(mw_mesh_create(&a, &(mw_mesh_options){.tolerant = 1}, &mesh, NULL), MW_OK);
-    assert_int_equal(mw_mesh_describe(mesh, &info, NULL), MW_OK);
+    assert_int_equal(mw_mesh_describe(mesh, NULL, &info, NULL), MW_OK);
     mw_mesh_destroy(mesh);
     return info;
 }
@@ -471,7 +471,7 @@ static void check_real(const real *expected)
     FILE *present = fopen(path, "rb");
     if (!present) return;
     fclose(present);
-    assert_int_equal(mw_read_mesh(path, &file, NULL), MW_OK);
+    assert_int_equal(mw_read_mesh(path, NULL, &file, NULL), MW_OK);
     mw_arrays view = mw_mesh_file_arrays(&file);
     mw_check check = check_of(view);
     mw_mesh_info info = describe(view);

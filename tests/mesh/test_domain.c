@@ -156,7 +156,7 @@ typedef struct counts {
 static const char *fault_of_description(const mw_mesh *mesh, const mw_tiling *tiling, bool embedding)
 {
     mw_mesh_info info;
-    if (mw_mesh_describe(mesh, &info, NULL) != MW_OK) return "no description";
+    if (mw_mesh_describe(mesh, NULL, &info, NULL) != MW_OK) return "no description";
     if (info.embedding != embedding) return "described otherwise";
     if (!embedding) return info.holes || info.convex || info.delaunay ? "what is no embedding has holes" : NULL;
     if (info.holes != tiling->hole_count) return "described with other holes";
@@ -170,10 +170,12 @@ static const char *fault_of_refusal(const mw_mesh *mesh, const arrays *a)
 {
     mw_error error = {0};
     mw_tiling tiling;
-    if (mw__tiling_create(mesh, false, &tiling, &error) != MW_ERROR_INPUT) return "taken though it is no embedding";
+    if (mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, &error) != MW_ERROR_INPUT)
+        return "taken though it is no embedding";
     if (error.message[0] == 0 || error.triangle < 0 || error.triangle >= a->triangle_count)
         return "no place of an error";
-    if (mw__tiling_create(mesh, true, &tiling, &error) != MW_OK) return "refused with option any";
+    if (mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, &error) != MW_OK)
+        return "refused with option any";
     const char *fault = NULL;
     domain_spot c[3];
     if (tiling.embedding || !tiling.borrowed || tiling.tri_count != a->triangle_count)
@@ -195,7 +197,7 @@ static const char *fault_of_mesh(const mw_mesh *mesh, const arrays *a, bool embe
         const char *fault = fault_of_refusal(mesh, a);
         return fault ? fault : fault_of_description(mesh, NULL, false);
     }
-    if (mw__tiling_create(mesh, false, &tiling, NULL) != MW_OK) return "no tiling";
+    if (mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL) != MW_OK) return "no tiling";
     tally->embeddings++;
     tally->cut += tiling.cut;
     tally->holes += tiling.hole_count;
@@ -216,7 +218,7 @@ static const char *compare(const arrays *a, counts *tally)
     mw_check check;
     mw_mesh *mesh;
     bool expected = domain_oracle_is_embedding(a);
-    const char *fault = mw_check_arrays(&view, &check, NULL) == MW_OK ? NULL : "check failed";
+    const char *fault = mw_check_arrays(&view, NULL, &check, NULL) == MW_OK ? NULL : "check failed";
     if (!fault && check.valid != expected) fault = expected ? "an embedding is refused" : "taken for an embedding";
     if (!fault) mw_check_release(&check);
     for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN && !fault; layout++) {
@@ -340,7 +342,7 @@ static mw_embedding_check embedding_check_of(const arrays *a, mw_mesh **mesh)
     mw_arrays view = arrays_view(a);
     mw_embedding_check check;
     assert_int_equal(mw_mesh_create(&view, NULL, mesh, NULL), MW_OK);
-    assert_int_equal(mw__embedding_check_create(&check, *mesh, NULL), MW_OK);
+    assert_int_equal(mw__embedding_check_create(&check, *mesh, MW_ALONE, NULL), MW_OK);
     return check;
 }
 
@@ -399,7 +401,7 @@ static mw_tiling tile(const arrays *a, mw_mesh **mesh)
     mw_arrays view = arrays_view(a);
     mw_tiling tiling;
     assert_int_equal(mw_mesh_create(&view, NULL, mesh, NULL), MW_OK);
-    assert_int_equal(mw__tiling_create(*mesh, false, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(*mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
     return tiling;
 }
 

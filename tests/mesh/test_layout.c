@@ -318,8 +318,8 @@ static void test_curve(void **state)
     }
     p[17] = (mw_point){INFINITY, 0};
     p[18] = (mw_point){NAN, NAN};
-    assert_true(mw__points_order(p, N, 1, order));
-    assert_true(mw__points_order(p, N, 3, again));
+    assert_true(mw__points_order(p, N, MW_ALONE, order));
+    assert_true(mw__points_order(p, N, &(mw_job){.threads = 3}, again));
     assert_memory_equal(order, again, N * sizeof *order);
     double way = 0;
     for (uint32_t i = 0; i < N; i++) {

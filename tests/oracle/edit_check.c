@@ -263,7 +263,7 @@ static void check_export(const twin *t)
     expect_ok(mw_editor_mesh(t->editor, triangles, vertices, &mesh, &error), "mesh", &error);
     twin_check_mesh(t, mesh, triangles, vertices);
     mw_mesh_info info;
-    expect_ok(mw_mesh_describe(mesh, &info, &error), "describe", &error);
+    expect_ok(mw_mesh_describe(mesh, NULL, &info, &error), "describe", &error);
     REQUIRE(info.embedding && !info.flat_triangles);
     REQUIRE(info.convex == t->convex || t->border_moved); /* a border that is fixed may have become convex */
     if (t->delaunay && !t->fixed_count) REQUIRE(info.delaunay);

@@ -52,18 +52,14 @@ static void fix_first(twin *t, const mw_editor_options *options)
     free(sides);
 }
 
-/* Threads have nothing to do in meshes this small, and wait for one another all the time. */
-__attribute__((weak)) void omp_set_num_threads(int count);
-
 void twin_open(twin *t, mw_mesh *mesh, const mw_editor_options *options)
 {
     mw_error error = {0};
     mw_mesh_info info;
     *t = (twin){.first = mesh, .fields = twin_bare ? 0 : TWIN_FIELDS};
-    if (omp_set_num_threads) omp_set_num_threads(1);
     if (!twin_bare) twin_set_fields(mesh);
     twin_read_first(t, mesh);
-    REQUIRE(mw_mesh_describe(mesh, &info, NULL) == MW_OK);
+    REQUIRE(mw_mesh_describe(mesh, NULL, &info, NULL) == MW_OK);
     t->convex = info.convex;
     expect_ok(mw_editor_create(mesh, options, &t->editor, &error), "editor", &error);
     expect_ok(mw_locator_create(mesh, NULL, &t->first_locator, &error), "locator", &error);

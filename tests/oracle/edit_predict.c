@@ -105,7 +105,7 @@ static bool is_embedding_at(const twin *t, uint32_t v, const double *q)
         .points = points, .point_count = t->vertex_range, .triangles = triangles, .triangle_count = t->triangles};
     mw_check check;
     mw_error error = {0};
-    expect_ok(mw_check_arrays(&given, &check, &error), "check", &error);
+    expect_ok(mw_check_arrays(&given, NULL, &check, &error), "check", &error);
     bool embedding = check.valid;
     mw_check_release(&check);
     free(points);

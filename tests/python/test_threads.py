@@ -59,13 +59,11 @@ def test_the_lock_is_released(random: np.random.Generator) -> None:
 
 
 def _ask(xy: NDArray[np.float64]) -> int:
-    locator = meshwalk.Locator(meshwalk.delaunay([[0, 0], [4, 0], [4, 4], [0, 4]], 1), threads=1)
-    return int(locator.locate(xy, threads=1).inside.sum())
+    locator = meshwalk.Locator(meshwalk.delaunay([[0, 0], [4, 0], [4, 4], [0, 4]]))
+    return int(locator.locate(xy, threads=2).inside.sum())
 
 
 def test_fork_after_threads(square: meshwalk.Mesh, random: np.random.Generator) -> None:
-    # With one thread each in the children: the library's threads are OpenMP's, which do not
-    # survive a fork.
     xy = random.uniform(0, 5, (100_000, 2))
     expected = int(meshwalk.Locator(square).locate(xy, threads=2).inside.sum())
     with multiprocessing.get_context("fork").Pool(2) as pool:

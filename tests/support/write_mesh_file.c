@@ -31,7 +31,7 @@ mw_mesh_file mesh_file_read(const char *name)
 {
     mw_mesh_file file;
     mw_error error;
-    if (mw_read_mesh(name, &file, &error) != MW_OK) fail_msg("%s", error.message);
+    if (mw_read_mesh(name, NULL, &file, &error) != MW_OK) fail_msg("%s", error.message);
     return file;
 }
 

@@ -328,7 +328,7 @@ static void assert_checked(const solid *s, int weld, const naive *n)
 {
     mw_arrays view = solid_view(s);
     mw_check check;
-    assert_int_equal(mw_surface_check_arrays(&view, weld, &check, NULL), MW_OK);
+    assert_int_equal(mw_surface_check_arrays(&view, weld, NULL, &check, NULL), MW_OK);
     assert_int_equal(count_kind(&check, MW_DEFECT_NON_MANIFOLD_EDGE), n->extra);
     assert_int_equal(count_kind(&check, MW_DEFECT_CLASHING), n->clashing);
     assert_int_equal(check.valid, check.defect_count == count_kind(&check, MW_DEFECT_FLAT));
@@ -454,11 +454,11 @@ static void test_arguments(void **state)
     a.point_stride = 4;
     refused(a, borrow, MW_ERROR_ARGUMENT);
     assert_int_equal(mw_surface_describe(NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_surface_check_arrays(&good, 0, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_surface_check_arrays(&good, 0, NULL, NULL, &error), MW_ERROR_ARGUMENT);
     mw_check check;
-    assert_int_equal(mw_surface_check_arrays(&a, 0, &check, &error), MW_OK);
+    assert_int_equal(mw_surface_check_arrays(&a, 0, NULL, &check, &error), MW_OK);
     mw_check_release(&check);
-    assert_int_equal(mw_surface_check_arrays(NULL, 0, &check, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_surface_check_arrays(NULL, 0, NULL, &check, &error), MW_ERROR_ARGUMENT);
     solid_free(&s);
 }
 
@@ -749,12 +749,12 @@ static void test_empty(void **state)
         assert_true(!info.closed && info.oriented && info.euler == 0 && info.components == 0 && info.area == 0);
         assert_true(isnan(info.low[2]) && isnan(info.high[0]) && isnan(info.volume));
         mw_surface_destroy(surface);
-        assert_int_equal(mw_surface_check_arrays(&nothing, weld, &check, NULL), MW_OK);
+        assert_int_equal(mw_surface_check_arrays(&nothing, weld, NULL, &check, NULL), MW_OK);
         assert_true(check.valid && check.defect_count == 0);
         mw_check_release(&check);
     }
     mw_arrays loose = {.triangles = cube_triangles, .triangle_count = 1}; /* a triangle, but no vertices */
-    assert_int_equal(mw_surface_check_arrays(&loose, 0, &check, NULL), MW_OK);
+    assert_int_equal(mw_surface_check_arrays(&loose, 0, NULL, &check, NULL), MW_OK);
     assert_true(!check.valid && check.defect_count == 3 && check.defects[2].kind == MW_DEFECT_MISSING_VERTEX);
     mw_check_release(&check);
 }
@@ -776,7 +776,7 @@ static void test_every_defect(void **state)
     for (int c = 0; c < 3; c++) s.points[3 * 8 + c] = 2 * s.points[3 * 7 + c] - s.points[3 * 6 + c]; /* 6: flat */
     mw_arrays view = solid_view(&s);
     mw_check check;
-    assert_int_equal(mw_surface_check_arrays(&view, 0, &check, NULL), MW_OK);
+    assert_int_equal(mw_surface_check_arrays(&view, 0, NULL, &check, NULL), MW_OK);
     static const mw_defect expected[] = {
         {MW_DEFECT_MISSING_VERTEX, 5, MW_NONE, 99, 255, 255}, {MW_DEFECT_NOT_FINITE, 4, MW_NONE, 11, 255, 255},
         {MW_DEFECT_REPEATED_VERTEX, 3, MW_NONE, 5, 255, 255}, {MW_DEFECT_NON_MANIFOLD_EDGE, 2, 0, MW_NONE, 0, 255},
@@ -811,7 +811,7 @@ static mw_status describe_job(const mw_arrays *view, mw_error *error)
 static mw_status check_job(const mw_arrays *view, mw_error *error)
 {
     mw_check check;
-    mw_status status = mw_surface_check_arrays(view, 1, &check, error);
+    mw_status status = mw_surface_check_arrays(view, 1, NULL, &check, error);
     mw_check_release(&check);
     return status;
 }
@@ -919,11 +919,11 @@ static void test_real(void **state)
         mw_error error;
         char path[1024];
         snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, real[i].name);
-        expect_ok(mw_read_mesh(path, &file, &error), path, &error);
+        expect_ok(mw_read_mesh(path, NULL, &file, &error), path, &error);
         mw_arrays view = mw_mesh_file_arrays(&file);
         expect_ok(mw_surface_create(&view, &(mw_surface_options){.borrow = 1}, &surface, &error), path, &error);
         expect_ok(mw_surface_describe(surface, &info, &error), path, &error);
-        expect_ok(mw_surface_check_arrays(&view, 0, &check, &error), path, &error);
+        expect_ok(mw_surface_check_arrays(&view, 0, NULL, &check, &error), path, &error);
         if (info.vertices != real[i].vertices || info.triangles != real[i].triangles ||
             info.border_edges != real[i].border || info.border_loops != real[i].loops ||
             info.components != real[i].components || info.euler != real[i].euler ||

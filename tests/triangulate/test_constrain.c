@@ -116,7 +116,7 @@ static bool force(segment_scene *s, uint32_t a, uint32_t b, uint32_t *made)
 static void run_scene(segment_scene *s, uint32_t *whole, uint32_t *stopped)
 {
     if (!make_points(s)) return;
-    assert_int_equal(mw__delaunay_triangles(s->point, s->n, NULL, NULL, &s->tri, &s->tri_count, NULL), MW_OK);
+    assert_int_equal(mw__delaunay_triangles(s->point, s->n, MW_ALONE, NULL, NULL, &s->tri, &s->tri_count, NULL), MW_OK);
     assert_true(mw__segment_insertion_create(&s->net, s->point, s->n, s->tri, s->tri_count));
     assert_sound(s);
     uint32_t made = 0;
@@ -163,7 +163,7 @@ static void test_long_channel(void **state)
     uint32_t tri_count, from = 2 * N, to = 2 * N + 1;
     mw_segment_insertion net;
     mw_subsegment piece;
-    assert_int_equal(mw__delaunay_triangles(point, 2 * N + 2, NULL, NULL, &tri, &tri_count, NULL), MW_OK);
+    assert_int_equal(mw__delaunay_triangles(point, 2 * N + 2, MW_ALONE, NULL, NULL, &tri, &tri_count, NULL), MW_OK);
     assert_true(mw__segment_insertion_create(&net, point, 2 * N + 2, tri, tri_count));
     assert_int_equal(mw__insert_subsegment(&net, &from, &to, &piece), MW_SUBSEGMENT_DONE);
     assert_true(from == to && piece.from == 2 * N && piece.to == 2 * N + 1 && net.subsegment_count == 1);

@@ -30,11 +30,12 @@ typedef struct made {
 static made make(const mw_point *points, uint32_t n, uint32_t patch, uint32_t threads)
 {
     made m = {.error.message = "", .mesh.point_count = n, .mesh.point = malloc((n + 1) * sizeof *points)};
-    const mw_delaunay_setup setup = {.threads = threads, .patch = patch};
+    const mw_delaunay_setup setup = {.patch = patch};
+    mw_job job = {.threads = threads};
     memcpy(m.mesh.point, points, n * sizeof *points);
     m.duplicate_of = malloc((n + 1) * sizeof *m.duplicate_of);
-    m.status =
-        mw__delaunay_set_up(points, n, &setup, m.duplicate_of, &m.report, &m.mesh.tri, &m.mesh.tri_count, &m.error);
+    m.status = mw__delaunay_set_up(points, n, &setup, &job, m.duplicate_of, &m.report, &m.mesh.tri, &m.mesh.tri_count,
+                                   &m.error);
     return m;
 }
 
@@ -198,9 +199,10 @@ static void test_memory_failures(void **state)
         mw_triangle *tri = (mw_triangle *)1;
         uint32_t tri_count;
         mw_error error;
-        const mw_delaunay_setup setup = {.threads = 2, .patch = 1000};
+        const mw_delaunay_setup setup = {.patch = 1000};
+        mw_job job = {.threads = 2};
         allocations_left = allowed;
-        mw_status status = mw__delaunay_set_up(points, N, &setup, NULL, NULL, &tri, &tri_count, &error);
+        mw_status status = mw__delaunay_set_up(points, N, &setup, &job, NULL, NULL, &tri, &tri_count, &error);
         bool failed = allocations_left < 0;
         allocations_left = -1;
         if (status == MW_OK) {

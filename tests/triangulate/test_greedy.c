@@ -287,7 +287,7 @@ static void check_sound(const mw_mesh *mesh, const mw_point *p, uint32_t n)
     mw_arrays view = arrays_view(&a);
     mw_check check;
     mw_error error;
-    expect_ok(mw_check_arrays(&view, &check, &error), "check", &error);
+    expect_ok(mw_check_arrays(&view, NULL, &check, &error), "check", &error);
     assert_true(check.valid);
     mw_check_release(&check);
     arrays_free(&a);

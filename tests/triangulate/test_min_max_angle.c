@@ -456,7 +456,7 @@ static void check_large(const mw_mesh *mesh, const mw_mesh *delaunay)
     mw_arrays view = arrays_view(&a);
     mw_check check;
     mw_error error;
-    expect_ok(mw_check_arrays(&view, &check, &error), "check", &error);
+    expect_ok(mw_check_arrays(&view, NULL, &check, &error), "check", &error);
     assert_true(check.valid);
     mw_check_release(&check);
     arrays_free(&a);
@@ -523,7 +523,7 @@ static void make_bow(mw_point *point, uint32_t n)
 static mw_mesh *limited_mesh(const mw_point *point, uint32_t n, mw_angle_limits limits, bool *proved)
 {
     mw_mesh *mesh = mesh_delaunay(&point[0].x, n);
-    mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count};
+    mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count, MW_ALONE};
     assert_int_equal(mw__min_max_angle_within(&t, limits, proved), MW_OK);
     return mesh;
 }

@@ -104,7 +104,7 @@ static mw_mesh *triangulate(const double *points, uint32_t n, uint32_t limit, mw
     arrays a = arrays_of_mesh(mesh), d = arrays_of_mesh(delaunay);
     mw_arrays view = arrays_view(&a);
     mw_check check;
-    assert_int_equal(mw_check_arrays(&view, &check, &error), MW_OK);
+    assert_int_equal(mw_check_arrays(&view, NULL, &check, &error), MW_OK);
     assert_true(check.valid);
     mw_check_release(&check);
     assert_int_equal(a.triangle_count, d.triangle_count);
@@ -265,7 +265,7 @@ static uint32_t check_reduced(const weight_scene *s)
 {
     mw_scaled scaled = {(const mw_point *)s->points, (const mw_point *)s->points, s->n};
     mw_edge_list list = {0};
-    mw_effort effort = {UINT64_MAX, UINT64_MAX};
+    mw_effort effort = {UINT64_MAX, UINT64_MAX, MW_ALONE};
     mw_lmt lmt;
     uint32_t alive = 0;
     for (uint32_t a = 0; a < s->n; a++)
@@ -506,7 +506,7 @@ static bool is_blocked(const double *points, uint32_t n, uint32_t p, uint32_t q)
 static void check_candidates(const double *points, uint32_t n)
 {
     mw_scaled s = {(const mw_point *)points, (const mw_point *)points, n};
-    mw_effort effort = {UINT64_MAX, UINT64_MAX};
+    mw_effort effort = {UINT64_MAX, UINT64_MAX, MW_ALONE};
     mw_edge_list list = {0};
     uint32_t *vertex = malloc(n * sizeof *vertex);
     uint8_t *found = calloc((size_t)n * n, 1);

@@ -1,4 +1,5 @@
 /* Constraints in files: telling the format. */
+#include "base/options.h"
 #include "io/constraints/geojson.h"
 #include "io/constraints/poly.h"
 #include "io/mesh/mesh_builder.h"
@@ -51,13 +52,15 @@ static mw_status constraint_reader_find(mw_source *source, constraint_reader **r
     return MW_OK;
 }
 
-static mw_status constraint_read_path(const char *path, mw_constraint_file *file, mw_error *error)
+static mw_status constraint_read_path(const char *path, mw_job *job, mw_constraint_file *file, mw_error *error)
 {
     mw_source source;
     constraint_reader *reader;
     mw_constraint_builder builder = {.file = file, .source = &source};
     mw_status status = mw__source_open(&source, path, error);
     if (status) return status;
+    mw__job_stage(job, "reading", 1);
+    mw__source_watch(&source, job);
     status = constraint_reader_find(&source, &reader, error);
     if (!status)
         status = reader ? reader(&source, &builder, error)
@@ -67,11 +70,17 @@ static mw_status constraint_read_path(const char *path, mw_constraint_file *file
     return status;
 }
 
-mw_status mw_read_constraints(const char *path, mw_constraint_file *file, mw_error *error)
+mw_status mw_read_constraints(const char *path, const mw_file_options *options, mw_constraint_file *file,
+                              mw_error *error)
 {
+    static const mw_file_options defaults;
     if (file) *file = (mw_constraint_file){0};
     if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_constraints: NULL");
-    mw_status status = constraint_read_path(path, file, error);
+    if (!options) options = &defaults;
+    mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
+    if (status) return status;
+    mw_job job = mw__job(1, options->progress);
+    status = mw__job_end(&job, constraint_read_path(path, &job, file, error), error);
     if (status) mw_constraint_file_release(file);
     return status;
 }

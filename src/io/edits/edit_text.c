@@ -363,6 +363,11 @@ mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line, mw_err
     return MW_OK;
 }
 
+double mw_edit_reader_fraction(const mw_edit_reader *reader)
+{
+    return mw__source_fraction(&reader->source);
+}
+
 void mw_edit_reader_close(mw_edit_reader *reader)
 {
     if (!reader) return;

@@ -30,7 +30,7 @@ static void csv_write(mw_output *output, const mw_mesh_file *file)
     }
 }
 
-mw_status mw__write_csv(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_csv(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
-    return mw__write_file(path, file, csv_write, error);
+    return mw__write_file(path, file, csv_write, job, error);
 }

@@ -1,4 +1,5 @@
 /* Meshes in files: choosing the reader or the writer. */
+#include "base/options.h"
 #include "io/mesh/mesh_builder.h"
 #include "io/mesh/mesh_formats.h"
 #include "io/mesh/mesh_readers.h"
@@ -27,10 +28,12 @@ static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, m
                     mw__source_name(source), names);
 }
 
-static mw_status mesh_read_path(const char *path, mw_mesh_file *file, mw_error *error)
+static mw_status mesh_read_path(const char *path, mw_job *job, mw_mesh_file *file, mw_error *error)
 {
     mw_mesh_builder builder;
     mw__build_start(&builder, file, NULL);
+    builder.job = job;
+    mw__job_stage(job, "reading", 1);
     const mw_mesh_format *format = mw__mesh_format_by_path(path);
     if (format && format->read_path) return format->read_path(path, &builder, error);
     mw_source source;
@@ -40,17 +43,23 @@ static mw_status mesh_read_path(const char *path, mw_mesh_file *file, mw_error *
     if (pair) return mw__read_node_ele(path, &builder, error);
     if (status) return status;
     builder.source = &source;
+    mw__source_watch(&source, job);
     status = mesh_read_source(&source, &builder, error);
     if (!status) status = mw__build_finish(&builder, error);
     mw__source_close(&source);
     return status;
 }
 
-mw_status mw_read_mesh(const char *path, mw_mesh_file *file, mw_error *error)
+mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file, mw_error *error)
 {
+    static const mw_file_options defaults;
     if (file) *file = (mw_mesh_file){0};
     if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_mesh: NULL");
-    mw_status status = mesh_read_path(path, file, error);
+    if (!options) options = &defaults;
+    mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
+    if (status) return status;
+    mw_job job = mw__job(1, options->progress);
+    status = mw__job_end(&job, mesh_read_path(path, &job, file, error), error);
     if (status) mw_mesh_file_release(file);
     return status;
 }
@@ -74,25 +83,46 @@ mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file)
                        .integer_type = MW_UINT32};
 }
 
-mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *name, mw_error *error)
+static mw_status mesh_writer_find(const char *path, const char *name, const mw_mesh_format **found, mw_error *error)
 {
-    if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_mesh: NULL");
     const mw_mesh_format *format = name ? mw__mesh_format_by_name(name) : mw__mesh_format_by_path(path);
+    *found = format;
+    size_t length = strlen(path);
+    char names[128];
     if (!format || !format->write) {
-        char names[128];
         mw__mesh_format_list(true, names, sizeof names);
         if (name) return mw__fail(error, MW_ERROR_ARGUMENT, "no format '%.40s' for meshes (there are %s)", name, names);
         return mw__fail(error, MW_ERROR_ARGUMENT, "%.240s: the name tells no format for meshes (there are %s)", path,
                         names);
     }
-    size_t length = strlen(path);
     if (length > 3 && strcasecmp(path + length - 3, ".gz") == 0)
         return mw__fail(error, MW_ERROR_ARGUMENT, "%.240s: gzip is read, but not written", path);
+    return MW_OK;
+}
+
+static mw_status mesh_check_vertices(const mw_mesh_file *file, mw_error *error)
+{
     for (size_t t = 0; t < file->triangle_count; t++)
         for (int k = 0; k < 3; k++)
             if (file->triangles[3 * t + (size_t)k] >= file->point_count)
                 return mw__fail_at(error, (int64_t)t, file->triangles[3 * t + (size_t)k],
                                    "triangle %zu names vertex %" PRIu32 ", which does not exist", t,
                                    file->triangles[3 * t + (size_t)k]);
-    return format->write(path, file, error);
+    return MW_OK;
+}
+
+mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *name, const mw_file_options *options,
+                        mw_error *error)
+{
+    static const mw_file_options defaults;
+    const mw_mesh_format *format;
+    if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_mesh: NULL");
+    if (!options) options = &defaults;
+    mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
+    if (!status) status = mesh_writer_find(path, name, &format, error);
+    if (!status) status = mesh_check_vertices(file, error);
+    if (status) return status;
+    mw_job job = mw__job(1, options->progress);
+    mw__job_stage(&job, "writing", 1);
+    return mw__job_end(&job, format->write(path, file, &job, error), error);
 }

@@ -20,7 +20,7 @@ typedef struct mw_mesh_format {
     mw_status (*read)(mw_source *source, mw_mesh_builder *builder, mw_error *error);
     /* Instead of `read`, for formats of two files. */
     mw_status (*read_path)(const char *path, mw_mesh_builder *builder, mw_error *error);
-    mw_status (*write)(const char *path, const mw_mesh_file *file, mw_error *error);
+    mw_status (*write)(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 } mw_mesh_format;
 
 /* The first format of that name, or ending of the path; NULL if there is none. */

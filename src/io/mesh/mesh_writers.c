@@ -1,11 +1,18 @@
 /* What the writers of meshes share. */
 #include "io/mesh/mesh_writers.h"
 
-mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_error *error)
+uint64_t mw__expected_bytes(const mw_mesh_file *file)
+{
+    enum { A_NUMBER = 19, A_TRIANGLE = 27 };
+    return (3 + (uint64_t)file->field_count) * A_NUMBER * file->point_count + A_TRIANGLE * file->triangle_count;
+}
+
+mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_job *job, mw_error *error)
 {
     mw_output *output;
     mw_status status = mw_output_open(path, &output, error);
     if (status) return status;
+    mw__output_watch(output, job, mw__expected_bytes(file));
     body(output, file);
     return mw_output_close(output, 1, error);
 }

@@ -5,18 +5,18 @@
 
 #include "io/text/output.h"
 
-mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_error *error);
-mw_status mw__write_obj(const char *path, const mw_mesh_file *file, mw_error *error);
-mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_error *error);
-mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_error *error);
-mw_status mw__write_stl(const char *path, const mw_mesh_file *file, mw_error *error);
-mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_error *error);
-mw_status mw__write_vtk(const char *path, const mw_mesh_file *file, mw_error *error);
-mw_status mw__write_csv(const char *path, const mw_mesh_file *file, mw_error *error);
+mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_obj(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_stl(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_vtk(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_csv(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 
 /* Write one file: open it, let `body` fill it, close it. */
 typedef void mw_write_body(mw_output *output, const mw_mesh_file *file);
-mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_error *error);
+mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_job *job, mw_error *error);
 
 /* What several formats share: lines "x y z" of the vertices, and lines "3 a b c" of the
  * triangles, numbered from 0. */
@@ -27,5 +27,8 @@ void mw__output_triangles(mw_output *output, const mw_mesh_file *file);
  * letter, digit or byte of UTF-8 becomes '_', and the number of the field follows where that
  * gives a word already taken. */
 void mw__output_field_name(mw_output *output, const mw_mesh_file *file, size_t field);
+
+/* About how many bytes a mesh takes as text, for the steps of a job. */
+uint64_t mw__expected_bytes(const mw_mesh_file *file);
 
 #endif

@@ -221,6 +221,7 @@ static mw_status node_ele_read_file(const char *path, const char *ending, mw_mes
     mw_status status = mw__source_open(&source, found, error);
     free(found);
     if (status) return status;
+    if (builder->job) mw__source_watch(&source, builder->job);
     status = read(&source, builder, error);
     if (!status) status = mw__build_finish(builder, error);
     mw__source_close(&source);
@@ -234,8 +235,14 @@ mw_status mw__read_node_file(const char *path, mw_mesh_builder *builder, mw_erro
 
 mw_status mw__read_node_ele(const char *path, mw_mesh_builder *builder, mw_error *error)
 {
+    mw_job *job = builder->job;
+    mw_job_span outer = job ? mw__job_steps_of(job, 0, 1, 2) : (mw_job_span){0};
     mw_status status = mw__read_node_file(path, builder, error);
-    return status ? status : node_ele_read_file(path, ".ele", builder, mw__read_ele, error);
+    if (job) mw__job_steps_end(job, outer);
+    if (job) outer = mw__job_steps_of(job, 1, 1, 2);
+    if (!status) status = node_ele_read_file(path, ".ele", builder, mw__read_ele, error);
+    if (job) mw__job_steps_end(job, outer);
+    return status;
 }
 
 static void node_write(mw_output *output, const mw_mesh_file *file)
@@ -277,7 +284,7 @@ static void ele_write(mw_output *output, const mw_mesh_file *file)
 }
 
 /* Both files are complete before the first of them gets its name. */
-mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
     if (strcmp(path, "-") == 0)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the format 'node' writes two files: it needs a name for them");
@@ -296,6 +303,8 @@ mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_erro
         mw_output_close(node, 0, NULL);
         return status;
     }
+    mw__output_watch(node, job, mw__expected_bytes(file));
+    mw__output_watch(ele, job, mw__expected_bytes(file));
     node_write(node, file);
     ele_write(ele, file);
     mw__output_flush(node);

@@ -138,7 +138,7 @@ static void obj_write(mw_output *output, const mw_mesh_file *file)
     }
 }
 
-mw_status mw__write_obj(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_obj(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
-    return mw__write_file(path, file, obj_write, error);
+    return mw__write_file(path, file, obj_write, job, error);
 }

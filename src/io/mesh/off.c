@@ -95,7 +95,7 @@ static void off_write(mw_output *output, const mw_mesh_file *file)
     mw__output_triangles(output, file);
 }
 
-mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
-    return mw__write_file(path, file, off_write, error);
+    return mw__write_file(path, file, off_write, job, error);
 }

@@ -57,12 +57,12 @@ static void ply_write_ascii(mw_output *output, const mw_mesh_file *file)
     mw__output_triangles(output, file);
 }
 
-mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
-    return mw__write_file(path, file, ply_write_binary, error);
+    return mw__write_file(path, file, ply_write_binary, job, error);
 }
 
-mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
-    return mw__write_file(path, file, ply_write_ascii, error);
+    return mw__write_file(path, file, ply_write_ascii, job, error);
 }

@@ -170,7 +170,7 @@ static void stl_write(mw_output *output, const mw_mesh_file *file)
     mw__output_text(output, "endsolid meshwalk\n");
 }
 
-mw_status mw__write_stl(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_stl(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
-    return mw__write_file(path, file, stl_write, error);
+    return mw__write_file(path, file, stl_write, job, error);
 }

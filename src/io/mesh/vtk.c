@@ -30,7 +30,7 @@ static void vtk_write(mw_output *output, const mw_mesh_file *file)
     }
 }
 
-mw_status mw__write_vtk(const char *path, const mw_mesh_file *file, mw_error *error)
+mw_status mw__write_vtk(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
-    return mw__write_file(path, file, vtk_write, error);
+    return mw__write_file(path, file, vtk_write, job, error);
 }

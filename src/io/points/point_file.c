@@ -101,6 +101,11 @@ mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t c
     return reader->read(reader, values, capacity, count, error);
 }
 
+double mw_point_reader_fraction(const mw_point_reader *reader)
+{
+    return mw__source_fraction(&reader->source);
+}
+
 mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table, mw_error *error)
 {
     if (!reader || !table) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_table: NULL");

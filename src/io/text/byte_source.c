@@ -130,6 +130,8 @@ mw_status mw__source_open(mw_source *source, const char *path, mw_error *error)
         mw__source_close(source);
         return status;
     }
+    struct stat file;
+    if (fstat(fd, &file) == 0 && S_ISREG(file.st_mode)) source->size = (uint64_t)file.st_size;
     source->gz = gzdopen(fd, "rb");
     if (!source->gz || gzbuffer(source->gz, PACKED_BLOCK) != 0) {
         if (!source->gz) close(fd);
@@ -146,6 +148,11 @@ mw_status mw__source_memory(mw_source *source, const char *name, const void *byt
     source->memory = bytes;
     source->memory_left = size;
     return MW_OK;
+}
+
+void mw__source_watch(mw_source *source, mw_job *job)
+{
+    source->job = job;
 }
 
 void mw__source_close(mw_source *source)
@@ -171,6 +178,29 @@ static mw_status source_zlib_error(mw_source *source, int got, mw_error *error)
     return MW_OK;
 }
 
+/* Bytes of the file, packed or not, that have been read. */
+static uint64_t source_bytes_read(const mw_source *source)
+{
+    z_off_t at = source->gz ? gzoffset(source->gz) : 0;
+    return at > 0 ? (uint64_t)at : 0;
+}
+
+double mw__source_fraction(const mw_source *source)
+{
+    if (source->size == 0) return -1;
+    double fraction = (double)source_bytes_read(source) / (double)source->size;
+    return fraction < 1 ? fraction : 1;
+}
+
+/* Tell the job how much has been read. Returns false if it is to stop. */
+static bool source_step(mw_source *source)
+{
+    enum { MORE = 1 << 26 }; /* bytes that still come, of an input whose size nobody knows */
+    if (!source->job) return true;
+    uint64_t done = source_bytes_read(source);
+    return mw__job_step(source->job, done, source->size ? source->size : done + MORE);
+}
+
 /* Move what is left to the front of the buffer and read more behind it; a full buffer grows. */
 static mw_status source_fill(mw_source *source, mw_error *error)
 {
@@ -193,6 +223,7 @@ static mw_status source_fill(mw_source *source, mw_error *error)
         int got = gzread(source->gz, source->buffer + left, (unsigned)room);
         if (got > 0) source->end += (size_t)got;
         source->ended = got < (int)room;
+        if (!source_step(source)) return mw__fail_memory(error);
         return source->ended ? source_zlib_error(source, got, error) : MW_OK;
     }
     size_t got = room < source->memory_left ? room : source->memory_left;

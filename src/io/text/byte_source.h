@@ -8,7 +8,7 @@
 #ifndef MW_SRC_IO_TEXT_BYTE_SOURCE_H
 #define MW_SRC_IO_TEXT_BYTE_SOURCE_H
 
-#include "base/base.h"
+#include "base/job.h"
 
 /* Longest line taken. A line needs memory, so that a small gzip file could otherwise ask for
  * much of it. */
@@ -37,6 +37,8 @@ typedef struct mw_source {
     bool ended;              /* the buffer holds all that is left */
     const char *damage;      /* what is wrong behind that, or NULL */
     bool binary;             /* errors name bytes instead of lines */
+    mw_job *job;             /* NULL, or has a step for each block that is read */
+    uint64_t size;           /* of the file, packed or not; 0: unknown */
 } mw_source;
 
 /* Open a file, or standard input for "-". MW_ERROR_SYSTEM if that fails. Release with
@@ -45,6 +47,11 @@ mw_status mw__source_open(mw_source *source, const char *path, mw_error *error);
 /* Read from memory, which must outlive the source; `name` is for messages and to tell the
  * format. The block is small, so that tests with little data reach its borders. */
 mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size, mw_error *error);
+/* Reading is a part of the present stage of a job: all of it, or what comes after another source. If
+ * the job is to stop, reading fails with MW_ERROR_MEMORY. */
+void mw__source_watch(mw_source *source, mw_job *job);
+/* How much of the file has been read, from 0 to 1; -1: unknown. */
+double mw__source_fraction(const mw_source *source);
 void mw__source_close(mw_source *source);
 
 /* The path for messages. */

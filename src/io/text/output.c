@@ -26,13 +26,15 @@ enum { ROOM = 1 << 16, NAME_ATTEMPTS = 100, MAX_LINKS = 40, PATH_SIZE = 4096 };
 
 struct mw_output {
     int fd;
-    int error;       /* errno of the first failure, 0 if none */
-    bool standard;   /* standard output, which stays open */
-    bool named;      /* the data stand in `temporary`, which has to be renamed or removed */
-    bool nameless;   /* the data stand in a file without a name */
-    char *shown;     /* the path as given, for messages */
-    char *path;      /* the final name, symbolic links followed */
-    char *temporary; /* room for a temporary name beside it */
+    int error;                  /* errno of the first failure, 0 if none */
+    bool standard;              /* standard output, which stays open */
+    bool named;                 /* the data stand in `temporary`, which has to be renamed or removed */
+    bool nameless;              /* the data stand in a file without a name */
+    char *shown;                /* the path as given, for messages */
+    char *path;                 /* the final name, symbolic links followed */
+    char *temporary;            /* room for a temporary name beside it */
+    mw_job *job;                /* NULL, or has a step for each block that is written */
+    uint64_t written, expected; /* bytes */
     size_t used;
     char buffer[ROOM];
 };
@@ -183,8 +185,15 @@ mw_status mw_output_open(const char *path, mw_output **out, mw_error *error)
     return MW_OK;
 }
 
+void mw__output_watch(mw_output *output, mw_job *job, uint64_t expected)
+{
+    output->job = job;
+    output->expected = expected;
+}
+
 static void output_write_out(mw_output *output, const char *bytes, size_t size)
 {
+    output->written += size;
     while (size > 0 && !output->error) {
         ssize_t done = write(output->fd, bytes, size);
         if (done < 0 && errno == EINTR) continue;
@@ -193,6 +202,8 @@ static void output_write_out(mw_output *output, const char *bytes, size_t size)
         else
             bytes += done, size -= (size_t)done;
     }
+    if (output->job && !output->error && !mw__job_step(output->job, output->written, output->expected))
+        output->error = ECANCELED;
 }
 
 void mw__output_flush(mw_output *output)

@@ -114,8 +114,9 @@ static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_er
     if (m->parts.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
     m->twin = mw__alloc(n, sizeof *m->twin);
     if (!m->twin) return mw__fail_memory(error);
-    const mw_delaunay_setup setup = {.threads = m->threads};
-    mw_status status = mw__delaunay_set_up(m->point, n, &setup, m->twin, report, &m->tri, &m->tri_count, error);
+    mw_job_span outer = mw__job_part(m->job, 0.5);
+    mw_status status = mw__delaunay_triangles(m->point, n, m->job, m->twin, report, &m->tri, &m->tri_count, error);
+    mw__job_part_end(m->job, outer);
     if (status) return status;
     if (!mw__segment_insertion_create(&m->net, m->point, n, m->tri, m->tri_count)) return mw__fail_memory(error);
     for (size_t i = 0; i < m->parts.count; i++) {
@@ -124,8 +125,9 @@ static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_er
     }
     uint32_t *order = order_parts(m);
     bool done = order;
+    mw__job_stage(m->job, "inserting segments", 0.5);
     for (size_t i = 0; i < m->parts.count && done && (all || !m->crossing.count); i++)
-        done = part_force(m, m->parts.item[order[i]]);
+        done = part_force(m, m->parts.item[order[i]]) && mw__job_step(m->job, i, m->parts.count);
     m->crossed += m->net.crossed + m->net.wasted;
     free(order);
     return done ? MW_OK : mw__fail_memory(error);
@@ -241,7 +243,7 @@ static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *e
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
     if (!number) return mw__fail_memory(error);
     uint32_t count = number_ends(m, number);
-    mw_cdt ends = {.given = m->given};
+    mw_cdt ends = {.given = m->given, .job = m->job};
     mw_status status = MW_OK;
     if (count <= m->point_count / 2) {
         status =
@@ -261,14 +263,22 @@ static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, m
                           mw_error *error)
 {
     enum { MOST_ROUNDS = 200 };
+    double left = 0.5; /* of the job, for further rounds: of what is left, each takes half */
+    mw_job_span outer = mw__job_part(m->job, left);
     mw_status status = cdt_make(m, split, delaunay, error);
+    mw__job_part_end(m->job, outer);
     for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS; round++) {
         status = mw__cdt_split_crossings(m, round, error);
         if (status == MW_OK) {
             cdt_unmake(m);
+            outer = mw__job_part(m->job, left / 4);
             status = split_apart(m, report, error);
+            mw__job_part_end(m->job, outer);
         }
+        outer = mw__job_part(m->job, left / 4);
         if (status == MW_OK) status = cdt_make(m, true, NULL, error);
+        mw__job_part_end(m->job, outer);
+        left /= 2;
     }
     if (status == MW_OK && m->crossing.count)
         status =
@@ -298,10 +308,15 @@ static mw_status cdt_build(mw_cdt *m, const mw_constrain_options *options, uint3
                            mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out, mw_error *error)
 {
     mw_status status = cdt_take(m, error);
+    mw_job_span outer = mw__job_part(m->job, 0.85);
     if (status == MW_OK) status = make_all(m, options->split, &report->delaunay, report, error);
+    mw__job_part_end(m->job, outer);
     report->triangles_crossed = m->crossed;
+    mw__job_stage(m->job, "removing what is outside", 0.05);
     if (status == MW_OK) status = mw__cdt_keep_triangles(m, options->keep, error);
+    outer = mw__job_part(m->job, 0.1);
     if (status == MW_OK) status = mw__cdt_output(m, report, edges, out, error);
+    mw__job_part_end(m->job, outer);
     if (duplicate_of && status == MW_OK)
         for (size_t i = 0; i < m->given->point_count; i++) duplicate_of[i] = m->twin[i];
     return status;
@@ -322,9 +337,14 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_co
     mw_status status = MW_RESERVED_CHECK(mw_constrain_options, options, error);
     if (!status) status = cdt_check_arguments(constraints, options->keep, error);
     if (status) return status;
-    mw_cdt m = {.given = constraints, .threads = options->threads};
-    status = cdt_build(&m, options, duplicate_of, report, edges, out, error);
+    mw_job job = mw__job(options->threads, options->progress);
+    mw_cdt m = {.given = constraints, .job = &job};
+    status = mw__job_end(&job, cdt_build(&m, options, duplicate_of, report, edges, out, error), error);
     cdt_release(&m);
     if (status && edges) mw_constrained_edges_release(edges);
+    if (status) {
+        mw_mesh_destroy(*out);
+        *out = NULL;
+    }
     return status;
 }

@@ -129,6 +129,14 @@ static bool give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edg
     return done;
 }
 
+static bool cdt_lay_out(const mw_cdt *m, mw_mesh *mesh)
+{
+    mw_job_span outer = mw__job_part(m->job, 0.7);
+    bool done = mw__mesh_lay_out_vertices(mesh, m->job);
+    mw__job_part_end(m->job, outer);
+    return done;
+}
+
 mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out,
                          mw_error *error)
 {
@@ -139,7 +147,8 @@ mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_
         return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
                         m->tri_count);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
-    if (mesh && give_mesh(m, report, edges, mesh) && mw__mesh_lay_out_vertices(mesh, m->threads)) {
+    mw__job_stage(m->job, "making a mesh", 0.3);
+    if (mesh && give_mesh(m, report, edges, mesh) && cdt_lay_out(m, mesh)) {
         *out = mesh;
         return MW_OK;
     }

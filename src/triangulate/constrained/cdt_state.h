@@ -6,6 +6,7 @@
 #ifndef MW_SRC_TRIANGULATE_CONSTRAINED_CDT_STATE_H
 #define MW_SRC_TRIANGULATE_CONSTRAINED_CDT_STATE_H
 
+#include "base/job.h"
 #include "triangulate/constrained/segment_insertion.h"
 
 #include <meshwalk/triangulate.h>
@@ -28,8 +29,8 @@ typedef struct mw_subsegment_owner {
 
 typedef struct mw_cdt {
     const mw_constraints *given;
-    uint32_t threads; /* of the Delaunay triangulation of the points */
-    mw_point *point;  /* the caller's, then those made where segments cross */
+    mw_job *job;
+    mw_point *point; /* the caller's, then those made where segments cross */
     size_t point_count;
     uint32_t *twin;   /* per point: the lowest-numbered one with its coordinates, MW_NONE if it is that itself */
     mw_triangle *tri; /* of the points, with the parts inserted */

@@ -6,22 +6,22 @@
 #include "triangulate/delaunay/delaunay.h"
 #include "base/options.h"
 
-#include "base/threads.h"
 #include "mesh/layout.h"
 #include "triangulate/delaunay/delaunay_collect.h"
 
 #include <limits.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    PATCH = 1 << 14, /* points that with their facets fill a second-level cache, twice at most */
-    CHUNK = 1 << 14  /* points that a thread looks at at a time                                */
+    PATCH = 1 << 14 /* points that with their facets fill a second-level cache, twice at most */
 };
 
 typedef struct delaunay {
     const mw_point *given;
     mw_delaunay_setup setup;
+    mw_job *job;
     mw_extent extent;
     mw_patch_arrays arrays;
     mw_patches patches;
@@ -93,36 +93,44 @@ static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
     return lattice;
 }
 
-/* What there is to know of the points before they are sorted: extent and lattice. */
+/* What there is to know of the points before they are sorted. */
+typedef struct point_survey {
+    const mw_point *points;
+    pthread_mutex_t lock; /* of what follows */
+    mw_extent extent;
+    int lattice;
+    uint32_t bad; /* the first point that is not finite; MW_NONE: all are */
+} point_survey;
+
+static void points_survey(void *work, uint64_t from, uint64_t to)
+{
+    point_survey *s = work;
+    mw_extent extent;
+    uint32_t stop = extent_of(s->points, (uint32_t)from, (uint32_t)to, &extent);
+    int lattice = lattice_of(s->points, (uint32_t)from, stop);
+    pthread_mutex_lock(&s->lock);
+    extent_extend(&s->extent, &extent);
+    if (lattice < s->lattice) s->lattice = lattice;
+    if (stop < to && stop < s->bad) s->bad = stop;
+    pthread_mutex_unlock(&s->lock);
+}
+
 static mw_status delaunay_measure(delaunay *d, mw_error *error)
 {
-    uint32_t n = d->arrays.n, bad = n;
-    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
-    int team = mw__team(d->setup.threads, chunks);
-    (void)team; /* unused without OpenMP */
-    int lattice = INT_MAX;
-    d->extent = (mw_extent){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(team) if (team > 1)
-#endif
-    for (int64_t i = 0; i < chunks; i++) {
-        mw_extent mine;
-        uint32_t from = (uint32_t)(i * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
-        uint32_t stop = extent_of(d->given, from, to, &mine);
-        int my_lattice = lattice_of(d->given, from, stop);
-#ifdef _OPENMP
-#pragma omp critical(mw_extent)
-#endif
-        {
-            extent_extend(&d->extent, &mine);
-            if (my_lattice < lattice) lattice = my_lattice;
-            if (stop < to && stop < bad) bad = stop;
-        }
-    }
-    if (bad < n) return mw__fail_at(error, -1, bad, "point %u is not finite", bad);
+    point_survey s = {.points = d->given,
+                      .extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}},
+                      .lattice = INT_MAX,
+                      .bad = MW_NONE};
+    mw__job_stage(d->job, "measuring the extent", 0.02);
+    pthread_mutex_init(&s.lock, NULL);
+    bool done = mw__job_ranges(d->job, d->arrays.n, points_survey, &s);
+    pthread_mutex_destroy(&s.lock);
+    if (!done) return mw__fail_memory(error);
+    if (s.bad != MW_NONE) return mw__fail_at(error, -1, s.bad, "point %u is not finite", s.bad);
+    d->extent = s.extent;
     d->arrays.width = d->extent.high[0] - d->extent.low[0];
     d->arrays.height = d->extent.high[1] - d->extent.low[1];
-    d->arrays.unit = lattice == NO_LATTICE || lattice == INT_MAX ? 0 : ldexp(1, lattice);
+    d->arrays.unit = s.lattice == NO_LATTICE || s.lattice == INT_MAX ? 0 : ldexp(1, s.lattice);
     return MW_OK;
 }
 
@@ -141,25 +149,22 @@ static mw_status fail_flat(const delaunay *d, mw_error *error)
 
 /* --- growth --- */
 
+typedef struct point_placing {
+    const mw_point *given;
+    const mw_key *keys;
+    const mw_patch_arrays *arrays;
+} point_placing;
+
 /* Copy the points to their slots. Where each lies in memory is hard for the processor to foresee,
  * but its number is known ahead. */
-static void delaunay_copy_points(delaunay *d, const mw_key *keys)
+static void points_place(void *work, uint64_t from, uint64_t to)
 {
     enum { AHEAD = 16 };
-    uint32_t n = d->arrays.n;
-    int64_t chunks = ((int64_t)n + CHUNK - 1) / CHUNK;
-    int team = mw__team(d->setup.threads, chunks);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(team) if (team > 1)
-#endif
-    for (int64_t c = 0; c < chunks; c++) {
-        uint32_t from = (uint32_t)(c * CHUNK), to = n - from < CHUNK ? n : from + CHUNK;
-        for (uint32_t i = from; i < to; i++) {
-            if (i + AHEAD < n) __builtin_prefetch(&d->given[keys[i + AHEAD].item]);
-            d->arrays.order[i] = keys[i].item;
-            d->arrays.point[i] = d->given[keys[i].item];
-        }
+    const point_placing *p = work;
+    for (uint64_t i = from; i < to; i++) {
+        if (i + AHEAD < p->arrays->n) __builtin_prefetch(&p->given[p->keys[i + AHEAD].item]);
+        p->arrays->order[i] = p->keys[i].item;
+        p->arrays->point[i] = p->given[p->keys[i].item];
     }
 }
 
@@ -169,8 +174,13 @@ static bool delaunay_order_points(delaunay *d)
     mw_patch_arrays *g = &d->arrays;
     _Static_assert(sizeof(mw_key) <= sizeof(mw_facet), "the facets have room for the keys");
     mw_key *keys = (mw_key *)g->facet, *scratch = keys + g->n;
-    if (!mw__points_sort(d->given, g->n, &d->extent, d->setup.threads, keys, scratch)) return false;
-    delaunay_copy_points(d, keys);
+    mw_job_span outer = mw__job_part(d->job, 0.1);
+    bool sorted = mw__points_sort(d->given, g->n, &d->extent, d->job, keys, scratch);
+    mw__job_part_end(d->job, outer);
+    if (!sorted) return false;
+    mw__job_stage(d->job, "copying points", 0.03);
+    point_placing placing = {d->given, keys, g};
+    if (!mw__job_ranges(d->job, g->n, points_place, &placing)) return false;
     return mw__patches_cut(&d->patches, d->given, keys, g->n, d->setup.patch);
 }
 
@@ -202,28 +212,34 @@ static bool delaunay_collect(delaunay *d, mw_triangle **tri, uint32_t *tri_count
     free(d->arrays.sequence);
     d->arrays.sequence = NULL;
     uint32_t *scratch = (uint32_t *)d->arrays.point;
-    return mw__delaunay_collect(&d->patches, &d->arrays, d->setup.order != NULL, d->setup.threads, scratch, tri,
-                                tri_count);
+    return mw__delaunay_collect(&d->patches, &d->arrays, d->setup.order != NULL, d->job, scratch, tri, tri_count);
 }
 
-mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
+mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup, mw_job *job,
                               uint32_t *duplicate_of, mw_delaunay_report *report, mw_triangle **tri,
                               uint32_t *tri_count, mw_error *error)
 {
-    delaunay d = {.given = points, .setup = *setup, .arrays = {.n = n}};
+    delaunay d = {.given = points, .setup = *setup, .job = job, .arrays = {.n = n}};
     if (!d.setup.patch) d.setup.patch = PATCH;
     *tri = NULL;
     *tri_count = 0;
     mw_status status = delaunay_prepare(&d, error);
     if (status == MW_OK) {
-        mw__patches_grow(&d.patches, &d.arrays, d.setup.threads);
-        if (d.patches.patch[0].ghost == MW_NONE) status = fail_flat(&d, error);
+        mw_job_span outer = mw__job_part(job, 0.75);
+        bool grown = mw__patches_grow(&d.patches, &d.arrays, job);
+        mw__job_part_end(job, outer);
+        if (!grown)
+            status = mw__fail_memory(error);
+        else if (d.patches.patch[0].ghost == MW_NONE)
+            status = fail_flat(&d, error);
     }
     if (status == MW_OK) {
         const mw_patch *whole = &d.patches.patch[0];
         if (duplicate_of) report_duplicates(&d, duplicate_of);
         if (report) *report = (mw_delaunay_report){n, whole->duplicates, whole->visited};
+        mw_job_span outer = mw__job_part(job, 0.1);
         if (!delaunay_collect(&d, tri, tri_count)) status = mw__fail_memory(error);
+        mw__job_part_end(job, outer);
     }
     if (d.setup.order) {
         *d.setup.order = status == MW_OK ? d.arrays.order : NULL;
@@ -233,44 +249,31 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
     return status;
 }
 
-mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, uint32_t *duplicate_of, mw_delaunay_report *report,
-                                 mw_triangle **tri, uint32_t *tri_count, mw_error *error)
+mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, mw_job *job, uint32_t *duplicate_of,
+                                 mw_delaunay_report *report, mw_triangle **tri, uint32_t *tri_count, mw_error *error)
 {
-    const mw_delaunay_setup alone = {.threads = 1};
-    return mw__delaunay_set_up(points, n, &alone, duplicate_of, report, tri, tri_count, error);
+    static const mw_delaunay_setup defaults;
+    return mw__delaunay_set_up(points, n, &defaults, job, duplicate_of, report, tri, tri_count, error);
 }
 
 /* --- a mesh --- */
 
-/* The points as the library has them; the caller's own array if that is what it holds. *copy is to
- * be released. */
-static const mw_point *delaunay_read_points(const double *from, size_t stride, uint32_t n, uint32_t threads,
-                                            mw_point **copy)
+static mw_status delaunay_make_mesh(const mw_point *given, bool laid_out, mw_job *job, uint32_t *duplicate_of,
+                                    mw_delaunay_report *report, mw_mesh *mesh, mw_error *error)
 {
-    *copy = NULL;
-    if (stride == 2) return (const mw_point *)from;
-    *copy = mw__alloc_lines(n, sizeof **copy);
-    int team = mw__team(threads, n / CHUNK + 1);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(team) if (team > 1)
-#endif
-    for (int64_t i = 0; i < (int64_t)n; i++)
-        if (*copy) (*copy)[i] = (mw_point){from[(size_t)i * stride], from[(size_t)i * stride + 1]};
-    return *copy;
-}
-
-static mw_status delaunay_make_mesh(const mw_point *given, mw_delaunay_setup setup, bool laid_out,
-                                    uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh *mesh, mw_error *error)
-{
+    mw_delaunay_setup setup = {0};
     uint32_t *order = NULL, n = mesh->point_count;
     if (laid_out && mw__points_are_scattered(given, n)) setup.order = &order;
-    mw_status status = mw__delaunay_set_up(given, n, &setup, duplicate_of, report, &mesh->tri, &mesh->tri_count, error);
-    if (!status && !mw__mesh_set_points(mesh, given, order, setup.threads)) status = mw__fail_memory(error);
+    mw_job_span outer = mw__job_part(job, 0.93);
+    mw_status status =
+        mw__delaunay_set_up(given, n, &setup, job, duplicate_of, report, &mesh->tri, &mesh->tri_count, error);
+    mw__job_part_end(job, outer);
+    mw__job_stage(job, "copying points", 0.05);
+    if (!status && !mw__mesh_set_points(mesh, given, order, job)) status = mw__fail_memory(error);
     return status;
 }
 
-mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *points, size_t n, size_t stride,
+mw_status mw__delaunay_mesh(mw_job *job, bool laid_out, const double *points, size_t n, size_t stride,
                             uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error)
 {
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
@@ -280,13 +283,13 @@ mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *point
     if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "points is NULL");
     if (n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
     mw_point *copy;
-    const mw_point *given = delaunay_read_points(points, stride, (uint32_t)n, threads, &copy);
+    mw__job_stage(job, "reading points", 0.02);
+    const mw_point *given = mw__points_read(points, stride, (uint32_t)n, job, &copy);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     mw_status status = mesh && (given || !n) ? MW_OK : mw__fail_memory(error);
     if (status == MW_OK) {
         mesh->point_count = (uint32_t)n;
-        const mw_delaunay_setup setup = {.threads = threads};
-        status = delaunay_make_mesh(given, setup, laid_out, duplicate_of, report, mesh, error);
+        status = delaunay_make_mesh(given, laid_out, job, duplicate_of, report, mesh, error);
     }
     free(copy);
     if (status == MW_OK)
@@ -299,8 +302,18 @@ mw_status mw__delaunay_mesh(uint32_t threads, bool laid_out, const double *point
 mw_status mw_delaunay(const double *points, size_t n, size_t stride, const mw_delaunay_options *options,
                       uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error)
 {
-    if (out) *out = NULL;
-    mw_status status = options ? MW_RESERVED_CHECK(mw_delaunay_options, options, error) : MW_OK;
+    static const mw_delaunay_options defaults;
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    *out = NULL;
+    if (!options) options = &defaults;
+    mw_status status = MW_RESERVED_CHECK(mw_delaunay_options, options, error);
     if (status) return status;
-    return mw__delaunay_mesh(options ? options->threads : 0, true, points, n, stride, duplicate_of, report, out, error);
+    mw_job job = mw__job(options->threads, options->progress);
+    status = mw__delaunay_mesh(&job, true, points, n, stride, duplicate_of, report, out, error);
+    status = mw__job_end(&job, status, error);
+    if (status) {
+        mw_mesh_destroy(*out);
+        *out = NULL;
+    }
+    return status;
 }

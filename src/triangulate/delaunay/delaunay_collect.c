@@ -5,8 +5,6 @@
  * last at their slot. Numbers do not depend on the threads. */
 #include "triangulate/delaunay/delaunay_collect.h"
 
-#include "base/threads.h"
-
 #include <stdlib.h>
 
 /* Of a facet whose lowest slot is another patch's: FOREIGN + the number of the next such facet in
@@ -26,7 +24,7 @@ typedef struct collector {
     uint32_t *number; /* of each facet: MW_NONE: it is no triangle                                   */
     uint32_t *next;   /* of each slot: triangles whose lowest it is, then the number of the next one */
     slice *slices;
-    int64_t slice_count;
+    uint32_t slice_count;
     mw_triangle *tri;
     const uint32_t *vertex; /* of each slot: its vertex; NULL: they are the same */
 } collector;
@@ -110,13 +108,23 @@ static void slice_copy(collector *h, slice *s)
     }
 }
 
-static void for_each_slice(collector *h, void (*step)(collector *h, slice *s), int team)
+typedef struct slice_loop {
+    collector *collector;
+    void (*step)(collector *h, slice *s);
+} slice_loop;
+
+static void slice_step(void *work, uint64_t i, uint32_t member)
 {
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
-#endif
-    for (int64_t i = 0; i < h->slice_count; i++) step(h, &h->slices[i]);
+    const slice_loop *loop = work;
+    (void)member;
+    loop->step(loop->collector, &loop->collector->slices[i]);
+}
+
+/* Returns false if the job is to stop. */
+static bool for_each_slice(collector *h, void (*step)(collector *h, slice *s), mw_job *job)
+{
+    slice_loop loop = {h, step};
+    return mw__job_chunks(job, mw__job_team(job, h->slice_count), h->slice_count, slice_step, &loop);
 }
 
 static bool list_slices(collector *h, const mw_patches *patches)
@@ -136,33 +144,39 @@ static int by_slot(const void *left, const void *right)
     return (i > j) - (i < j);
 }
 
-static uint32_t number_all(collector *h, int team)
+static bool number_all(collector *h, mw_job *job, uint32_t *tri_count)
 {
     uint32_t sum = 0;
-    qsort(h->slices, (size_t)h->slice_count, sizeof *h->slices, by_slot);
-    for_each_slice(h, slice_count, team);
-    for_each_slice(h, count_foreign, 1);
-    for_each_slice(h, sum_up, team);
-    for (int64_t i = 0; i < h->slice_count; i++) {
+    qsort(h->slices, h->slice_count, sizeof *h->slices, by_slot);
+    mw__job_stage(job, "counting triangles", 0.2);
+    if (!for_each_slice(h, slice_count, job)) return false;
+    for (uint32_t i = 0; i < h->slice_count; i++) count_foreign(h, &h->slices[i]);
+    mw__job_stage(job, "numbering triangles", 0.3);
+    if (!for_each_slice(h, sum_up, job)) return false;
+    for (uint32_t i = 0; i < h->slice_count; i++) {
         uint32_t here = h->slices[i].count;
         h->slices[i].count = sum;
         sum += here;
     }
-    for_each_slice(h, slice_number, team);
-    for_each_slice(h, number_foreign, 1);
-    return sum;
+    if (!for_each_slice(h, slice_number, job)) return false;
+    for (uint32_t i = 0; i < h->slice_count; i++) number_foreign(h, &h->slices[i]);
+    *tri_count = sum;
+    return true;
 }
 
-bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots, uint32_t threads,
+bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots, mw_job *job,
                           uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count)
 {
     collector h = {.arrays = arrays, .number = scratch, .next = scratch + 2 * (size_t)arrays->n};
     if (!slots) h.vertex = arrays->order;
-    if (!list_slices(&h, patches)) return false;
-    int team = mw__team(threads, h.slice_count);
-    *tri_count = number_all(&h, team);
-    *tri = h.tri = mw__alloc_lines(*tri_count, sizeof *h.tri);
-    if (h.tri) for_each_slice(&h, slice_copy, team);
+    bool done = list_slices(&h, patches) && number_all(&h, job, tri_count);
+    if (done) h.tri = mw__alloc_lines(*tri_count, sizeof *h.tri);
+    mw__job_stage(job, "copying triangles", 0.5);
+    if (h.tri && !for_each_slice(&h, slice_copy, job)) {
+        free(h.tri);
+        h.tri = NULL;
+    }
     free(h.slices);
+    *tri = h.tri;
     return h.tri;
 }

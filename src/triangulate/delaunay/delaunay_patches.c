@@ -9,7 +9,6 @@
  * What is cut where depends on the points alone, and so does the result. */
 #include "triangulate/delaunay/delaunay_patches.h"
 
-#include "base/threads.h"
 #include "mesh/mesh.h"
 #include "triangulate/delaunay/delaunay_merge.h"
 
@@ -182,27 +181,41 @@ static void patch_merge(const mw_patch_arrays *arrays, mw_patch *patch, const mw
     }
 }
 
-/* Patches of one rank do not depend on each other. */
-static void grow_rank(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t rank, uint32_t threads)
+typedef struct rank_growth {
+    mw_patches *patches;
+    const mw_patch_arrays *arrays;
+    uint32_t rank;
+} rank_growth;
+
+static void rank_grow_patch(void *work, uint64_t i, uint32_t member)
 {
-    int64_t count = 0;
-    for (uint32_t i = 0; i < patches->count; i++) count += patches->patch[i].rank == rank;
-    int team = mw__team(threads, count);
-    (void)team; /* unused without OpenMP */
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) num_threads(team) if (team > 1)
-#endif
-    for (int64_t i = 0; i < (int64_t)patches->count; i++) {
-        mw_patch *patch = &patches->patch[i];
-        if (patch->rank != rank) continue;
-        if (patch->half == MW_NONE)
-            patch_grow(arrays, patch);
-        else
-            patch_merge(arrays, patch, &patches->patch[patch->half]);
-    }
+    const rank_growth *g = work;
+    mw_patch *patch = &g->patches->patch[i];
+    (void)member;
+    if (patch->rank != g->rank) return;
+    if (patch->half == MW_NONE)
+        patch_grow(g->arrays, patch);
+    else
+        patch_merge(g->arrays, patch, &g->patches->patch[patch->half]);
 }
 
-void mw__patches_grow(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t threads)
+/* Patches of one rank do not depend on each other. Returns false if the job is to stop. */
+static bool rank_grow(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t rank, mw_job *job)
 {
-    for (uint32_t rank = 0; rank <= patches->patch[0].rank; rank++) grow_rank(patches, arrays, rank, threads);
+    rank_growth growth = {patches, arrays, rank};
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < patches->count; i++) count += patches->patch[i].rank == rank;
+    return mw__job_chunks(job, mw__job_team(job, count), patches->count, rank_grow_patch, &growth);
+}
+
+bool mw__patches_grow(mw_patches *patches, const mw_patch_arrays *arrays, mw_job *job)
+{
+    const uint32_t ranks = patches->patch[0].rank;
+    mw__job_stage(job, "triangulating", ranks ? 0.9 : 1);
+    if (!rank_grow(patches, arrays, 0, job)) return false;
+    for (uint32_t rank = 1; rank <= ranks; rank++) {
+        mw__job_stage(job, "merging triangulations", 0.1 / ranks);
+        if (!rank_grow(patches, arrays, rank, job)) return false;
+    }
+    return true;
 }

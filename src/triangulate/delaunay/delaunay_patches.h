@@ -3,6 +3,7 @@
 #ifndef MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_PATCHES_H
 #define MW_SRC_TRIANGULATE_DELAUNAY_DELAUNAY_PATCHES_H
 
+#include "base/job.h"
 #include "mesh/point_order.h"
 #include "triangulate/delaunay/delaunay_grow.h"
 #include "triangulate/delaunay/insertion_order.h"
@@ -41,9 +42,9 @@ typedef struct mw_patch_arrays {
     double width, height, unit; /* as for mw__grow_prepare */
 } mw_patch_arrays;
 
-/* Grow and merge all patches, on so many threads, 0 as OpenMP gives. Where all points lie on one
- * line no facet is made, and the ghost of patch 0 is MW_NONE. */
-void mw__patches_grow(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t threads);
+/* Grow and merge all patches. Where all points lie on one line no facet is made, and the ghost of
+ * patch 0 is MW_NONE. Stages of the present part of the job. Returns false if it is cancelled. */
+bool mw__patches_grow(mw_patches *patches, const mw_patch_arrays *arrays, mw_job *job);
 
 /* Does the slot hold no vertex, but a point equal to that of slot `twin`? */
 static inline bool mw__get_twin(mw_point point, uint32_t *twin)

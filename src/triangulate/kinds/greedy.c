@@ -196,9 +196,12 @@ mw_status mw__make_greedy(mw_triangulation *t, const mw_kind_options *options, m
     (void)options;
     (void)report;
     greedy g = {0};
+    mw__job_stage(t->job, "gathering edges", 0.1);
     bool done = greedy_create(&g, t) && greedy_gather(&g);
+    mw__job_stage(t->job, "taking the shortest edges", 0.9);
     while (done && g.heap.count > 0) {
-        done = greedy_take(&g, mw__greedy_pop(&g.heap));
+        done = greedy_take(&g, mw__greedy_pop(&g.heap)) &&
+               mw__job_step(t->job, g.net.subsegment_count, t->tri_count + (uint64_t)t->tri_count / 2);
         if (done && g.heap.count > g.limit) done = greedy_gather(&g);
     }
     greedy_release(&g);

@@ -6,6 +6,7 @@
 #ifndef MW_SRC_TRIANGULATE_KINDS_KIND_MAKER_H
 #define MW_SRC_TRIANGULATE_KINDS_KIND_MAKER_H
 
+#include "base/job.h"
 #include "mesh/mesh.h"
 
 #include <meshwalk/triangulate.h>
@@ -15,11 +16,12 @@ typedef struct mw_triangulation {
     uint32_t point_count;
     mw_triangle *tri; /* counter-clockwise, linked, filling the convex hull */
     uint32_t tri_count;
+    mw_job *job;
 } mw_triangulation;
 
 /* Turn a Delaunay triangulation into one of the kind; order and `user` of the records are free.
  * Fills what concerns the kind in the report: `optimal` (1 at first) and the faces.
- * MW_ERROR_MEMORY. */
+ * Stages of the present part of the job. MW_ERROR_MEMORY, also if it is cancelled. */
 typedef mw_status mw_make_kind(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
                                mw_error *error);
 

@@ -3,6 +3,7 @@
 #ifndef MW_SRC_TRIANGULATE_KINDS_LMT_H
 #define MW_SRC_TRIANGULATE_KINDS_LMT_H
 
+#include "base/job.h"
 #include "mesh/mesh.h"
 
 /* Points with coordinates multiplied by a power of two, the largest near 2^500: squares neither
@@ -27,10 +28,12 @@ static MW_INLINE bool mw__surely_longer(double a, double b)
     return a > b * (1 + 0x1p-48) + 0x1p-1000;
 }
 
-/* What may still be spent; parts give up, and say so, when nothing is left. */
+/* What may still be spent; parts give up, and say so, when nothing is left. A cancelled job is as
+ * good as no memory. */
 typedef struct mw_effort {
     uint64_t steps;      /* of about a nanosecond or ten          */
     uint64_t candidates; /* directed edges that may be collected  */
+    mw_job *job;         /* steps of its present stage            */
 } mw_effort;
 
 /* --- candidates --- */
@@ -86,7 +89,7 @@ mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge
 void mw__lmt_release(mw_lmt *lmt);
 
 /* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal,
- * until there are none or the effort is spent. What remains holds every triangulation of least
+ * until there are none, the effort is spent, or the job is cancelled. What remains holds every triangulation of least
  * weight that the list held. */
 void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort);
 
@@ -110,7 +113,7 @@ bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps);
 
 /* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek
  * 1980]. The chords must hold a triangulation. Writes three corners, counter-clockwise, for each of
- * corner_count - 2 triangles. False when out of memory. */
-bool mw__polygon_fill(const mw_polygon *polygon, uint32_t *corners);
+ * corner_count - 2 triangles. Steps of the present stage. False when out of memory, or cancelled. */
+bool mw__polygon_fill(const mw_polygon *polygon, mw_job *job, uint32_t *corners);
 
 #endif

@@ -401,10 +401,15 @@ mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint3
     seeker s = {.points = points};
     mw_lmt_result result = seeker_prepare(&s, vertex, vertex_count) ? MW_LMT_DONE : MW_LMT_MEMORY;
     for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
-        result = seeker_seek(&s, s.order[i], FEW, effort, list);
+        result = mw__job_step(effort->job, i, 2 * (uint64_t)vertex_count)
+                     ? seeker_seek(&s, s.order[i], FEW, effort, list)
+                     : MW_LMT_MEMORY;
     if (result == MW_LMT_DONE) spread_reach(&s);
     for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
-        if (s.reach[s.order[i]] == INFINITY) result = seeker_seek(&s, s.order[i], UINT32_MAX, effort, list);
+        if (s.reach[s.order[i]] == INFINITY)
+            result = mw__job_step(effort->job, (uint64_t)vertex_count + i, 2 * (uint64_t)vertex_count)
+                         ? seeker_seek(&s, s.order[i], UINT32_MAX, effort, list)
+                         : MW_LMT_MEMORY;
     free(s.reach);
     free(s.order);
     free(s.node);

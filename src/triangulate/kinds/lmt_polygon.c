@@ -102,10 +102,12 @@ static void close_chord(chord_table *t, uint32_t i, uint32_t j, double length)
     t->down[t->first_down[j] + t->down_count[j]++] = best;
 }
 
-static void table_fill(chord_table *t, const mw_polygon *p)
+/* Returns false if the job is to stop. */
+static bool table_fill(chord_table *t, const mw_polygon *p, mw_job *job)
 {
     uint32_t n = t->corner_count;
     for (uint32_t i = n - 1; i-- > 0;) {
+        if (!mw__job_step(job, n - i, n)) return false;
         t->row[i + 1] = 0;
         t->down[t->first_down[i + 1] + t->down_count[i + 1]++] = (end){i, MW_NONE, 0};
         for (size_t k = t->first_up[i]; k < t->first_up[i + 1]; k++)
@@ -114,6 +116,7 @@ static void table_fill(chord_table *t, const mw_polygon *p)
         t->row[i + 1] = INFINITY;
         for (size_t k = t->first_up[i]; k < t->first_up[i + 1]; k++) t->row[p->chord[t->up[k]].high] = INFINITY;
     }
+    return true;
 }
 
 static uint32_t chord_apex(const chord_table *t, uint32_t i, uint32_t j)
@@ -164,14 +167,11 @@ bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps)
     return true;
 }
 
-bool mw__polygon_fill(const mw_polygon *polygon, uint32_t *corners)
+bool mw__polygon_fill(const mw_polygon *polygon, mw_job *job, uint32_t *corners)
 {
     chord_table t;
-    bool done = table_create(&t, polygon);
-    if (done) {
-        table_fill(&t, polygon);
-        table_collect(&t, corners);
-    }
+    bool done = table_create(&t, polygon) && table_fill(&t, polygon, job);
+    if (done) table_collect(&t, corners);
     table_release(&t);
     return done;
 }

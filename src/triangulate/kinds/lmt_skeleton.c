@@ -233,8 +233,10 @@ static void enqueue_sides(mw_lmt *lmt, skeleton_work *w, const apexes *found)
 void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort)
 {
     skeleton_work w = {0, 0};
+    uint64_t tried = 0;
     for (uint32_t e = 0; e < lmt->edge_count; e++) edge_enqueue(lmt, &w, e);
-    while (w.count > 0) {
+    while (w.count > 0 && mw__job_step(effort->job, tried, tried + w.count)) {
+        tried++;
         uint32_t e = lmt->queue[w.head];
         w.head = w.head + 1 == lmt->edge_count ? 0 : w.head + 1;
         w.count--;

@@ -167,7 +167,11 @@ static mw_status improvement_run(improvement *m, uint32_t reach, mw_angle_limits
     m->insertion.most_seen = limits.most_seen;
     for (uint32_t i = 0; i < m->t->tri_count; i++) tri[i].user = MW_INSERTION_FREE;
     if (!improvement_fill(m)) return MW_ERROR_MEMORY;
+    uint64_t tried = 0;
+    mw__job_stage(m->t->job, "inserting better edges", 0.5);
     while (m->heap.count > 0 && result != MW_INSERTION_SPENT) {
+        if (!mw__job_step(m->t->job, tried, tried + m->heap.count)) return MW_ERROR_MEMORY;
+        tried++;
         entry e = heap_pop(&m->heap);
         uint32_t k = corner_of(&e, &tri[e.triangle]);
         if (k == 3 || tri[e.triangle].user != MW_INSERTION_FREE) continue;

@@ -114,20 +114,24 @@ static bool is_too_long(const weigher *w, uint32_t half)
 
 enum { ALL_EDGES = 7, OUTER_EDGES = 6, ON_STACK = 8 };
 
-/* Each exchange makes the sum of lengths surely less, so this ends. It leaves no mark. */
-static void weigher_shorten(weigher *w)
+/* Each exchange makes the sum of lengths surely less, so this ends. It leaves no mark. Returns false
+ * if the job is to stop. */
+static bool weigher_shorten(weigher *w)
 {
     uint32_t count = w->t->tri_count;
+    uint64_t tried = 0;
     for (uint32_t t = 0; t < count; t++) {
         w->mark[t] = ALL_EDGES | ON_STACK;
         w->list[t] = t;
     }
     while (count > 0) {
+        if (!mw__job_step(w->t->job, tried, tried + count)) return false;
         uint32_t t = w->list[count - 1], k = 0;
         while (k < 3 && !is_marked(w, t, k)) k++;
         if (k == 3) {
             w->mark[t] = 0;
             count--;
+            tried++;
             continue;
         }
         uint32_t half = mw__link(t, k), other = mw__link_triangle(mw__half_link(w->t->tri, half));
@@ -138,6 +142,7 @@ static void weigher_shorten(weigher *w)
         w->mark[t] |= OUTER_EDGES;
         w->mark[other] |= OUTER_EDGES | ON_STACK;
     }
+    return true;
 }
 
 static void index_vertices(weigher *w)
@@ -240,7 +245,9 @@ static mw_lmt_result find_candidates(weigher *w, mw_effort effort)
     if (!used) return MW_LMT_MEMORY;
     for (uint32_t v = 0; v < w->t->point_count; v++)
         if (w->at[v] != MW_NONE) used[count++] = v;
+    mw__job_stage(w->t->job, "finding candidates", 0.3);
     mw_lmt_result result = mw__diamond(&w->points, used, count, &effort, &w->edges);
+    mw__job_stage(w->t->job, "sifting candidates", 0.05);
     free(used);
     if (result == MW_LMT_DONE && !push_known(w)) result = MW_LMT_MEMORY;
     if (result == MW_LMT_DONE && !weigher_sift(w, &effort)) result = MW_LMT_SPENT;
@@ -259,6 +266,7 @@ static mw_lmt_result mark_crossed(weigher *w, mw_effort effort)
     count = 0;
     for (uint32_t e = 0; e < w->lmt.edge_count; e++) {
         if (w->lmt.state[e] != MW_LMT_ALIVE) continue;
+        if (!mw__job_step(w->t->job, e, w->lmt.edge_count)) return MW_LMT_MEMORY;
         weigher_crossing *way = &w->crossing[count];
         uint64_t steps = 0;
         weigher_walk(w, w->lmt.from[2 * e], w->lmt.from[2 * e + 1], true, way, &steps);
@@ -274,8 +282,9 @@ static mw_lmt_result make_skeleton(weigher *w, uint32_t limit)
 {
     uint64_t n = w->t->point_count, most = limit < n ? limit : n;
     if (most > LIMIT_THAT_COUNTS) most = LIMIT_THAT_COUNTS;
-    mw_effort effort = {STEPS_AT_LEAST + STEPS_PER_POINT * n, CANDIDATES_AT_LEAST + CANDIDATES_PER_POINT * n};
-    mw_effort extended = {effort.steps + most * most * most, effort.candidates + most * most};
+    mw_effort effort = {STEPS_AT_LEAST + STEPS_PER_POINT * n, CANDIDATES_AT_LEAST + CANDIDATES_PER_POINT * n,
+                        w->t->job};
+    mw_effort extended = {effort.steps + most * most * most, effort.candidates + most * most, w->t->job};
     mw_lmt_result result = find_candidates(w, extended);
     if (result == MW_LMT_DONE) {
         result = mw__lmt_create(&w->lmt, &w->points, &w->edges);
@@ -283,7 +292,9 @@ static mw_lmt_result make_skeleton(weigher *w, uint32_t limit)
         w->edges = (mw_edge_list){0};
     }
     if (result == MW_LMT_DONE) {
+        mw__job_stage(w->t->job, "reducing candidates", 0.2);
         mw__lmt_reduce(&w->lmt, &effort);
+        mw__job_stage(w->t->job, "following candidates", 0.05);
         result = mark_crossed(w, extended);
     }
     mw__lmt_release(&w->lmt);
@@ -415,7 +426,7 @@ static bool weigher_afford(weigher *w, uint32_t limit, const mw_polygon *p, bool
 static bool write_triangles(weigher *w, const skeleton_face *f, const mw_polygon *p)
 {
     uint32_t *corners = mw__alloc(f->triangles, 3 * sizeof *corners);
-    bool done = corners && mw__polygon_fill(p, corners);
+    bool done = corners && mw__polygon_fill(p, w->t->job, corners);
     for (uint32_t i = 0; done && i < f->triangles; i++) {
         mw_triangle *tri = &w->t->tri[w->list[i]];
         for (uint32_t k = 0; k < 4; k++) tri->v[k] = w->vertex[corners[3 * (size_t)i + k % 3]];
@@ -445,6 +456,8 @@ static bool fill_face(weigher *w, skeleton_face *f, uint32_t limit, bool *filled
 
 static bool fill_faces(weigher *w, uint32_t limit, mw_kind_report *report)
 {
+    uint32_t met = 0;
+    mw__job_stage(w->t->job, "filling faces", 0.1);
     for (uint32_t t = 0; t < w->t->tri_count; t++) {
         if (w->seen[t]) continue;
         skeleton_face f = weigher_find_face(w, t);
@@ -452,7 +465,11 @@ static bool fill_faces(weigher *w, uint32_t limit, mw_kind_report *report)
         report->faces++;
         if (f.border > report->largest_face) report->largest_face = f.border;
         bool filled = true; /* two triangles of T make a quadrilateral of least weight */
-        if (f.triangles > 2 && !fill_face(w, &f, limit, &filled)) return false;
+        mw_job_span outer = mw__job_steps_of(w->t->job, met, f.triangles, w->t->tri_count);
+        bool done = f.triangles <= 2 || fill_face(w, &f, limit, &filled);
+        mw__job_steps_end(w->t->job, outer);
+        met += f.triangles;
+        if (!done || !mw__job_step(w->t->job, met, w->t->tri_count)) return false;
         if (!filled) report->local_faces++;
     }
     return true;
@@ -463,9 +480,11 @@ static bool shorten_again(weigher *w)
 {
     for (uint32_t t = 0; t < w->t->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) w->t->tri[t].link[k] = MW_NONE;
-    if (!mw__connect(w->t->tri, w->t->tri_count, w->t->point_count, 1, NULL)) return false;
-    weigher_shorten(w);
-    return true;
+    mw_job_span outer = mw__job_part(w->t->job, 0.05);
+    bool done = mw__connect(w->t->tri, w->t->tri_count, w->t->point_count, w->t->job, NULL);
+    mw__job_part_end(w->t->job, outer);
+    mw__job_stage(w->t->job, "exchanging long edges", 0.05);
+    return done && weigher_shorten(w);
 }
 
 /* Without a skeleton all is one face. */
@@ -528,13 +547,16 @@ mw_status mw__make_min_weight(mw_triangulation *t, const mw_kind_options *option
                               mw_error *error)
 {
     weigher w = {.t = t};
+    mw_job_span outer = mw__job_part(t->job, 0.15);
     mw_status status = mw__make_greedy(t, options, report, error);
+    mw__job_part_end(t->job, outer);
     if (status) return status;
     mw_lmt_result result = weigher_prepare(&w) ? MW_LMT_DONE : MW_LMT_MEMORY;
     if (result == MW_LMT_DONE) {
-        weigher_shorten(&w);
+        mw__job_stage(t->job, "exchanging long edges", 0.05);
+        if (!weigher_shorten(&w)) result = MW_LMT_MEMORY;
         index_vertices(&w);
-        result = make_skeleton(&w, options->limit);
+        if (result == MW_LMT_DONE) result = make_skeleton(&w, options->limit);
     }
     if (result == MW_LMT_SPENT) mark_all(&w);
     if (result != MW_LMT_MEMORY && !make_faces(&w, options->limit, report)) result = MW_LMT_MEMORY;

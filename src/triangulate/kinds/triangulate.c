@@ -94,7 +94,9 @@ static bool triangulation_lay_out(mw_triangulation *t)
         }
         free(t->tri);
         t->tri = tri;
-        done = mw__connect(t->tri, t->tri_count, t->point_count, 1, NULL);
+        mw_job_span outer = mw__job_part(t->job, 0.1);
+        done = mw__connect(t->tri, t->tri_count, t->point_count, t->job, NULL);
+        mw__job_part_end(t->job, outer);
     } else {
         free(tri);
     }
@@ -103,14 +105,40 @@ static bool triangulation_lay_out(mw_triangulation *t)
 }
 
 /* The mesh is a Delaunay triangulation: make it one of the kind. */
-static mw_status kind_convert(mw_triangulation_kind kind, mw_mesh *mesh, const mw_kind_options *options,
+static mw_status kind_convert(mw_triangulation_kind kind, mw_mesh *mesh, const mw_kind_options *options, mw_job *job,
                               mw_kind_report *report, mw_error *error)
 {
-    mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count};
+    mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count, job};
+    mw_job_span outer = mw__job_part(job, 0.9);
     mw_status status = kinds[kind].make(&t, options, report, error);
+    mw__job_part_end(job, outer);
     if (status == MW_OK && kind != MW_KIND_DELAUNAY && !triangulation_lay_out(&t)) status = mw__fail_memory(error);
     mesh->tri = t.tri;
     if (status == MW_OK) triangulation_measure(&t, report);
+    return status;
+}
+
+/* The caller's points. */
+typedef struct given_points {
+    const double *points;
+    size_t count, stride;
+} given_points;
+
+/* For a Delaunay triangulation that is most of the work, for other kinds little of it. */
+static mw_status kind_make(mw_triangulation_kind kind, const given_points *given, const mw_kind_options *options,
+                           mw_job *job, uint32_t *duplicate_of, mw_kind_report *report, mw_mesh **out, mw_error *error)
+{
+    const bool plain = kind == MW_KIND_DELAUNAY;
+    mw_job_span outer = mw__job_part(job, plain ? 0.9 : 0.2);
+    mw_status status = mw__delaunay_mesh(job, plain, given->points, given->count, given->stride, duplicate_of,
+                                         &report->delaunay, out, error);
+    mw__job_part_end(job, outer);
+    outer = mw__job_part(job, plain ? 0.05 : 0.75);
+    if (!status) status = kind_convert(kind, *out, options, job, report, error);
+    mw__job_part_end(job, outer);
+    outer = mw__job_part(job, 0.05);
+    if (!status && !mw__mesh_lay_out_vertices(*out, job)) status = mw__fail_memory(error);
+    mw__job_part_end(job, outer);
     return status;
 }
 
@@ -126,16 +154,14 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_kind_options, options, error);
     if (status) return status;
-    mw_mesh *mesh;
-    status = mw__delaunay_mesh(options->threads, kind == MW_KIND_DELAUNAY, points, n, stride, duplicate_of,
-                               &made.delaunay, &mesh, error);
-    if (status == MW_OK) status = kind_convert(kind, mesh, options, &made, error);
-    if (status == MW_OK && !mw__mesh_lay_out_vertices(mesh, options->threads)) status = mw__fail_memory(error);
-    if (status == MW_OK) {
-        *out = mesh;
-        if (report) *report = made;
-    } else {
-        mw_mesh_destroy(mesh);
+    mw_job job = mw__job(options->threads, options->progress);
+    const given_points given = {points, n, stride};
+    status = mw__job_end(&job, kind_make(kind, &given, options, &job, duplicate_of, &made, out, error), error);
+    if (status) {
+        mw_mesh_destroy(*out);
+        *out = NULL;
+    } else if (report) {
+        *report = made;
     }
     return status;
 }

@@ -1,0 +1,595 @@
+#include "support/long_calls.h"
+
+#include <meshwalk/io.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* --- sums --------------------------------------------------------------------------------------- */
+
+static void sum_add(uint64_t *sum, uint64_t value)
+{
+    *sum = (*sum ^ value) * UINT64_C(0x9e3779b97f4a7c15);
+    *sum ^= *sum >> 29;
+}
+
+static void sum_add_mesh(uint64_t *sum, const mw_mesh *mesh)
+{
+    uint32_t v[3];
+    sum_add(sum, mw_mesh_vertex_count(mesh));
+    for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
+        mw_mesh_triangle(mesh, t, v);
+        for (unsigned k = 0; k < 3; k++) sum_add(sum, (uint64_t)v[k] << 32 | mw_mesh_neighbour(mesh, t, k, NULL));
+    }
+}
+
+static void sum_add_locations(uint64_t *sum, const mw_location *at, size_t n)
+{
+    for (size_t i = 0; i < n; i++) sum_add(sum, (uint64_t)at[i].triangle << 8 | (uint64_t)at[i].where);
+}
+
+static void expect(bool holds, const char *what)
+{
+    if (holds) return;
+    fprintf(stderr, "after a failed call: %s\n", what);
+    abort();
+}
+
+/* --- inputs ------------------------------------------------------------------------------------- */
+
+/* The sides of a polygon round the middle of the square, and one across the whole. */
+static void inputs_add_segments(call_inputs *in)
+{
+    enum { CORNERS = 5 };
+    in->segments = malloc(2 * CORNERS * sizeof *in->segments);
+    for (uint32_t i = 0; i < CORNERS; i++) {
+        static const double at[CORNERS][2] = {{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.6}, {0.5, 0.8}, {0.3, 0.6}};
+        memcpy(in->points + 2 * i, at[i], sizeof at[i]);
+        in->segments[2 * i] = i;
+        in->segments[2 * i + 1] = (i + 1) % CORNERS;
+    }
+    in->segment_count = CORNERS;
+}
+
+static void inputs_add_space(call_inputs *in, uint32_t n, uint64_t *random)
+{
+    unsigned levels = 1;
+    while ((8u << (2 * levels)) < n) levels++;
+    in->ball = star_shape_octahedron(levels);
+    star_shape_stretch(&in->ball, 3, random);
+    star_shape_shuffle(&in->ball, random);
+    mw_error error;
+    mw_arrays view = star_shape_arrays(&in->ball);
+    mw_prober_options boxes = {.boxes = 1, .threads = 1};
+    expect_ok(mw_surface_create(&view, NULL, &in->surface, &error), "a surface", &error);
+    expect_ok(mw_star_create(in->surface, NULL, &in->star, &error), "a star", &error);
+    expect_ok(mw_prober_create(in->surface, &boxes, &in->prober, &error), "a prober", &error);
+}
+
+static void inputs_write_file(call_inputs *in)
+{
+    mw_error error;
+    mw_arrays view = arrays_view(&in->plain);
+    double *points = malloc(3 * view.point_count * sizeof *points);
+    for (size_t i = 0; i < view.point_count; i++) {
+        memcpy(points + 3 * i, view.points + 2 * i, 2 * sizeof *points);
+        points[3 * i + 2] = 0;
+    }
+    mw_mesh_file file = {.points = points,
+                         .point_count = view.point_count,
+                         .triangles = in->plain.triangles,
+                         .triangle_count = view.triangle_count};
+    in->path = malloc(64);
+    snprintf(in->path, 64, "long_calls_%ld.off", (long)getpid());
+    expect_ok(mw_write_mesh(in->path, &file, NULL, NULL, &error), "a file", &error);
+    free(points);
+}
+
+call_inputs call_inputs_make(uint32_t n, uint64_t seed)
+{
+    uint64_t random = seed;
+    call_inputs in = {.point_count = n, .points = malloc(2 * (size_t)n * sizeof(double))};
+    mw_mesh_options alone = {.threads = 1};
+    for (uint32_t i = 0; i < 2 * n; i++) in.points[i] = random_unit(&random);
+    inputs_add_segments(&in);
+    in.mesh = mesh_delaunay(in.points, n);
+    in.plain = arrays_of_mesh(in.mesh);
+    arrays_punch(&in.plain, 0.1, &random);
+    arrays_scramble(&in.plain, 1, &random);
+    in.damaged = arrays_make(in.plain.point_count, in.plain.triangle_count + 1);
+    for (uint32_t i = 0; i < in.plain.point_count; i++)
+        arrays_point(&in.damaged, in.plain.points[2 * i], in.plain.points[2 * i + 1]);
+    for (uint32_t t = 0; t < in.plain.triangle_count; t++) {
+        const uint32_t *v = in.plain.triangles + 3 * t;
+        arrays_triangle(&in.damaged, v[0], v[1], v[2]);
+    }
+    arrays_triangle(&in.damaged, 0, 1, 0);
+    in.holed = arrays_mesh(&in.plain, alone);
+    in.locator = mesh_locator(in.mesh, (mw_locator_options){.threads = 1});
+    inputs_add_space(&in, n, &random);
+    inputs_write_file(&in);
+    return in;
+}
+
+void call_inputs_release(call_inputs *in)
+{
+    unlink(in->path);
+    free(in->path);
+    mw_prober_destroy(in->prober);
+    mw_star_destroy(in->star);
+    mw_surface_destroy(in->surface);
+    mw_locator_destroy(in->locator);
+    mw_mesh_destroy(in->holed);
+    mw_mesh_destroy(in->mesh);
+    star_shape_free(&in->ball);
+    arrays_free(&in->damaged);
+    arrays_free(&in->plain);
+    free(in->segments);
+    free(in->points);
+}
+
+/* --- triangulations ------------------------------------------------------------------------------ */
+
+/* A mesh that was made, or was not. */
+static mw_status mesh_made(mw_status status, mw_mesh *mesh, uint64_t *sum)
+{
+    expect(!status == (mesh != NULL), "there is a mesh");
+    if (!status) sum_add_mesh(sum, mesh);
+    mw_mesh_destroy(mesh);
+    return status;
+}
+
+static mw_status run_delaunay(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_mesh *mesh;
+    mw_delaunay_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_delaunay(in->points, in->point_count, 2, &options, NULL, NULL, &mesh, error);
+    return mesh_made(status, mesh, sum);
+}
+
+static mw_status kind_run(mw_triangulation_kind kind, const call_inputs *in, const call_setting *how, uint64_t *sum,
+                          mw_error *error)
+{
+    mw_mesh *mesh;
+    mw_kind_options options = {.threads = how->threads, .progress = how->progress};
+    /* other kinds than Delaunay take a hundred times as long, on one thread */
+    enum { MOST = 1500 };
+    uint32_t n = kind == MW_KIND_DELAUNAY || in->point_count < MOST ? in->point_count : MOST;
+    mw_status status = mw_triangulate(kind, in->points, n, 2, &options, NULL, NULL, &mesh, error);
+    return mesh_made(status, mesh, sum);
+}
+
+static mw_status run_kind_delaunay(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return kind_run(MW_KIND_DELAUNAY, in, how, sum, error);
+}
+
+static mw_status run_kind_greedy(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return kind_run(MW_KIND_GREEDY, in, how, sum, error);
+}
+
+static mw_status run_kind_min_weight(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return kind_run(MW_KIND_MIN_WEIGHT, in, how, sum, error);
+}
+
+static mw_status run_kind_min_max_angle(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return kind_run(MW_KIND_MIN_MAX_ANGLE, in, how, sum, error);
+}
+
+static mw_status run_constrained(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_mesh *mesh;
+    mw_constrained_edges edges;
+    mw_constraints constraints = {.points = in->points,
+                                  .point_count = in->point_count,
+                                  .segments = in->segments,
+                                  .segment_count = in->segment_count};
+    mw_constrain_options options = {
+        .threads = how->threads, .progress = how->progress, .split = 1, .keep = MW_KEEP_HULL};
+    mw_status status = mw_constrained_delaunay(&constraints, &options, NULL, NULL, &edges, &mesh, error);
+    expect(!status || !edges.segment, "there are constrained edges");
+    if (!status) mw_constrained_edges_release(&edges);
+    return mesh_made(status, mesh, sum);
+}
+
+/* --- meshes -------------------------------------------------------------------------------------- */
+
+static mw_status mesh_run(const call_inputs *in, mw_mesh_layout layout, const call_setting *how, uint64_t *sum,
+                          mw_error *error)
+{
+    mw_mesh *mesh;
+    mw_arrays view = arrays_view(&in->plain);
+    mw_mesh_options options = {.layout = layout, .threads = how->threads, .progress = how->progress};
+    mw_status status = mw_mesh_create(&view, &options, &mesh, error);
+    return mesh_made(status, mesh, sum);
+}
+
+static mw_status run_mesh_laid_out(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return mesh_run(in, MW_LAYOUT_HILBERT, how, sum, error);
+}
+
+static mw_status run_mesh_as_given(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return mesh_run(in, MW_LAYOUT_AS_GIVEN, how, sum, error);
+}
+
+static mw_status check_made(mw_status status, mw_check *check, uint64_t *sum)
+{
+    expect(!status || (!check->defects && check->defect_count == 0), "there are defects");
+    for (size_t i = 0; i < check->defect_count; i++)
+        sum_add(sum, (uint64_t)check->defects[i].kind << 32 | check->defects[i].triangle);
+    mw_check_release(check);
+    return status;
+}
+
+static mw_status run_check(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_check check;
+    mw_arrays view = arrays_view(&in->plain);
+    mw_check_options options = {.threads = how->threads, .progress = how->progress};
+    return check_made(mw_check_arrays(&view, &options, &check, error), &check, sum);
+}
+
+static mw_status run_check_damaged(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_check check;
+    mw_arrays view = arrays_view(&in->damaged);
+    mw_check_options options = {.threads = how->threads, .progress = how->progress};
+    return check_made(mw_check_arrays(&view, &options, &check, error), &check, sum);
+}
+
+static mw_status run_describe(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_mesh_info info;
+    mw_check_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_mesh_describe(in->holed, &options, &info, error);
+    if (!status) sum_add(sum, (uint64_t)info.holes << 32 | info.border_edges);
+    return status;
+}
+
+/* --- locators ------------------------------------------------------------------------------------ */
+
+static mw_status locator_run(const mw_mesh *mesh, mw_locator_options options, const call_setting *how, uint64_t *sum,
+                             mw_error *error)
+{
+    mw_locator *locator;
+    mw_locator_info info;
+    options.threads = how->threads;
+    options.progress = how->progress;
+    mw_status status = mw_locator_create(mesh, &options, &locator, error);
+    expect(!status == (locator != NULL), "there is a locator");
+    if (status) return status;
+    mw_locator_describe(locator, &info);
+    sum_add(sum, (uint64_t)info.ghost_triangles << 32 | info.holes);
+    mw_locator_destroy(locator);
+    return MW_OK;
+}
+
+static mw_status run_locator(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return locator_run(in->mesh, (mw_locator_options){.border = 1, .areas = 1}, how, sum, error);
+}
+
+static mw_status run_locator_filled(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return locator_run(in->holed, (mw_locator_options){.fill = MW_FILL_YES}, how, sum, error);
+}
+
+static mw_status run_locator_open(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return locator_run(in->holed, (mw_locator_options){.fill = MW_FILL_NO}, how, sum, error);
+}
+
+static mw_status index_run(const call_inputs *in, mw_start_kind start, const call_setting *how, uint64_t *sum,
+                           mw_error *error)
+{
+    mw_index *index;
+    mw_index_info info;
+    mw_index_options options = {.progress = how->progress};
+    mw_status status = mw_index_create(in->locator, start, &options, &index, error);
+    expect(!status == (index != NULL), "there is an index");
+    if (status) return status;
+    mw_index_describe(index, &info);
+    sum_add(sum, (uint64_t)info.cells << 32 | info.layers);
+    mw_index_destroy(index);
+    return MW_OK;
+}
+
+static mw_status run_index_grid(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_GRID, how, sum, error);
+}
+
+static mw_status run_index_two_level(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_TWO_LEVEL_GRID, how, sum, error);
+}
+
+static mw_status run_index_curve(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_CURVE, how, sum, error);
+}
+
+static mw_status run_index_layers(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_LAYERS, how, sum, error);
+}
+
+static mw_status run_index_buckets(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_BUCKETS, how, sum, error);
+}
+
+static mw_status run_index_triangle_buckets(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                            mw_error *error)
+{
+    return index_run(in, MW_START_TRIANGLE_BUCKETS, how, sum, error);
+}
+
+static mw_status run_index_kd_tree(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return index_run(in, MW_START_KD_TREE, how, sum, error);
+}
+
+static mw_status run_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_location *at = malloc(in->point_count * sizeof *at);
+    mw_query_options options = {.start = MW_START_SORTED, .threads = how->threads, .progress = how->progress};
+    mw_status status = mw_locate_batch(in->locator, in->points, in->point_count, 2, &options, at, NULL, error);
+    if (!status) sum_add_locations(sum, at, in->point_count);
+    free(at);
+    return status;
+}
+
+/* --- editors ------------------------------------------------------------------------------------- */
+
+static mw_status run_editor(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_editor *editor;
+    mw_editor_info info;
+    mw_editor_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_editor_create(in->mesh, &options, &editor, error);
+    expect(!status == (editor != NULL), "there is an editor");
+    if (status) return status;
+    mw_editor_describe(editor, &info);
+    sum_add(sum, info.triangles);
+    mw_editor_destroy(editor);
+    return MW_OK;
+}
+
+/* The editor's own calls are watched only if it was made with `progress`; so all of them are one
+ * call here. What an editor holds must be the same before and after one that fails. */
+static uint64_t editor_sum(const mw_editor *editor)
+{
+    uint64_t sum = 0;
+    mw_editor_info info;
+    mw_editor_describe(editor, &info);
+    sum_add(&sum, (uint64_t)info.triangles << 32 | info.vertices);
+    sum_add(&sum, info.edits);
+    return sum;
+}
+
+static mw_status editor_edit(mw_editor *editor, const call_inputs *in, uint64_t *sum, mw_error *error)
+{
+    enum { MOST = 200 };
+    double more[2 * MOST];
+    uint32_t n = in->point_count - 1 < MOST ? in->point_count - 1 : MOST;
+    mw_mesh *mesh = NULL;
+    mw_index_options layers = {0};
+    const mw_index *index;
+    uint64_t before = editor_sum(editor);
+    for (uint32_t i = 0; i < 2 * n; i++) more[i] = 0.5 * (in->points[i] + in->points[i + 2]);
+    mw_status status = mw_edit_insert_points(editor, more, n, 2, NULL, NULL, error);
+    expect(!status || before == editor_sum(editor), "the editor has changed");
+    if (!status) status = mw_editor_index(editor, MW_START_LAYERS, &layers, &index, error);
+    if (!status) before = editor_sum(editor), status = mw_editor_compact(editor, NULL, NULL, error);
+    expect(!status || before == editor_sum(editor), "the editor has changed");
+    if (!status) {
+        status = mw_editor_mesh(editor, NULL, NULL, &mesh, error);
+        mesh_made(status, mesh, sum);
+    }
+    return status;
+}
+
+static mw_status run_edits(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_editor *editor;
+    mw_editor_options options = {.threads = how->threads, .progress = how->progress, .undo = 2};
+    mw_status status = mw_editor_create(in->mesh, &options, &editor, error);
+    if (!status) status = editor_edit(editor, in, sum, error);
+    mw_editor_destroy(editor);
+    return status;
+}
+
+/* --- space --------------------------------------------------------------------------------------- */
+
+static mw_status run_surface(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_surface *surface;
+    mw_arrays view = star_shape_arrays(&in->ball);
+    mw_surface_options options = {.weld = 1, .progress = how->progress};
+    mw_status status = mw_surface_create(&view, &options, &surface, error);
+    expect(!status == (surface != NULL), "there is a surface");
+    if (!status) sum_add(sum, mw_surface_triangle_count(surface));
+    mw_surface_destroy(surface);
+    return status;
+}
+
+static mw_status run_surface_check(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_check check;
+    mw_arrays view = star_shape_arrays(&in->ball);
+    mw_check_options options = {.threads = how->threads, .progress = how->progress};
+    return check_made(mw_surface_check_arrays(&view, 0, &options, &check, error), &check, sum);
+}
+
+static mw_status run_star_check(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_check check;
+    mw_arrays view = star_shape_arrays(&in->ball);
+    mw_star_options options = {.progress = how->progress};
+    return check_made(mw_star_check_arrays(&view, 0, &options, &check, error), &check, sum);
+}
+
+static mw_status run_star(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_star *star;
+    mw_star_info info;
+    mw_star_options options = {.angles = 1, .progress = how->progress};
+    mw_status status = mw_star_create(in->surface, &options, &star, error);
+    expect(!status == (star != NULL), "there is a star");
+    if (status) return status;
+    mw_star_describe(star, &info);
+    sum_add(sum, info.bytes);
+    mw_star_destroy(star);
+    return MW_OK;
+}
+
+static mw_status star_index_run(const call_inputs *in, mw_star_start_kind start, const call_setting *how, uint64_t *sum,
+                                mw_error *error)
+{
+    mw_star_index *index;
+    mw_star_index_info info;
+    mw_star_index_options options = {.progress = how->progress};
+    mw_status status = mw_star_index_create(in->star, start, &options, &index, error);
+    expect(!status == (index != NULL), "there is an index");
+    if (status) return status;
+    mw_star_index_describe(index, &info);
+    sum_add(sum, info.cells);
+    mw_star_index_destroy(index);
+    return MW_OK;
+}
+
+static mw_status run_star_grid(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return star_index_run(in, MW_STAR_START_GRID, how, sum, error);
+}
+
+static mw_status run_star_octahedron(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return star_index_run(in, MW_STAR_START_OCTAHEDRON, how, sum, error);
+}
+
+static mw_status run_star_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_location *at = malloc(in->ball.points * sizeof *at);
+    mw_star_query_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_star_locate_batch(in->star, in->ball.point, in->ball.points, 3, &options, at, NULL, error);
+    if (!status) sum_add_locations(sum, at, in->ball.points);
+    free(at);
+    return status;
+}
+
+static mw_status run_prober(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_prober *prober;
+    mw_prober_info info;
+    mw_prober_options options = {.boxes = 1, .threads = how->threads, .progress = how->progress};
+    mw_status status = mw_prober_create(in->surface, &options, &prober, error);
+    expect(!status == (prober != NULL), "there is a prober");
+    if (status) return status;
+    mw_prober_describe(prober, &info);
+    sum_add(sum, info.box_bytes);
+    mw_prober_destroy(prober);
+    return MW_OK;
+}
+
+static mw_status run_probe_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    size_t n = in->ball.points / 4;
+    mw_touch *touches = malloc(n * sizeof *touches);
+    mw_probe_options options = {.certain = 1, .threads = how->threads, .progress = how->progress};
+    mw_status status = mw_probe_batch(in->prober, in->ball.point, n, 6, &options, touches, NULL, error);
+    for (size_t i = 0; i < n && !status; i++) sum_add(sum, touches[i].triangle);
+    free(touches);
+    return status;
+}
+
+/* --- files --------------------------------------------------------------------------------------- */
+
+static mw_status run_read(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_mesh_file file;
+    mw_file_options options = {.progress = how->progress};
+    mw_status status = mw_read_mesh(in->path, &options, &file, error);
+    expect(!status || (!file.points && !file.triangles), "there is something from the file");
+    if (!status) sum_add(sum, (uint64_t)file.point_count << 32 | file.triangle_count);
+    mw_mesh_file_release(&file);
+    return status;
+}
+
+static mw_status write_run(const call_inputs *in, const char *ending, const call_setting *how, mw_error *error)
+{
+    char path[80];
+    mw_mesh_file file;
+    mw_file_options options = {.progress = how->progress};
+    expect_ok(mw_read_mesh(in->path, NULL, &file, error), "a file", error);
+    snprintf(path, sizeof path, "%s%s", in->path, ending);
+    mw_status status = mw_write_mesh(path, &file, NULL, &options, error);
+    expect(!status == (access(path, F_OK) == 0), "there is a file");
+    mw_mesh_file_release(&file);
+    unlink(path);
+    return status;
+}
+
+static mw_status run_write(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    (void)sum;
+    return write_run(in, ".ply", how, error);
+}
+
+static mw_status run_write_pair(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    char path[80];
+    (void)sum;
+    mw_status status = write_run(in, ".node", how, error);
+    snprintf(path, sizeof path, "%s.ele", in->path);
+    expect(!status == (access(path, F_OK) == 0), "there is a second file");
+    unlink(path);
+    return status;
+}
+
+const long_call long_calls[] = {
+    {"mw_delaunay", run_delaunay},
+    {"mw_triangulate, Delaunay", run_kind_delaunay},
+    {"mw_triangulate, greedy", run_kind_greedy},
+    {"mw_triangulate, least weight", run_kind_min_weight},
+    {"mw_triangulate, least angle", run_kind_min_max_angle},
+    {"mw_constrained_delaunay", run_constrained},
+    {"mw_mesh_create, laid out", run_mesh_laid_out},
+    {"mw_mesh_create, as given", run_mesh_as_given},
+    {"mw_check_arrays", run_check},
+    {"mw_check_arrays, damaged", run_check_damaged},
+    {"mw_mesh_describe", run_describe},
+    {"mw_locator_create", run_locator},
+    {"mw_locator_create, filled", run_locator_filled},
+    {"mw_locator_create, open", run_locator_open},
+    {"mw_index_create, grid", run_index_grid},
+    {"mw_index_create, two levels", run_index_two_level},
+    {"mw_index_create, curve", run_index_curve},
+    {"mw_index_create, layers", run_index_layers},
+    {"mw_index_create, buckets", run_index_buckets},
+    {"mw_index_create, triangle buckets", run_index_triangle_buckets},
+    {"mw_index_create, kd tree", run_index_kd_tree},
+    {"mw_locate_batch", run_batch},
+    {"mw_editor_create", run_editor},
+    {"an editor's calls", run_edits},
+    {"mw_surface_create", run_surface},
+    {"mw_surface_check_arrays", run_surface_check},
+    {"mw_star_check_arrays", run_star_check},
+    {"mw_star_create", run_star},
+    {"mw_star_index_create, grid", run_star_grid},
+    {"mw_star_index_create, octahedron", run_star_octahedron},
+    {"mw_star_locate_batch", run_star_batch},
+    {"mw_prober_create", run_prober},
+    {"mw_probe_batch", run_probe_batch},
+    {"mw_read_mesh", run_read},
+    {"mw_write_mesh", run_write},
+    {"mw_write_mesh, two files", run_write_pair},
+};
+const size_t long_call_count = sizeof long_calls / sizeof *long_calls;
