@@ -57,6 +57,10 @@ const option bench_options[] = {
      &engine_task_choices},
     {"rounds", 0, OPTION_COUNT, offsetof(bench_settings, rounds), "N",
      "rounds of peers, scale and edit, whose median counts (default: 0, five)", NULL},
+    {"walk", 0, OPTION_TEXT, offsetof(bench_settings, walk), "NAME",
+     "of paper E1: take this walk, as in locate --walk, or 'all' of them, one after the other (default: stochastic, as "
+     "printed)",
+     NULL},
     {"seeds", 0, OPTION_COUNT, offsetof(bench_settings, seeds), "N",
      "of paper: N runs with seeds one after the other from --seed; prints means and the spread of one (default: 0, one "
      "run)",
@@ -76,8 +80,8 @@ static int run_measurement(size_t i, const bench_settings *s, const char *table)
                  measurements[i].name);
         return END_USAGE;
     }
-    if (s->seeds && measurements[i].run != bench_paper) {
-        complain("bench %s: --seeds is for 'bench paper'", measurements[i].name);
+    if ((s->seeds || s->walk) && measurements[i].run != bench_paper) {
+        complain("bench %s: --seeds and --walk are for 'bench paper'", measurements[i].name);
         return END_USAGE;
     }
     int end = options_limit("seeds", s->seeds, 1000, NULL);

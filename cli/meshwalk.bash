@@ -21,7 +21,7 @@ _meshwalk_options() {
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
-        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --seeds --no-times --format --plot $common" ;;
+        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
 
@@ -49,6 +49,7 @@ _meshwalk_names() {
             echo 'auto lawson remembering stochastic forgetful fast-stochastic barycentric direct straight'
             echo 'normal-straight normal-straight-turn orthogonal improved-orthogonal improved-orthogonal-vertex'
             echo 'hybrid celestial border'
+            [[ $1 == @(walk|bench) ]] && echo all
             ;;
         --start)
             case $1 in

@@ -9,7 +9,9 @@
 #include "bench/paper/paper_seeds.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
+#include "cli/frame/spelling.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +19,45 @@ static bool paper_encloses(const paper *p)
 {
     int enclose = p->settings->enclose;
     return enclose == ENCLOSE_AUTO ? p->table->enclosed : enclose == ENCLOSE_YES;
+}
+
+/* One set, by the walks of the table, or by another one, whose name the result bears; nothing is published for that. */
+static int paper_run_walk(paper *p, const dataset *data, const char *set, const char *walk, bool users_file)
+{
+    char name[256];
+    snprintf(name, sizeof name, walk ? "%.200s-%s" : "%.200s", set, walk ? walk : "");
+    walk_trial t = paper_trial(p, name, data, users_file);
+    t.walk = walk;
+    return paper_measure(p, &t, users_file);
+}
+
+/* One set, by the walk that --walk names, or by all of them, one after the other. */
+static int paper_run_set(paper *p, const dataset *data, const char *set, bool users_file)
+{
+    const char *walk = p->settings->walk;
+    int end = 0;
+    if (!walk || strcmp(walk, "all") != 0) return paper_run_walk(p, data, set, walk, users_file);
+    for (int i = MW_WALK_AUTO + 1; i < MW_WALK_COUNT && end == 0; i++)
+        end = paper_run_walk(p, data, set, mw_walk_name((mw_walk_kind)i), users_file);
+    return end;
+}
+
+static int paper_check_walk(const paper *p)
+{
+    const char *walk = p->settings->walk;
+    if (!walk) return 0;
+    if (strcmp(p->table->name, "E1") != 0) {
+        complain("bench paper: --walk is for E1, not %s", p->table->name);
+        return END_USAGE;
+    }
+    if (strcmp(walk, "all") == 0) return 0;
+    spelling s = spelling_of(walk);
+    for (int i = MW_WALK_AUTO; i < MW_WALK_COUNT; i++) {
+        if (strcmp(mw_walk_name((mw_walk_kind)i), walk) == 0) return 0;
+        spelling_try(&s, mw_walk_name((mw_walk_kind)i));
+    }
+    spelling_complain(&s, "walk", "");
+    return END_USAGE;
 }
 
 static int paper_run_points(paper *p, const size_t *sizes)
@@ -27,8 +68,7 @@ static int paper_run_points(paper *p, const size_t *sizes)
             dataset data;
             if (!dataset_make(&data, (dataset_kind)kind, sizes[i], paper_encloses(p), p->settings->common.seed))
                 return fail_memory();
-            walk_trial t = paper_trial(p, dataset_name(kind), &data, false);
-            end = paper_measure(p, &t, false);
+            end = paper_run_set(p, &data, dataset_name(kind), false);
             dataset_release(&data);
             if (end) return end;
         }
@@ -55,8 +95,7 @@ static int paper_run_point_file(paper *p, const char *path)
 {
     dataset data;
     int end = dataset_read(&data, path, paper_encloses(p));
-    walk_trial t = paper_trial(p, paper_base_name(path), &data, true);
-    if (end == 0) end = paper_measure(p, &t, true);
+    if (end == 0) end = paper_run_set(p, &data, paper_base_name(path), true);
     dataset_release(&data);
     return end;
 }
@@ -105,7 +144,8 @@ int bench_paper(const bench_settings *s, const char *name)
     if (!table) return END_USAGE;
     paper p = {.table = table, .settings = s, .queries = s->queries ? s->queries : 1000000};
     size_list sizes = {0};
-    int end = paper_plot_check(s, table);
+    int end = paper_check_walk(&p);
+    if (end == 0) end = paper_plot_check(s, table);
     if (end == 0 && table->subject != PAPER_POINTS && s->enclose == ENCLOSE_YES) {
         complain("bench paper: the sets of %s are meshes, which --enclose does not change", table->name);
         end = END_USAGE;

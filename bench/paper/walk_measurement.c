@@ -191,7 +191,7 @@ static int walk_measurement_draw(walk_measurement *s, size_t n)
 static mw_query_options walk_options(const walk_measurement *s, const algorithm *a, mw_arithmetic arithmetic)
 {
     return (mw_query_options){
-        .walk = mw_walk_by_name(a->walk),
+        .walk = mw_walk_by_name(s->trial->walk ? s->trial->walk : a->walk),
         .finish = mw_walk_by_name(s->trial->finish),
         .start = mw_start_by_name(s->trial->start),
         .samples = s->trial->sample,
@@ -228,7 +228,7 @@ static int walk_measurement_count_block(walk_measurement *s, size_t n, uint64_t 
             return walk_trial_fail(s->trial, &error);
         mw_counters_add(&sums[i], &counters);
         int end = walk_measurement_answer(s, i, n);
-        locations_pair pair = {a->walk, "auto", s->locations, s->answers};
+        locations_pair pair = {s->trial->walk ? s->trial->walk : a->walk, "auto", s->locations, s->answers};
         if (end == 0) end = locations_compare(s->trial->name, s->queries, n, &pair);
         if (end) return end;
     }

@@ -39,6 +39,7 @@ typedef struct walk_trial {
     mw_mesh *mesh;                      /* a mesh to be taken as it is; NULL: the points are triangulated */
     const mw_mesh *place;               /* queries are uniform in this mesh; NULL: in that of the trial */
     const algorithm *const *algorithms; /* NULL ends them */
+    const char *walk;                   /* NULL, or the walk that all take instead of their own */
     const char *finish;                 /* walk that ends the cheap ones */
     const char *start;                  /* "random", "sample" or "layers" */
     uint32_t sample, layers;            /* that many; 0: by the size      */

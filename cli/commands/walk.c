@@ -7,7 +7,6 @@
 #include "cli/frame/progress.h"
 #include "cli/input/lonlat_input.h"
 #include "cli/input/mesh_space.h"
-#include "cli/stream/point_query.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,10 +19,23 @@ typedef struct walk_settings {
     coordinates from, to;
     double max_distance;
     uint32_t samples, iterations;
-    int walk; /* mw_walk_kind; a polyhedron has the walk of that name */
+    int walk; /* mw_walk_kind, or MW_WALK_COUNT for all; a polyhedron has the walk of that name */
 } walk_settings;
 
 /* --- options ---------------------------------------------------------------------------------- */
+
+/* The walks of the plane, and all of them. */
+static const char *walk_choice_name(int i)
+{
+    return i < MW_WALK_COUNT ? mw_walk_name((mw_walk_kind)i) : i == MW_WALK_COUNT ? "all" : NULL;
+}
+
+static const char *walk_choice_help(int i)
+{
+    return i < MW_WALK_COUNT ? mw_walk_help((mw_walk_kind)i) : "a picture of each, beside one another";
+}
+
+static const choices walk_choices = {"walk", walk_choice_name, walk_choice_help};
 
 static const option walk_options[] = {
     {"from", 0, OPTION_XY_OR_XYZ, offsetof(walk_settings, from), "X,Y",
@@ -35,7 +47,7 @@ static const option walk_options[] = {
     {"walk", 0, OPTION_CHOICE, offsetof(walk_settings, walk), "NAME",
      "how to walk (default: auto). --as plane takes all of these, and --as star auto, stochastic, "
      "forgetful, barycentric, orthogonal and straight; a probe has one walk:",
-     &point_query_walks},
+     &walk_choices},
     {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(walk_settings, max_distance), "D",
      "--as surface: touch nothing that is farther than D from the point, either way; 0: only what lies at the point "
      "(default: no limit)",
@@ -67,11 +79,20 @@ static int walk_check_coordinates(const walk_settings *s, const char *name, cons
                                                   : "X,Y,Z in space");
 }
 
+static bool walk_writes_picture(const walk_settings *s)
+{
+    return !files_is_standard(s->mesh.common.output) && picture_named(s->mesh.common.output);
+}
+
 static int walk_check_name(const walk_settings *s)
 {
-    const char *name = mw_walk_name((mw_walk_kind)s->walk);
+    const char *name = walk_choice_name(s->walk);
     if (s->mesh.space == SPACE_SURFACE && s->walk != MW_WALK_AUTO)
         return walk_option_wants("walk", "--as plane or --as star");
+    if (s->walk == MW_WALK_COUNT && (s->mesh.space != SPACE_PLANE || !walk_writes_picture(s))) {
+        complain("--walk all wants --as plane and a picture: -o FILE.svg");
+        return END_USAGE;
+    }
     if (s->mesh.space != SPACE_STAR || mw_star_walk_by_name(name) != MW_STAR_WALK_COUNT) return 0;
     complain("there is no walk '%s' with --as star", name);
     return END_USAGE;
@@ -107,9 +128,11 @@ typedef struct walk_record {
     const walk_settings *settings;
     const char *path; /* of the mesh */
     const mw_mesh_file *file;
+    mw_walk_kind walk; /* in the plane */
     uint32_t *triangles, *iteration;
+    uint8_t *stages; /* in the plane */
     size_t count, capacity;
-    double *line; /* x, y, z of points on the line from FROM to TO */
+    double *line; /* x, y, z of points on the line from FROM to TO, or that the walk follows */
     size_t line_count;
 } walk_record;
 
@@ -126,10 +149,12 @@ static bool walk_record_lacks_room(walk_record *w, size_t count, int *end)
     if (count <= w->capacity) return false;
     free(w->triangles);
     free(w->iteration);
+    free(w->stages);
     w->triangles = malloc(count * sizeof *w->triangles);
     w->iteration = calloc(count, sizeof *w->iteration);
+    w->stages = calloc(count, sizeof *w->stages);
     w->capacity = count;
-    if (w->triangles && w->iteration) return true;
+    if (w->triangles && w->iteration && w->stages) return true;
     w->count = w->capacity = 0;
     *end = fail_memory();
     return false;
@@ -168,22 +193,38 @@ static void walk_remark_outside(const walk_record *w, const char *name, const mw
     walk_remark(w, name, words);
 }
 
+/* Record the line that the walk follows; of one that follows none, the ends alone. */
+static int walk_record_way(walk_record *w, const mw_walk_way *way)
+{
+    const walk_settings *s = w->settings;
+    uint32_t points = way->line_points ? way->line_points : 3;
+    if (!walk_record_make_line(w, points)) return fail_memory();
+    for (uint32_t i = 0; i < way->line_points; i++) memcpy(w->line + 3 * i, way->line[i], 2 * sizeof(double));
+    if (way->line_points) return 0;
+    memcpy(w->line, s->from.at, 2 * sizeof(double));
+    w->line[3] = w->line[4] = NAN;
+    memcpy(w->line + 6, s->to.at, 2 * sizeof(double));
+    return 0;
+}
+
 static int walk_in_plane(walk_record *w, const mw_locator *locator)
 {
     const walk_settings *s = w->settings;
     mw_error error;
     mw_cursor begin, cursor;
     mw_location from, to;
+    mw_walk_way way;
     int end = 0;
-    mw_query_options options = {.walk = (mw_walk_kind)s->walk, .start = MW_START_LAST, .seed = s->mesh.common.seed};
+    mw_query_options options = {.walk = w->walk, .start = MW_START_LAST, .seed = s->mesh.common.seed};
     if (mw_cursor_init(locator, &options, &begin, &error) != MW_OK) return fail_query(&error);
     from = mw_locate(locator, &begin, s->from.at[0], s->from.at[1]);
-    do cursor = begin;
-    while (walk_record_lacks_room(
-        w, mw_walk_path(locator, &cursor, s->to.at[0], s->to.at[1], w->triangles, w->capacity, &to), &end));
+    do {
+        cursor = begin;
+        way = (mw_walk_way){.triangles = w->triangles, .stages = w->stages, .capacity = w->capacity};
+    } while (walk_record_lacks_room(w, mw_walk_follow(locator, &cursor, s->to.at[0], s->to.at[1], &way, &to), &end));
     walk_remark_outside(w, "--from", &from, ": the walk begins where one to it ends");
     walk_remark_outside(w, "--to", &to, "");
-    return end ? end : walk_record_line(w);
+    return end ? end : walk_record_way(w, &way);
 }
 
 /* Only for the border walk pockets and holes stay open: it goes round them, the others cross
@@ -196,7 +237,7 @@ static int walk_plane(walk_record *w)
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
     const uint32_t threads = w->settings->mesh.common.threads;
     mw_mesh_options how = {.threads = threads, .progress = progress_of_call()};
-    mw_locator_options options = {.fill = w->settings->walk == MW_WALK_BORDER ? MW_FILL_NO : MW_FILL_YES,
+    mw_locator_options options = {.fill = w->walk == MW_WALK_BORDER ? MW_FILL_NO : MW_FILL_YES,
                                   .threads = threads,
                                   .progress = progress_of_call()};
     bool made = mw_mesh_create(&arrays, &how, &mesh, &error) == MW_OK &&
@@ -301,7 +342,7 @@ static int walk_on_star(walk_record *w, const mw_star *star, const mw_surface *s
     mw_error error;
     mw_star_cursor begin, cursor;
     double from[3], to[3];
-    mw_star_query_options options = {.walk = mw_star_walk_by_name(mw_walk_name((mw_walk_kind)s->walk)),
+    mw_star_query_options options = {.walk = mw_star_walk_by_name(walk_choice_name(s->walk)),
                                      .start = MW_STAR_START_LAST,
                                      .seed = s->mesh.common.seed};
     int end = ray_point(s, "from", &s->from, from);
@@ -323,7 +364,7 @@ static int walk_star(walk_record *w)
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
     mw_surface_options welded = {.weld = 1, .progress = progress_of_call()};
     mw_star_options options = {.centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
-                               .angles = strcmp(mw_walk_name((mw_walk_kind)s->walk), "orthogonal") == 0,
+                               .angles = strcmp(walk_choice_name(s->walk), "orthogonal") == 0,
                                .progress = progress_of_call()};
     bool made = mw_surface_create(&arrays, &welded, &surface, &error) == MW_OK &&
                 mw_star_create(surface, &options, &star, &error) == MW_OK;
@@ -387,30 +428,41 @@ static int walk_write_list(const walk_record *w)
     return files_write_text(w->settings->mesh.common.output, &t);
 }
 
-static int walk_write_picture(const walk_record *w)
+/* The picture of a walk; its caption has room for 160 letters. */
+static drawing walk_drawing(const walk_record *w, char *caption)
 {
     static const drawing_view views[] = {
         [SPACE_PLANE] = VIEW_PLANE, [SPACE_SURFACE] = VIEW_SURFACE, [SPACE_STAR] = VIEW_STAR};
+    static const char *const stages[] = {"initialisation", "walk", "final location", "border", NULL};
     const walk_settings *s = w->settings;
-    char caption[160];
-    const char *name = strrchr(w->path, '/'),
-               *walk = s->mesh.space == SPACE_SURFACE ? "probe" : mw_walk_name((mw_walk_kind)s->walk);
-    snprintf(caption, sizeof caption, "%.100s: %s, %zu triangle%s", name ? name + 1 : w->path, walk, w->count,
+    bool plane = s->mesh.space == SPACE_PLANE;
+    const char *name = strrchr(w->path, '/'), *walk = s->mesh.space == SPACE_SURFACE ? "probe"
+                                                      : plane                        ? mw_walk_name(w->walk)
+                                                                                     : walk_choice_name(s->walk);
+    snprintf(caption, 160, "%.100s: %s, %zu triangle%s", name ? name + 1 : w->path, walk, w->count,
              w->count == 1 ? "" : "s");
-    drawing d = {.view = views[s->mesh.space],
-                 .centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
-                 .caption = caption,
-                 .points = w->file->points,
-                 .triangles = w->file->triangles,
-                 .point_count = w->file->point_count,
-                 .triangle_count = w->file->triangle_count,
-                 .path = w->triangles,
-                 .iteration = w->iteration,
-                 .path_count = w->count,
-                 .line = w->line,
-                 .line_count = w->line_count};
-    progress_phase("drawing", s->mesh.common.output);
-    return drawing_write(&d, s->mesh.common.output);
+    return (drawing){.view = views[s->mesh.space],
+                     .centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
+                     .caption = caption,
+                     .points = w->file->points,
+                     .triangles = w->file->triangles,
+                     .point_count = w->file->point_count,
+                     .triangle_count = w->file->triangle_count,
+                     .path = w->triangles,
+                     .iteration = w->iteration,
+                     .path_count = w->count,
+                     .stage = plane ? w->stages : NULL,
+                     .stage_names = stages,
+                     .line = w->line,
+                     .line_count = w->line_count};
+}
+
+static int walk_write_picture(const walk_record *w)
+{
+    char caption[160];
+    drawing d = walk_drawing(w, caption);
+    progress_phase("drawing", w->settings->mesh.common.output);
+    return drawing_write(&d, w->settings->mesh.common.output);
 }
 
 static int walk_and_write(walk_record *w)
@@ -421,21 +473,54 @@ static int walk_and_write(walk_record *w)
               : s->mesh.space == SPACE_STAR ? walk_star(w)
                                             : walk_surface(w);
     if (end) return end;
-    bool picture = !files_is_standard(s->mesh.common.output) && picture_named(s->mesh.common.output);
-    return picture ? walk_write_picture(w) : walk_write_list(w);
+    return walk_writes_picture(s) ? walk_write_picture(w) : walk_write_list(w);
+}
+
+static void walk_record_release(walk_record *w)
+{
+    free(w->triangles);
+    free(w->iteration);
+    free(w->stages);
+    free(w->line);
+}
+
+/* Every walk in the plane, one picture beside the other. What is to be said of the points is said once. */
+static int walk_all_and_write(const walk_record *common)
+{
+    enum { WALKS = MW_WALK_COUNT - 1, TRIANGLES = 4000 /* of the mesh, in each picture */ };
+    walk_record record[WALKS];
+    drawing sheet[WALKS];
+    char caption[WALKS][160];
+    walk_settings quiet = *common->settings;
+    quiet.mesh.common.quiet = true;
+    int end = 0;
+    size_t count = 0;
+    progress_phase("walking", common->path);
+    for (; count < WALKS && end == 0; count++) {
+        record[count] = (walk_record){.settings = count ? &quiet : common->settings,
+                                      .path = common->path,
+                                      .file = common->file,
+                                      .walk = (mw_walk_kind)(count + 1)};
+        end = walk_plane(&record[count]);
+        sheet[count] = walk_drawing(&record[count], caption[count]);
+        sheet[count].most_triangles = TRIANGLES;
+    }
+    progress_phase("drawing", common->settings->mesh.common.output);
+    if (end == 0) end = drawing_write_sheet(sheet, count, common->settings->mesh.common.output);
+    while (count-- > 0) walk_record_release(&record[count]);
+    return end;
 }
 
 static int walk_run(const void *settings, const char *const *operands)
 {
     const walk_settings *s = settings;
     mw_mesh_file file = {0};
-    walk_record w = {.settings = s, .path = operands[0], .file = &file};
+    walk_record w = {.settings = s, .path = operands[0], .file = &file, .walk = (mw_walk_kind)s->walk};
+    bool all = s->walk == MW_WALK_COUNT;
     int end = walk_check_options(s);
     if (end == 0) end = mesh_space_read(&s->mesh, operands, &file);
-    if (end == 0) end = walk_and_write(&w);
-    free(w.triangles);
-    free(w.iteration);
-    free(w.line);
+    if (end == 0) end = all ? walk_all_and_write(&w) : walk_and_write(&w);
+    walk_record_release(&w);
     mw_mesh_file_release(&file);
     return end;
 }

@@ -13,14 +13,16 @@
 
 #include <cairo.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Measures in points. */
 #define PAGE_SIDE 720.0 /* of the longer side of what is shown */
 #define PAGE_LEAST 300.0
 #define MARGIN 14.0
-#define CAPTION 26.0
-#define RING 8.0 /* radius */
+#define CAPTION 40.0
+#define LEGEND 15.0 /* below the caption */
+#define RING 8.0    /* radius */
 
 /* --- colours ------------------------------------------------------------------------------------------------------ */
 
@@ -31,13 +33,30 @@ static void mix(const double a[3], const double b[3], double part, double rgb[3]
     for (int k = 0; k < 3; k++) rgb[k] = a[k] + part * (b[k] - a[k]);
 }
 
-/* Each walk from light to dark: blue, purple, brown, and again. */
+#define HUES 4
+
+/* From light to dark: blue, purple, brown, pink. */
+static void hue_shade(uint32_t hue, double part, double rgb[3])
+{
+    static const double light[HUES][3] = {
+        {0.80, 0.90, 0.98}, {0.93, 0.83, 0.95}, {0.98, 0.92, 0.75}, {0.99, 0.87, 0.90}};
+    static const double dark[HUES][3] = {
+        {0.03, 0.25, 0.55}, {0.42, 0.13, 0.45}, {0.50, 0.33, 0.00}, {0.62, 0.10, 0.28}};
+    mix(light[hue], dark[hue], part, rgb);
+}
+
+/* The stages of a search have a colour each: the second, which is the walk, blue. */
+static uint32_t stage_hue(uint32_t stage)
+{
+    static const uint32_t hues[HUES] = {2, 0, 1, 3};
+    return hues[stage % HUES];
+}
+
+/* Each walk has a colour, or each stage of one; it grows dark on the way. */
 static void shade(const scene *s, uint32_t visit, double rgb[3])
 {
-    static const double light[3][3] = {{0.80, 0.90, 0.98}, {0.93, 0.83, 0.95}, {0.98, 0.92, 0.75}};
-    static const double dark[3][3] = {{0.03, 0.25, 0.55}, {0.42, 0.13, 0.45}, {0.50, 0.33, 0.00}};
-    uint32_t hue = s->d->iteration[visit] % 3;
-    mix(light[hue], dark[hue], s->part[visit], rgb);
+    uint32_t hue = s->d->stage ? stage_hue(s->d->stage[visit]) : s->d->iteration[visit] % 3;
+    hue_shade(hue, s->part[visit], rgb);
 }
 
 static void colour_of(const scene *s, const painted_triangle *p, double rgb[3])
@@ -80,6 +99,24 @@ static double line_width(const scene *s)
     }
     double mean = s->count ? sum / (double)s->count * scale_of(s) : 10;
     return fmin(0.6, fmax(0.08, 0.05 * mean));
+}
+
+/* Where triangles are left out, a faint grey in their place. */
+static void paint_veil(cairo_t *c, const scene *s)
+{
+    double side[2];
+    if (!s->veil) return;
+    for (int k = 0; k < 2; k++) side[k] = (s->shown.high[k] - s->shown.low[k]) / SCENE_CELLS;
+    cairo_set_source_rgb(c, 0.92, 0.92, 0.92);
+    for (size_t y = 0; y < SCENE_CELLS; y++)
+        for (size_t x = 0, end; x < SCENE_CELLS; x = end + 1) {
+            for (end = x; end < SCENE_CELLS && s->veil[y * SCENE_CELLS + end];) end++;
+            if (end == x) continue;
+            double left = page_x(s, s->shown.low[0] + (double)x * side[0]);
+            double top = page_y(s, s->shown.low[1] + (double)(y + 1) * side[1]);
+            cairo_rectangle(c, left, top, (double)(end - x) * side[0] * scale_of(s), side[1] * scale_of(s));
+        }
+    cairo_fill(c);
 }
 
 static void trace(cairo_t *c, const scene *s, uint32_t triangle)
@@ -174,16 +211,41 @@ static double sample(cairo_t *c, double x, double y, const double rgb[3], const 
     return write_words(c, x + 13, y, words) + 14;
 }
 
+static bool stage_is_seen(const drawing *d, uint32_t stage)
+{
+    for (size_t i = 0; i < d->path_count; i++)
+        if (d->stage[i] == stage) return true;
+    return false;
+}
+
+/* The legend: what the colours mean, of the stages that there are, and the line. */
+static double paint_stages(cairo_t *c, const drawing *d, double x, double y)
+{
+    double rgb[3];
+    for (uint32_t stage = 0; d->stage && d->stage_names[stage]; stage++) {
+        if (!stage_is_seen(d, stage)) continue;
+        hue_shade(stage_hue(stage), 0.6, rgb);
+        x = sample(c, x, y, rgb, d->stage_names[stage]);
+    }
+    if (!d->stage || d->line_count < 2 || isnan(d->line[3])) return x;
+    cairo_set_source_rgb(c, 0, 0, 0);
+    cairo_set_line_width(c, 1.1);
+    cairo_move_to(c, x, y - 3.5);
+    cairo_line_to(c, x + 14, y - 3.5);
+    cairo_stroke(c);
+    return write_words(c, x + 18, y, "its line") + 14;
+}
+
 static void paint_caption(cairo_t *c, const scene *s, double y)
 {
     cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(c, 11);
     double x = MARGIN;
-    if (s->d->path_count) {
-        x = sample(c, x, y, green, "first");
-        x = sample(c, x, y, vermilion, "last");
-    }
     write_words(c, x, y, s->d->caption);
+    if (!s->d->path_count) return;
+    x = sample(c, x, y + LEGEND, green, "first");
+    x = sample(c, x, y + LEGEND, vermilion, "last");
+    paint_stages(c, s->d, x, y + LEGEND);
 }
 
 static double page_width(const scene *s)
@@ -204,6 +266,7 @@ static void draw(cairo_t *c, const void *self)
     cairo_rectangle(c, 0, 0, page_width(s), page_height(s) - CAPTION + 4);
     cairo_clip(c);
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
+    paint_veil(c, s);
     for (size_t i = 0; i < s->count; i++) paint(c, s, &s->painted[i], width);
     paint_line(c, s);
     if (s->d->path_count) {
@@ -213,15 +276,50 @@ static void draw(cairo_t *c, const void *self)
     paint_end(c, s, s->d->line, false);
     paint_end(c, s, s->d->line + 3 * (s->d->line_count - 1), true);
     cairo_restore(c);
-    paint_caption(c, s, page_height(s) - 9);
+    paint_caption(c, s, page_height(s) - 9 - LEGEND);
+}
+
+/* --- sheets ------------------------------------------------------------------------------------------------------- */
+
+/* Scenes in rows, each in a field of the same size. */
+typedef struct sheet {
+    scene *scenes;
+    size_t count, columns;
+    double width, height; /* of a field */
+} sheet;
+
+static void draw_sheet(cairo_t *c, const void *self)
+{
+    const sheet *all = self;
+    for (size_t i = 0; i < all->count; i++) {
+        cairo_save(c);
+        cairo_translate(c, (double)(i % all->columns) * all->width, (double)(i / all->columns) * all->height);
+        draw(c, &all->scenes[i]);
+        cairo_restore(c);
+    }
+}
+
+int drawing_write_sheet(const drawing *d, size_t count, const char *path)
+{
+    sheet all = {.scenes = calloc(count, sizeof *all.scenes), .columns = (size_t)ceil(sqrt((double)count))};
+    bool made = all.scenes;
+    while (made && all.count < count) {
+        made = scene_make(&all.scenes[all.count], &d[all.count]);
+        all.width = fmax(all.width, page_width(&all.scenes[all.count]));
+        all.height = fmax(all.height, page_height(&all.scenes[all.count]));
+        all.count++;
+    }
+    size_t rows = made ? (count + all.columns - 1) / all.columns : 0;
+    int end = made ? picture_write(path, (double)all.columns * all.width, (double)rows * all.height, draw_sheet, &all)
+                   : fail_memory();
+    for (size_t i = 0; i < all.count; i++) scene_release(&all.scenes[i]);
+    free(all.scenes);
+    return end;
 }
 
 int drawing_write(const drawing *d, const char *path)
 {
-    scene s;
-    int end = scene_make(&s, d) ? picture_write(path, page_width(&s), page_height(&s), draw, &s) : fail_memory();
-    scene_release(&s);
-    return end;
+    return drawing_write_sheet(d, 1, path);
 }
 
 #else
@@ -229,6 +327,12 @@ int drawing_write(const drawing *d, const char *path)
 int drawing_write(const drawing *d, const char *path)
 {
     (void)d;
+    return picture_check(path);
+}
+
+int drawing_write_sheet(const drawing *d, size_t count, const char *path)
+{
+    (void)d, (void)count;
     return picture_check(path);
 }
 

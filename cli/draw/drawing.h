@@ -7,4 +7,7 @@
 /* Returns 0 or an exit code, after a complaint. */
 int drawing_write(const drawing *d, const char *path);
 
+/* Several on one sheet, in rows. */
+int drawing_write_sheet(const drawing *d, size_t count, const char *path);
+
 #endif

@@ -22,7 +22,11 @@ typedef struct drawing {
     size_t point_count, triangle_count;
     const uint32_t *path, *iteration; /* the triangles visited, in order, and the number of the walk that each is of */
     size_t path_count;
-    const double *line; /* x, y, z of points of the line that the walk is to follow, the first and the last marked */
+    const uint8_t *stage;           /* NULL, or the stage of each visit: of these names, a colour each */
+    const char *const *stage_names; /* NULL ends them; at most four */
+    size_t most_triangles;          /* that are painted, without the walk's; 0: a good number */
+    const double *line; /* x, y, z of points of the line that the walk follows, the first and the last marked; a NaN
+                           between two parts them */
     size_t line_count;
 } drawing;
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define MOST_TRIANGLES 40000 /* that are painted, without the walk's */
-#define CELLS 256            /* a side of the grid that tells what is near the walk */
+#define CELLS SCENE_CELLS
 
 /* --- what is shown ------------------------------------------------------------------------------------------------ */
 
@@ -195,14 +195,29 @@ static uint32_t steps_away(const scene *s, const nearness *near, uint32_t triang
                       [cell((b.low[0] + b.high[0]) / 2, v->low[0], v->high[0])];
 }
 
+/* A triangle is left out: the cells of its box are veiled. */
+static void veil_triangle(scene *s, uint32_t triangle)
+{
+    const page_box *v = &s->shown;
+    page_box b = scene_box(s, triangle);
+    int right = cell(b.high[0], v->low[0], v->high[0]), top = cell(b.high[1], v->low[1], v->high[1]);
+    for (int y = cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
+        for (int x = cell(b.low[0], v->low[0], v->high[0]); x <= right; x++) s->veil[(y - 1) * CELLS + x - 1] = true;
+}
+
 /* Keep those near the walk, as many as are to be painted. False: out of memory. */
 static bool keep_near(scene *s)
 {
     size_t counts[CELLS + 1] = {0}, sum = 0, kept = 0;
+    size_t bound = s->d->most_triangles ? s->d->most_triangles : MOST_TRIANGLES;
     uint32_t most = 0;
-    if (s->count <= MOST_TRIANGLES + s->d->path_count) return true;
+    if (s->count <= bound + s->d->path_count) return true;
     nearness *near = malloc(sizeof *near);
-    if (!near) return false;
+    s->veil = calloc((size_t)CELLS * CELLS, sizeof *s->veil);
+    if (!near || !s->veil) {
+        free(near);
+        return false;
+    }
     for (int y = 0; y < CELLS + 2; y++)
         for (int x = 0; x < CELLS + 2; x++) near->cells[y][x] = FAR;
     mark_walk(s, near);
@@ -211,10 +226,13 @@ static bool keep_near(scene *s)
         uint32_t away = steps_away(s, near, s->painted[i].triangle);
         if (away <= CELLS) counts[away]++;
     }
-    while (most < CELLS && sum + counts[most] <= MOST_TRIANGLES) sum += counts[most++];
+    while (most < CELLS && sum + counts[most] <= bound) sum += counts[most++];
     for (size_t i = 0; i < s->count; i++) {
         uint32_t t = s->painted[i].triangle;
-        if (s->visit[t] != UINT32_MAX || steps_away(s, near, t) < most) s->painted[kept++] = s->painted[i];
+        if (s->visit[t] != UINT32_MAX || steps_away(s, near, t) < most)
+            s->painted[kept++] = s->painted[i];
+        else
+            veil_triangle(s, t);
     }
     s->count = kept;
     free(near);
@@ -269,4 +287,5 @@ void scene_release(scene *s)
     free(s->visit);
     free(s->part);
     free(s->painted);
+    free(s->veil);
 }

@@ -4,6 +4,8 @@
 
 #include "cli/draw/projection.h"
 
+#define SCENE_CELLS 256 /* a side of the grid that tells what is near the walk */
+
 /* A part of the page, in the units of the projection. */
 typedef struct page_box {
     double low[2], high[2];
@@ -24,6 +26,7 @@ typedef struct scene {
     double *part;    /* per visit: how far its walk is, from 0 to 1 */
     painted_triangle *painted;
     size_t count;
+    bool *veil; /* per cell of what is shown, row by row from below: triangles there are left out; NULL: none are */
     page_box all, shown;
 } scene;
 

@@ -269,6 +269,30 @@ MW_API mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, doubl
 MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, double y, uint32_t *triangles,
                            size_t capacity, mw_location *location);
 
+/* The stages of a search, as mw_counters has them: turning round the first vertex, the walk, the final location, the way
+ * along a border. */
+typedef enum mw_walk_stage {
+    MW_WALK_STAGE_INIT = 0,
+    MW_WALK_STAGE_WALK,
+    MW_WALK_STAGE_FINAL,
+    MW_WALK_STAGE_BORDER
+} mw_walk_stage;
+
+/* The way of one query, and the line that its walk follows; see mw_walk_follow. */
+typedef struct mw_walk_way {
+    uint32_t *triangles; /* room for `capacity`, or NULL */
+    uint8_t *stages;     /* room for as many, or NULL: the mw_walk_stage in which each was entered */
+    size_t capacity;
+    double line[3]
+               [2]; /* out: from where the line begins, which need not be in the middle of a triangle, to the point */
+    uint32_t line_points; /* out: 2; 3 for the orthogonal walks, two legs; 0: the walk follows no line */
+} mw_walk_way;
+
+/* As mw_walk_path, and tells also the stage of each triangle and the line. way->triangles, stages and capacity are set by
+ * the caller. */
+MW_API size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, double x, double y, mw_walk_way *way,
+                             mw_location *location);
+
 /* Locate n points.
  *   points    x, y of point i at points[i * stride] and the double after it; stride in doubles, 0 = 2
  *   locations n results, in input order, the same for every number of threads

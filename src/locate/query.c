@@ -127,6 +127,7 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
 {
     mw_work more = {.trace = counted ? walk->work->trace : NULL};
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
+    if (!tiling->border_loops) end.stage = MW_STAGE_FINAL;
     mw_verdict verdict = mw__walk_surely(&end, counted);
     bool round =
         tiling->border_loops && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */

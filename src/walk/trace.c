@@ -1,15 +1,18 @@
 /* trace.c - walks whose way is written down, tile by tile. */
 #include "walk/walk.h"
 
-static void trace_record(mw_walk_trace *trace, const mw_triangle *tile)
+static void trace_record(mw_walk_trace *trace, const mw_triangle *tile, uint32_t stage)
 {
     if (tile->user & MW_GHOST) return;
-    if (trace->count++ < trace->capacity) trace->triangle[trace->count - 1] = tile->user & MW_USER_MASK;
+    size_t i = trace->count++;
+    if (i >= trace->capacity) return;
+    trace->triangle[i] = tile->user & MW_USER_MASK;
+    if (trace->stage) trace->stage[i] = (uint8_t)stage;
 }
 
 void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk)
 {
-    trace_record(trace, &walk->tri[walk->t]);
+    trace_record(trace, &walk->tri[walk->t], walk->stage);
 }
 
 /* In one step the border walk turns round a vertex of the border: over edge e of tile t, then over
@@ -21,7 +24,7 @@ static void trace_record_turn(mw_walk_trace *trace, const mw_walk *walk, uint32_
         uint32_t link = walk->tri[t].link[e];
         t = mw__link_triangle(link);
         e = mw__next(mw__link_edge(link));
-        trace_record(trace, &walk->tri[t]);
+        trace_record(trace, &walk->tri[t], MW_STAGE_BORDER);
     }
     if (t != walk->t) mw__walk_record(trace, walk);
 }

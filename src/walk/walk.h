@@ -29,6 +29,7 @@ enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGE_BORDER, MW_STAGES 
 /* The user's triangles that walks enter, in order. */
 typedef struct mw_walk_trace {
     uint32_t *triangle; /* room for `capacity` */
+    uint8_t *stage;     /* NULL, or room for as many: in which each was entered */
     size_t capacity, count;
 } mw_walk_trace;
 

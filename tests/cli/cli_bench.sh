@@ -93,7 +93,7 @@ holds "it is the mean, and the spread" awk -v of="$(of_seeds)" '{ x[NR] = $1 } E
     exit !(d * d < 1e-6 && e * e < 1e-6 && f[2] > 0) }' two.txt
 run bench paper B2 --sizes 1e3 --queries 100 --no-times --seeds 2; exits 0; prints_line '^ +algorithm .* spread +published'
 run bench paper B2 --seeds 1001; refused 2 "'--seeds' wants at most 1000"
-run bench peers --seeds 2; refused 2 "seeds is for 'bench paper'"
+run bench peers --seeds 2; refused 2 "seeds and --walk are for 'bench paper'"
 rm two.txt
 
 # Other sizes and enclosures: nothing published for these sizes; four corners, or none.
@@ -289,6 +289,12 @@ holds "none is shorter than min-weight" \
 edges=$(ours uniform 1000 delaunay edge_length) sides=$(ours uniform 1000 delaunay side_length)
 holds "inner edges count twice: $edges, $sides" \
     between -0.001 "$(awk "BEGIN { print 2 * $edges - 4 - $sides }")" 0.001
+run bench paper E1 --walk straight --sizes 1000 "${few[@]}"; exits 0; sound 25
+holds "the walk is named" test "$(cut -f 2 "$logs/out" | sort -u | tr '\n' ' ')" == 'dataset uniform-straight '
+run bench paper E1 --walk all --sizes 100 "${few[@]}"; exits 0
+holds "there is a set for each walk" test "$(cut -f 2 "$logs/out" | sort -u | wc -l)" == 17
+run bench paper C1 --walk straight; refused 2 'walk is for E1, not C1'
+run bench paper E1 --walk strait; refused 2 "unknown walk 'strait'; did you mean 'straight'\?"
 run bench paper E1 --sizes 1e4 --queries 10 --no-times --format tsv; exits 0; sound 25
 publishes uniform 10000 delaunay side_length 723.09
 publishes uniform 10000 min-max-angle triangles 120.187

@@ -28,6 +28,7 @@ run walk --help
 walks=$(sed -nE '/ --walk NAME/,/^ {0,6}-/p' "$logs/out" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p')
 holds "there are walks" test "$(wc -w <<<"$walks")" -ge 15
 for walk in $walks; do
+    [[ $walk == all ]] && continue # pictures
     run walk --from 0.1,0.2 --to 3.9,0.8 --walk "$walk" row.off; exits 0; says_nothing
     prints_line '^0,0,0$'; prints_line '^[0-9]+,7,0$'
     holds "$walk: the last line is the last triangle" test "$(tail -n 1 "$logs/out" | cut -d, -f2)" == 7
@@ -88,6 +89,9 @@ for value in '' x 1 '1,' 1,x 1,2,3,4 1,inf ' 1,2' '1;2'; do
     run walk --from "$value" --to 1,2 row.off; refused 2 "'--from' wants coordinates X,Y or X,Y,Z, not"
 done
 run walk --from 1,2 --to 3,4 --walk lawsn row.off; refused 2 "did you mean 'lawson'\?"
+run walk --from 1,2 --to 3,4 --walk all row.off; refused 2 '--walk all wants --as plane and a picture'
+run walk --from 1,2 --to 3,4 --walk all row.off -o all.csv; refused 2 '--walk all wants'
+run walk --as star --from 1,2,3 --to 3,4,5 --walk all row.off -o all.svg; refused 2 '--walk all wants'
 run walk --as star --from 1,2,3 --to 3,4,5 --walk lawson row.off; refused 2 "no walk 'lawson' with --as star"
 run walk --as surface --from 1,2,3 --to 3,4,5 --walk straight row.off; refused 2 "'--walk' wants --as"
 for option in max-distance samples iterations; do
@@ -132,6 +136,13 @@ pictures star --as star --lonlat --from 45,30 --to -135,-30 octahedron.off
 pictures probe --as surface --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off
 run walk --from 9,9 --to 1e300,1e308 row.off -o far.svg; exits 0; says 'lies outside'
 run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o absent/row.svg; exits 4; says 'absent/row.svg'
+# All walks on one sheet: a caption each. In a list, or in space, they have no place.
+run walk --from 0.1,0.2 --to 3.9,0.8 --walk all row.off -o all.svg; exits 0; says_nothing
+run walk --from 0.1,0.2 --to 3.9,0.8 --walk straight row.off -o straight.svg; exits 0
+holds "all walks take more room than one" test "$(wc -c <all.svg)" -gt $((4 * $(wc -c <straight.svg)))
+holds "the stages of the straight walk have colours" test "$(fills straight.svg)" -ge 8
+run walk --from 0.1,0.2 --to 3.9,9 --walk all row.off -o all.png; exits 0
+holds "what is outside is said once" test "$(grep -c outside "$logs/err")" == 1
 # Of a mesh with 80,000 triangles, lines near the walk.
 awk 'BEGIN { srand(1); for (i = 0; i < 40000; i++) print rand(), rand() }' >points.xyz
 run triangulate -q points.xyz -o large.ply; exits 0

@@ -274,6 +274,86 @@ static void test_gap(void **state)
     arrays_free(&a);
 }
 
+/* Does the line from a to b pass triangle t, up to rounding of its ends? */
+static bool is_on_line(const path_trial *r, uint32_t t, const double a[2], const double b[2])
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = 0; k < 3; k++) {
+        double side = mw_orient2d(a, b, r->a->points + 2 * (size_t)r->a->triangles[3 * (size_t)t + k]);
+        least = fmin(least, side);
+        most = fmax(most, side);
+    }
+    return least <= 1e-9 && most >= -1e-9;
+}
+
+static bool is_corner(const path_trial *r, uint32_t t, const double at[2])
+{
+    for (size_t k = 0; k < 3; k++)
+        if (memcmp(r->a->points + 2 * (size_t)r->a->triangles[3 * (size_t)t + k], at, 2 * sizeof *at) == 0) return true;
+    return false;
+}
+
+/* The stages are as long as the counters say; a stage that follows another counts the triangle that it begins in again. */
+static void check_stages(const uint8_t *stages, size_t n, const mw_counters *c)
+{
+    uint64_t of[4] = {0};
+    for (size_t i = 0; i < n; i++) of[stages[i]]++;
+    assert_int_equal(of[MW_WALK_STAGE_INIT], c->triangles_init);
+    assert_int_equal(of[MW_WALK_STAGE_WALK] + (of[MW_WALK_STAGE_INIT] > 0), c->triangles);
+    assert_int_equal(of[MW_WALK_STAGE_FINAL] + (c->triangles_final > 0), c->triangles_final);
+    assert_int_equal(of[MW_WALK_STAGE_BORDER], 0);
+}
+
+/* The walks along a line pass the triangles that it meets, from where they say that it begins. */
+static void check_line(const path_trial *r, const uint8_t *stages, size_t n, const mw_walk_way *way, mw_walk_kind walk,
+                       const double q[2])
+{
+    bool vertex = walk == MW_WALK_STRAIGHT || walk == MW_WALK_HYBRID || walk == MW_WALK_NORMAL_STRAIGHT_TURN;
+    bool line = vertex || walk == MW_WALK_NORMAL_STRAIGHT || (walk == MW_WALK_BORDER && n > 1);
+    bool legs =
+        walk == MW_WALK_ORTHOGONAL || walk == MW_WALK_IMPROVED_ORTHOGONAL || walk == MW_WALK_IMPROVED_ORTHOGONAL_VERTEX;
+    assert_int_equal(way->line_points, line ? 2 : legs ? 3 : 0);
+    if (!way->line_points) return;
+    assert_memory_equal(way->line[way->line_points - 1], q, 2 * sizeof *q);
+    if (vertex || walk == MW_WALK_ORTHOGONAL) assert_true(is_corner(r, r->path[0], way->line[0]));
+    for (size_t i = 0; i < n; i++)
+        if (stages[i] == MW_WALK_STAGE_WALK)
+            assert_true(is_on_line(r, r->path[i], way->line[0], way->line[1]) ||
+                        (legs && is_on_line(r, r->path[i], way->line[1], way->line[2])));
+}
+
+/* In the middle of a mesh, where no walk meets the hull. */
+static void test_stages_and_lines(void **state)
+{
+    (void)state;
+    enum { N = 24 };
+    uint64_t random = 6;
+    arrays a = arrays_grid(N, 0.5, &random);
+    path_trial *r = open_trial(&a, true, (mw_locator_options){0});
+    uint8_t stages[1000];
+    for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
+        for (int i = 0; i < 200; i++) {
+            double at[4];
+            for (int k = 0; k < 4; k++) at[k] = N * (0.25 + 0.5 * random_unit(&random));
+            mw_query_options options = {
+                .walk = (mw_walk_kind)walk, .start = MW_START_LAST, .counters = 1, .finish = MW_WALK_STOCHASTIC};
+            mw_cursor cursor, again;
+            assert_int_equal(mw_cursor_init(r->locator, &options, &cursor, NULL), MW_OK);
+            mw_locate(r->locator, &cursor, at[0], at[1]);
+            cursor.counters = (mw_counters){0};
+            again = cursor;
+            mw_walk_way way = {.triangles = r->path, .stages = stages, .capacity = sizeof stages};
+            size_t n = mw_walk_follow(r->locator, &cursor, at[2], at[3], &way, NULL);
+            assert_true(n < sizeof stages);
+            assert_int_equal(mw_walk_path(r->locator, &again, at[2], at[3], r->short_path, ROOM, NULL), n);
+            assert_memory_equal(r->path, r->short_path, n * sizeof *r->path);
+            check_stages(stages, n, &cursor.counters);
+            check_line(r, stages, n, &way, (mw_walk_kind)walk, at + 2);
+        }
+    close_trial(r);
+    arrays_free(&a);
+}
+
 static void test_no_point(void **state)
 {
     (void)state;
@@ -297,7 +377,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_convex), cmocka_unit_test(test_holes),    cmocka_unit_test(test_strip),
-        cmocka_unit_test(test_gap),    cmocka_unit_test(test_no_point),
+        cmocka_unit_test(test_gap),    cmocka_unit_test(test_no_point), cmocka_unit_test(test_stages_and_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
