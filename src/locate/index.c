@@ -116,20 +116,23 @@ static MW_INLINE uint32_t tile_within(const mw_tiling *tiling, uint32_t t)
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
 }
 
+/* Of the starts that are there to compare with. A function of its own, so that the others do not
+ * carry it along. */
+static __attribute__((noinline)) uint32_t index_first_compared(const mw_index *index, mw_point q)
+{
+    if (index->start == MW_START_BUCKETS) return mw__vertex_buckets_first(&index->vertex_buckets, q);
+    return index->start == MW_START_KD_TREE ? mw__kd_tree_first(&index->kd_tree, q) : 0;
+}
+
 /* The name of the first tile; of a curve, its slot. */
 static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
 {
+    if (MW_LIKELY(index->start == MW_START_GRID)) return mw__grid_first(&index->grid, q);
     switch (index->start) {
-    case MW_START_GRID: return mw__grid_first(&index->grid, q);
     case MW_START_TWO_LEVEL_GRID: return mw__two_level_grid_first(&index->two_level_grid, q);
     case MW_START_CURVE: return mw__curve_first(&index->curve, q);
-    case MW_START_BUCKETS: return mw__vertex_buckets_first(&index->vertex_buckets, q);
-    case MW_START_KD_TREE: return mw__kd_tree_first(&index->kd_tree, q);
-    case MW_START_TRIANGLE_BUCKETS:
-    case MW_START_LAYERS: /* count what they do: mw__index_first */
-    case WITHOUT_INDEX: break;
+    default: return index_first_compared(index, q);
     }
-    return 0;
 }
 
 uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q)
