@@ -1,8 +1,8 @@
 /* batch.c - many queries. A block of them is sorted at a time; within a block the threads take
  * chunks.
  *
- * Counters do not depend on the threads: chunks have a fixed size, and a chunk knows nothing of the
- * one before it. */
+ * Counters do not depend on the threads: the size of chunks depends on the number of queries only,
+ * and a chunk knows nothing of the one before it. */
 #include "batch/batch.h"
 
 #include "base/job.h"
@@ -13,12 +13,13 @@
 
 enum {
     CHUNK = 1 << 14, /* queries that one thread takes at a time  */
+    SMALL = 1 << 18, /* queries; of fewer a chunk is a quarter, so that threads end together */
     BLOCK = 1 << 22  /* queries sorted at a time: 64 MiB of keys */
 };
 
 typedef struct batch_block {
     const mw_batch *batch;
-    uint32_t n;
+    uint32_t n, chunk; /* queries, and those of a chunk */
     pthread_mutex_t lock;
     mw_counters sum; /* of the chunks that are done */
 } batch_block;
@@ -26,9 +27,9 @@ typedef struct batch_block {
 static void block_answer_chunk(void *work, uint64_t chunk, uint32_t member)
 {
     batch_block *block = work;
-    uint32_t first = (uint32_t)chunk * CHUNK, left = block->n - first;
+    uint32_t first = (uint32_t)chunk * block->chunk, left = block->n - first;
     (void)member;
-    mw_counters counters = block->batch->answer(block->batch, first, left < CHUNK ? left : CHUNK);
+    mw_counters counters = block->batch->answer(block->batch, first, left < block->chunk ? left : block->chunk);
     pthread_mutex_lock(&block->lock);
     mw_counters_add(&block->sum, &counters);
     pthread_mutex_unlock(&block->lock);
@@ -37,8 +38,8 @@ static void block_answer_chunk(void *work, uint64_t chunk, uint32_t member)
 /* Returns false if the job is to stop. */
 static bool block_answer(const mw_batch *batch, uint32_t n, mw_job *job, mw_counters *sum)
 {
-    uint64_t chunks = ((uint64_t)n + CHUNK - 1) / CHUNK;
-    batch_block block = {.batch = batch, .n = n, .sum = *sum};
+    batch_block block = {.batch = batch, .n = n, .chunk = n < SMALL ? CHUNK / 4 : CHUNK, .sum = *sum};
+    uint64_t chunks = ((uint64_t)n + block.chunk - 1) / block.chunk;
     pthread_mutex_init(&block.lock, NULL);
     bool done = mw__job_chunks(job, mw__job_team(job, chunks), chunks, block_answer_chunk, &block);
     pthread_mutex_destroy(&block.lock);
