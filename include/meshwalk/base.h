@@ -74,8 +74,8 @@ typedef int mw_progress_report(void *context, const char *stage, double fraction
  *
  * A cancelled call leaves nothing behind: objects that it was to make do not exist, objects that it was to change are as
  * before. Batches are the exception: some results are written, and which ones is not told. There are at most 300 reports
- * a call, so a report may take its time. The structure belongs to the caller and must live as long as the call; with an
- * editor or a surface, as long as that.
+ * a call, so a report may take its time. The structure belongs to the caller and must live as long as the call; that of an
+ * editor, which watches its later calls too, as long as the editor.
  */
 typedef struct mw_progress {
     mw_progress_report *report; /**< NULL: no reports */

@@ -3,7 +3,8 @@
 
 #include <assert.h>
 
-#define REPORTS 256 /* of a whole job, beside one for each stage */
+#define REPORTS 256 /* of a whole job, as its fraction grows                          */
+#define STAGES 40   /* so many begin with a report anyway, later ones when one is due */
 
 /* Tell the user how far the job is. */
 static bool job_tell(mw_job *job, double whole)
@@ -27,7 +28,8 @@ void mw__job_stage(mw_job *job, const char *name, double share)
     job->stage = name;
     job->span = (mw_job_span){job->span.from + job->span.size, share * job->part.size};
     assert(job->span.from + job->span.size < job->part.from + job->part.size + 1e-9);
-    if (job->progress && !mw__job_stopped(job) && job->span.from < 1) job_tell(job, job->span.from);
+    if (!job->progress || mw__job_stopped(job) || job->span.from >= 1) return;
+    if (job->stages++ < STAGES || job->span.from >= job->next) job_tell(job, job->span.from);
 }
 
 mw_job_span mw__job_part(mw_job *job, double share)

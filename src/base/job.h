@@ -32,6 +32,7 @@ typedef struct mw_job {
     mw_job_span part;            /* the part of the present function           */
     mw_job_span span;            /* the present stage                          */
     double told, next;           /* fractions: reported last, and next          */
+    uint32_t stages;             /* that have begun                            */
     atomic_bool stopped;         /* the user has cancelled                     */
 } mw_job;
 
@@ -43,7 +44,8 @@ static inline mw_job mw__job(uint32_t threads, const mw_progress *progress)
 /* A job that nobody watches, on the calling thread alone. */
 #define MW_ALONE (&(mw_job){.threads = 1})
 
-/* The next stage begins, and takes `share` of the present part. Reported. */
+/* The next stage begins, and takes `share` of the present part. Reported, unless there have been
+ * many stages. */
 void mw__job_stage(mw_job *job, const char *name, double share);
 
 /* The stages that follow are those of a function that takes `share` of the present part.
@@ -58,9 +60,9 @@ static inline bool mw__job_stopped(const mw_job *job)
     return atomic_load_explicit(&job->stopped, memory_order_relaxed);
 }
 
-/* `done` of `total` of the present stage are done. Reported from time to time: less often than once
- * a thousand calls of a long stage. Only the calling thread of the user may call this. Returns
- * false if the job is to stop. */
+/* `done` of `total` of the present stage are done. Reported when the fraction of the whole has grown
+ * enough: 256 times a job at most. Only the calling thread of the user may call this. Returns false
+ * if the job is to stop. */
 static inline bool mw__job_step(mw_job *job, uint64_t done, uint64_t total)
 {
     return MW_LIKELY(!job->progress) || mw__job_report(job, (double)done / (double)(total ? total : 1));

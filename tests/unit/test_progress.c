@@ -144,6 +144,22 @@ static void test_parts(void **state)
     assert_true(w.last == 1 && w.in_order);
 }
 
+/* However many stages there are, the reports stay few. */
+static void test_many_stages(void **state)
+{
+    (void)state;
+    watcher w = {.stop_at = -1, .in_order = true, .has_stages = true};
+    mw_progress progress = {watcher_report, &w};
+    mw_job job = mw__job(1, &progress);
+    for (int i = 0; i < 5000; i++) {
+        mw__job_stage(&job, "one of many", 1.0 / 5000);
+        assert_true(mw__job_step(&job, 1, 2));
+    }
+    assert_int_equal(mw__job_end(&job, MW_OK, NULL), MW_OK);
+    assert_in_range(w.reports, 200, MOST_REPORTS);
+    assert_true(w.in_order);
+}
+
 typedef struct chunk_marks {
     _Atomic int done[1000];
     uint32_t team;
@@ -178,6 +194,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_many_stages),
         cmocka_unit_test(test_chunks),
         cmocka_unit_test_setup_teardown(test_reports, files_enter, files_leave),
         cmocka_unit_test_setup_teardown(test_same_results, files_enter, files_leave),
