@@ -96,6 +96,21 @@ static mw_mesh *mesh_crowded(uint32_t n, uint64_t *random)
     return mesh;
 }
 
+static void inputs_write_lines(call_inputs *in)
+{
+    in->lines = malloc(64);
+    snprintf(in->lines, 64, "long_calls_%ld.poly", (long)getpid());
+    FILE *file = fopen(in->lines, "w");
+    fprintf(file, "%u 2 0 0\n", in->point_count);
+    for (uint32_t i = 0; i < in->point_count; i++)
+        fprintf(file, "%u %.17g %.17g\n", i, in->points[2 * i], in->points[2 * i + 1]);
+    fprintf(file, "%u 0\n", in->segment_count);
+    for (uint32_t i = 0; i < in->segment_count; i++)
+        fprintf(file, "%u %u %u\n", i, in->segments[2 * i], in->segments[2 * i + 1]);
+    fprintf(file, "0\n");
+    fclose(file);
+}
+
 call_inputs call_inputs_make(uint32_t n, uint64_t seed)
 {
     uint64_t random = seed;
@@ -120,13 +135,16 @@ call_inputs call_inputs_make(uint32_t n, uint64_t seed)
     in.locator = mesh_locator(in.mesh, (mw_locator_options){.threads = 1});
     inputs_add_space(&in, n, &random);
     inputs_write_file(&in);
+    inputs_write_lines(&in);
     return in;
 }
 
 void call_inputs_release(call_inputs *in)
 {
     unlink(in->path);
+    unlink(in->lines);
     free(in->path);
+    free(in->lines);
     mw_prober_destroy(in->prober);
     mw_star_destroy(in->star);
     mw_surface_destroy(in->surface);
@@ -540,6 +558,17 @@ static mw_status run_read(const call_inputs *in, const call_setting *how, uint64
     return status;
 }
 
+static mw_status run_read_lines(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_constraint_file file;
+    mw_file_options options = {.progress = how->progress};
+    mw_status status = mw_read_constraints(in->lines, &options, &file, error);
+    expect(!status || (!file.points && !file.segments), "there is something from the file");
+    if (!status) sum_add(sum, (uint64_t)file.point_count << 32 | file.segment_count);
+    mw_constraint_file_release(&file);
+    return status;
+}
+
 static mw_status write_run(const call_inputs *in, const char *ending, const call_setting *how, mw_error *error)
 {
     char path[80];
@@ -607,6 +636,7 @@ const long_call long_calls[] = {
     {"mw_prober_create", run_prober},
     {"mw_probe_batch", run_probe_batch},
     {"mw_read_mesh", run_read},
+    {"mw_read_constraints", run_read_lines},
     {"mw_write_mesh", run_write},
     {"mw_write_mesh, two files", run_write_pair},
 };

@@ -19,7 +19,7 @@ typedef struct call_inputs {
     mw_surface *surface;
     mw_star *star;
     mw_prober *prober;
-    char *path; /* of a mesh in a file, in the working directory */
+    char *path, *lines; /* of a mesh and of constraints in files, in the working directory */
 } call_inputs;
 
 /* About n points, and as many triangles twice. Release with call_inputs_release. */
