@@ -26,7 +26,7 @@ static bool insertion_begin(mw_dynamic_tiling *f, mw_point q)
 }
 
 /* Add a vertex at q, if *vertex is MW_NONE. */
-static mw_status make_vertex(mw_dynamic_tiling *f, mw_point q, uint32_t *vertex, mw_error *error)
+static mw_status insertion_make_vertex(mw_dynamic_tiling *f, mw_point q, uint32_t *vertex, mw_error *error)
 {
     if (*vertex != MW_NONE) return MW_OK;
     if (!mw__vertex_room(f, 1))
@@ -42,7 +42,7 @@ typedef struct vertex_fan {
     uint32_t first, last;
 } vertex_fan;
 
-static mw_status tile_failure(const mw_dynamic_tiling *f, size_t n, mw_error *error)
+static mw_status insertion_tile_failure(const mw_dynamic_tiling *f, size_t n, mw_error *error)
 {
     if (f->tiling->number_count > MW_USER_MASK - n || f->tiling->tri_count > MW_MAX_TRIANGLES - n)
         return mw__fail(error, MW_ERROR_LIMIT, "no more numbers for triangles");
@@ -62,9 +62,9 @@ static mw_status cavity_fill(mw_dynamic_tiling *f, const mw_cavity *cavity, uint
                              vertex_fan *made, mw_error *error)
 {
     const size_t more = cavity->steps - cavity->tiles;
-    if (!mw__tile_room(f, beside, more)) return tile_failure(f, more, error);
+    if (!mw__tile_room(f, beside, more)) return insertion_tile_failure(f, more, error);
     if (!journal_cavity(f, cavity)) return mw__fail_memory(error);
-    mw_status status = make_vertex(f, cavity->q, vertex, error);
+    mw_status status = insertion_make_vertex(f, cavity->q, vertex, error);
     if (status) return status;
     const uint32_t v = *vertex;
     uint32_t *pool = f->pool + cavity->pool;
@@ -88,7 +88,7 @@ static mw_status cavity_fill(mw_dynamic_tiling *f, const mw_cavity *cavity, uint
 }
 
 /* The fan is not closed: its first and last edge have no neighbour yet. */
-static void open_fan(mw_dynamic_tiling *f, const vertex_fan *made)
+static void insertion_open_fan(mw_dynamic_tiling *f, const vertex_fan *made)
 {
     mw__attach(f, mw__link(made->last, 1), MW_NONE);
     mw__attach(f, mw__link(made->first, 2), MW_NONE);
@@ -108,7 +108,7 @@ static mw_status insert_in_tile(mw_dynamic_tiling *f, uint32_t t, mw_point q, ui
 
 /* The side of an edge whose tile has the lower number. The result must not depend on the side that
  * the walk reached. */
-static uint32_t lower_side(const mw_dynamic_tiling *f, uint32_t half)
+static uint32_t insertion_lower_side(const mw_dynamic_tiling *f, uint32_t half)
 {
     uint32_t other = mw__beyond(f, half);
     if (other == MW_NONE) return half;
@@ -126,7 +126,7 @@ static mw_status insert_beside(mw_dynamic_tiling *f, uint32_t half, mw_cavity *c
     if (!mw__cavity_dig_side(f, cavity, half)) return mw__fail_memory(error);
     mw_status status = cavity_fill(f, cavity, v, mw__link_triangle(half), made, error);
     if (status) return status;
-    open_fan(f, made);
+    insertion_open_fan(f, made);
     if (!fixed) return MW_OK;
     f->mark[made->first] |= 4;
     f->mark[made->last] |= 2;
@@ -135,7 +135,7 @@ static mw_status insert_beside(mw_dynamic_tiling *f, uint32_t half, mw_cavity *c
 
 static mw_status insert_on_edge(mw_dynamic_tiling *f, uint32_t half, mw_point q, uint32_t *v, mw_error *error)
 {
-    half = lower_side(f, half);
+    half = insertion_lower_side(f, half);
     uint32_t other = mw__beyond(f, half), t = mw__link_triangle(half);
     bool users = mw__is_users_tile(f, t),
          border = other == MW_NONE ? !f->convex && users : users != mw__is_users_tile(f, mw__link_triangle(other));
@@ -165,14 +165,14 @@ static mw_status insert_outside(mw_dynamic_tiling *f, uint32_t t, mw_point q, ui
     vertex_fan made;
     if (!mw__cavity_dig_outside(f, &cavity, t)) return mw__fail_memory(error);
     mw_status status = cavity_fill(f, &cavity, v, t, &made, error);
-    if (!status) open_fan(f, &made);
+    if (!status) insertion_open_fan(f, &made);
     return status;
 }
 
 /* --- all of them ------------------------------------------------------------------------------ */
 
 /* Which of the first three lifted vertices coincides with q? 3 if none does. */
-static uint32_t coinciding_corner(const mw_dynamic_tiling *f)
+static uint32_t insertion_coinciding_corner(const mw_dynamic_tiling *f)
 {
     uint32_t k = 0;
     while (k < 3 && (f->lifted[k].x != 0 || f->lifted[k].y != 0)) k++;
@@ -181,7 +181,7 @@ static uint32_t coinciding_corner(const mw_dynamic_tiling *f)
 
 /* The edge of a tile on which q lies. The first three lifted vertices are the corners of the
  * tile. */
-static uint32_t edge_through(const mw_dynamic_tiling *f, uint32_t t, mw_point q)
+static uint32_t insertion_edge_through(const mw_dynamic_tiling *f, uint32_t t, mw_point q)
 {
     uint32_t k = 0;
     while (k < 2 && mw__lifted_side(f->tiling, &f->lifted[k], &f->lifted[k + 1], q) != 0) k++;
@@ -196,11 +196,11 @@ mw_status mw__dynamic_insert(mw_dynamic_tiling *f, mw_point q, uint32_t t, uint3
     const mw_walk_end at = mw__remembering_corners(f->tiling, q, t, f->lifted);
     f->last = at.tile;
     f->walked = at.walked;
-    if (MW_UNLIKELY(at.on_boundary) && coinciding_corner(f) < 3) {
-        *vertex = f->lifted[coinciding_corner(f)].vertex;
+    if (MW_UNLIKELY(at.on_boundary) && insertion_coinciding_corner(f) < 3) {
+        *vertex = f->lifted[insertion_coinciding_corner(f)].vertex;
         return MW_OK;
     }
     if (MW_UNLIKELY(!at.inside)) return insert_outside(f, at.tile, q, vertex, error);
-    if (MW_UNLIKELY(at.on_boundary)) return insert_on_edge(f, edge_through(f, at.tile, q), q, vertex, error);
+    if (MW_UNLIKELY(at.on_boundary)) return insert_on_edge(f, insertion_edge_through(f, at.tile, q), q, vertex, error);
     return insert_in_tile(f, at.tile, q, vertex, error);
 }

@@ -255,7 +255,7 @@ static mw_status site_dig(border_mover *m, uint32_t from, vertex_site *s)
     enum { STEPS = 8 };
     mw_dynamic_tiling *f = m->f;
     mw_walk walk = mw__walk_begin(f->tiling, m->q, from, 0, 0, NULL);
-    const bool inside = mw__walk_surely(&walk, false) == MW_FOUND;
+    const bool inside = mw__walk_surely(&walk, false) == MW_VERDICT_FOUND;
     const mw_point *p = f->tiling->point;
     const uint32_t t = walk.t, *v = f->tiling->tri[t].v;
     if (!mw__boundary_room(f, STEPS)) return mover_fail_memory(m);
