@@ -180,7 +180,7 @@ static size_t incircle_filter(const call_list *list)
     return undecided;
 }
 
-static size_t orient2d_exact(const call_list *list)
+static size_t time_orient2d_exact(const call_list *list)
 {
     double sum = 0;
     for (size_t i = 0; i < list->count; i++) {
@@ -191,7 +191,7 @@ static size_t orient2d_exact(const call_list *list)
     return 0;
 }
 
-static size_t incircle_exact(const call_list *list)
+static size_t time_incircle_exact(const call_list *list)
 {
     double sum = 0;
     for (size_t i = 0; i < list->count; i++) {
@@ -219,7 +219,7 @@ static void report_list(int kind, const call_list *list)
 {
     size_t undecided, none;
     double filter = time_pass(kind == INCIRCLE ? incircle_filter : orient2d_filter, list, &undecided);
-    double exact = time_pass(kind == INCIRCLE ? incircle_exact : orient2d_exact, list, &none);
+    double exact = time_pass(kind == INCIRCLE ? time_incircle_exact : time_orient2d_exact, list, &none);
     double share = list->count ? 100 * (double)undecided / (double)list->count : 0;
     printf("  %-9s %9zu calls, exact stage %9zu (%8.4f %%), filter %6.2f ns, exact %8.2f ns\n", list_names[kind],
            list->count, undecided, share, filter, exact);

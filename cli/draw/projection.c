@@ -59,7 +59,7 @@ static void triangle_corners_in_cube(const projection *p, uint32_t triangle, dou
 }
 
 /* Of length 1, on the front; zero where there is no area. */
-static void triangle_normal(const projection *p, uint32_t triangle, double n[3])
+static void projected_normal(const projection *p, uint32_t triangle, double n[3])
 {
     double corner[3][3], a[3], b[3], c[3];
     triangle_corners_in_cube(p, triangle, corner);
@@ -91,7 +91,7 @@ static void visit_look(const projection *p, size_t visit, double n[3])
     if (p->d->view == VIEW_STAR)
         triangle_direction(p, p->d->path[visit], n);
     else
-        triangle_normal(p, p->d->path[visit], n);
+        projected_normal(p, p->d->path[visit], n);
 }
 
 /* Where a walk goes all round a surface, the directions of its triangles cancel out: then that of the last one counts. */
@@ -168,7 +168,7 @@ bool projection_turns_back(const projection *p, uint32_t triangle)
 {
     double n[3];
     if (p->d->view == VIEW_PLANE) return false;
-    triangle_normal(p, triangle, n);
+    projected_normal(p, triangle, n);
     return vector_inner(n, p->axis[2]) < 0;
 }
 
