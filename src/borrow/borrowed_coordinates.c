@@ -26,20 +26,20 @@ static MW_INLINE double coordinate_sum(mw_borrowed_walk *w, const mw_borrowed_ti
     return area_value(&w->counts, tile->p[0], tile->p[1], tile->p[2], off, mw__borrowed_policy);
 }
 
-/* Over the edge opposite to corner k. MW_CLOSE where there is no neighbour: q surely lies beyond the
+/* Over the edge opposite to corner k. MW_VERDICT_UNSURE where there is no neighbour: q surely lies beyond the
  * edge, but of what the mesh lacks there the remembering walk knows more. */
 static MW_INLINE mw_verdict coordinate_cross(mw_borrowed_walk *w, uint32_t k)
 {
     uint32_t next = mw__borrowed_across(w->mesh, w->t, k);
-    if (MW_UNLIKELY(next == MW_NONE)) return MW_CLOSE;
+    if (MW_UNLIKELY(next == MW_NONE)) return MW_VERDICT_UNSURE;
     mw__borrowed_enter(w, next);
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 static mw_verdict barycentric_go(mw_borrowed_walk *w)
 {
     mw_borrowed_tile tile;
-    if (!mw__borrowed_read(w->mesh, w->t, &tile)) return MW_DRY;
+    if (!mw__borrowed_read(w->mesh, w->t, &tile)) return MW_VERDICT_OUT_OF_FUEL;
     double off = 0, area = coordinate_sum(w, &tile, &off);
     double b0 = coordinate_of(w, &tile, 0, &off) / area;
     double b1 = coordinate_of(w, &tile, 1, &off) / area;
@@ -51,14 +51,14 @@ static mw_verdict barycentric_go(mw_borrowed_walk *w)
         least = b2;
         k = 2;
     }
-    return least < -off ? coordinate_cross(w, k) : MW_CLOSE;
+    return least < -off ? coordinate_cross(w, k) : MW_VERDICT_UNSURE;
 }
 
 mw_verdict mw__borrowed_barycentric(mw_borrowed_walk *w)
 {
-    mw_verdict verdict = MW_GO;
-    for (; verdict == MW_GO && w->fuel > 0; w->fuel--) verdict = barycentric_go(w);
-    return verdict == MW_GO ? MW_CLOSE : verdict;
+    mw_verdict verdict = MW_VERDICT_GO_ON;
+    for (; verdict == MW_VERDICT_GO_ON && w->fuel > 0; w->fuel--) verdict = barycentric_go(w);
+    return verdict == MW_VERDICT_GO_ON ? MW_VERDICT_UNSURE : verdict;
 }
 
 /* --- direct --- */
@@ -75,19 +75,19 @@ static mw_verdict direct_cross(mw_borrowed_walk *w, direct_state *state, uint32_
 {
     uint32_t from = w->t;
     mw_verdict verdict = coordinate_cross(w, k);
-    if (verdict != MW_GO) return verdict;
+    if (verdict != MW_VERDICT_GO_ON) return verdict;
     state->known = -least;
     for (state->entry = 0; state->entry < 3; state->entry++)
-        if (mw__borrowed_across(w->mesh, w->t, state->entry) == from) return MW_GO;
-    return MW_DRY; /* the neighbour does not know of the triangle */
+        if (mw__borrowed_across(w->mesh, w->t, state->entry) == from) return MW_VERDICT_GO_ON;
+    return MW_VERDICT_OUT_OF_FUEL; /* the neighbour does not know of the triangle */
 }
 
 static mw_verdict direct_go(mw_borrowed_walk *w, direct_state *state)
 {
     mw_borrowed_tile tile;
-    if (!mw__borrowed_read(w->mesh, w->t, &tile)) return MW_DRY;
+    if (!mw__borrowed_read(w->mesh, w->t, &tile)) return MW_VERDICT_OUT_OF_FUEL;
     double off = 0, area = coordinate_sum(w, &tile, &off), sign = area < 0 ? -1 : 1;
-    if (area == 0) return MW_CLOSE;
+    if (area == 0) return MW_VERDICT_UNSURE;
     bool first = state->entry == 3;
     uint32_t entry = first ? 2 : state->entry, next = mw__next(entry), prev = mw__prev(entry);
     double known = first ? sign * coordinate_of(w, &tile, entry, &off) : state->known;
@@ -101,13 +101,13 @@ static mw_verdict direct_go(mw_borrowed_walk *w, direct_state *state)
         out = entry;
     }
     least += off;
-    return least < 0 ? direct_cross(w, state, out, least) : MW_CLOSE;
+    return least < 0 ? direct_cross(w, state, out, least) : MW_VERDICT_UNSURE;
 }
 
 mw_verdict mw__borrowed_direct(mw_borrowed_walk *w)
 {
     direct_state state = {0, 3};
-    mw_verdict verdict = MW_GO;
-    for (; verdict == MW_GO && w->fuel > 0; w->fuel--) verdict = direct_go(w, &state);
-    return verdict == MW_GO ? MW_CLOSE : verdict;
+    mw_verdict verdict = MW_VERDICT_GO_ON;
+    for (; verdict == MW_VERDICT_GO_ON && w->fuel > 0; w->fuel--) verdict = direct_go(w, &state);
+    return verdict == MW_VERDICT_GO_ON ? MW_VERDICT_UNSURE : verdict;
 }

@@ -241,10 +241,10 @@ static uint32_t borrowed_fuel(const mw_borrowed *mesh)
 
 static mw_verdict borrowed_walk_run(mw_borrowed_walk *w, mw_walk_kind kind)
 {
-    mw_verdict verdict = MW_CLOSE;
+    mw_verdict verdict = MW_VERDICT_UNSURE;
     if (kind == MW_WALK_BARYCENTRIC) verdict = mw__borrowed_barycentric(w);
     if (kind == MW_WALK_DIRECT) verdict = mw__borrowed_direct(w);
-    if (verdict != MW_CLOSE) return verdict;
+    if (verdict != MW_VERDICT_UNSURE) return verdict;
     if (kind == MW_WALK_BARYCENTRIC || kind == MW_WALK_DIRECT)
         begin_stage(&w->counts, MW_STAGE_FINAL, mw__borrowed_policy);
     w->t = borrowed_with_area(w->mesh, w->t);
@@ -263,8 +263,8 @@ mw_location mw__borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cur
     mw_verdict verdict = borrowed_walk_run(&w, (mw_walk_kind)cursor->walk);
     borrowed_count(&cursor->counters, &work);
     cursor->last = w.t;
-    if (MW_LIKELY(verdict == MW_FOUND)) return borrowed_answer(mesh, &cursor->last, q, &cursor->counters);
-    if (verdict == MW_LEFT && borrowed_is_outside(mesh, w.t, q)) return mw__location_nowhere(MW_OUTSIDE);
+    if (MW_LIKELY(verdict == MW_VERDICT_FOUND)) return borrowed_answer(mesh, &cursor->last, q, &cursor->counters);
+    if (verdict == MW_VERDICT_LEFT && borrowed_is_outside(mesh, w.t, q)) return mw__location_nowhere(MW_OUTSIDE);
     return borrowed_scan(mesh, q, &cursor->counters, &cursor->last);
 }
 

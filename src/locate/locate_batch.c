@@ -72,7 +72,7 @@ static bool chunk_deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdic
 {
     batch_chunk *c = (batch_chunk *)feed; /* the feed is its first member */
     const locate_batch *b = c->batch;
-    if (verdict != MW_GO) {
+    if (verdict != MW_VERDICT_GO_ON) {
         b->queries.locations[c->query[lane]] = mw__query_conclude(b->locator, &b->cursor, walk, verdict, &c->counters);
         if (b->chained) c->last[lane] = walk->t;
     }
@@ -122,7 +122,7 @@ static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_
     bool exact = b->cursor.arithmetic == MW_EXACT;
     if (lanes == 1) {
         mw_walk walk;
-        mw_verdict verdict = MW_GO;
+        mw_verdict verdict = MW_VERDICT_GO_ON;
         while (chunk_deliver(&c.feed, 0, &walk, verdict)) verdict = kernels->run[exact][b->cursor.count](&walk);
     } else {
         kernels->ring[exact][b->cursor.count](&c.feed, lanes);
