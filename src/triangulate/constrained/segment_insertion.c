@@ -474,13 +474,13 @@ static bool channel_legalize(mw_segment_insertion *c, size_t triangle_count)
 
 /* --- subsegments --- */
 
-static void half_mark(mw_segment_insertion *c, uint32_t half, uint32_t *number)
+uint32_t mw__segment_insertion_mark(mw_segment_insertion *c, uint32_t half)
 {
     if (*subsegment_of(c, half) == MW_NONE) {
         *subsegment_of(c, half) = c->subsegment_count++;
         if (*link_field(c, half) != MW_NONE) *subsegment_of(c, *link_field(c, half)) = *subsegment_of(c, half);
     }
-    *number = *subsegment_of(c, half);
+    return *subsegment_of(c, half);
 }
 
 /* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two
@@ -492,7 +492,7 @@ static bool cut_through_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uin
     *w = mw__half_start(c->tri, mw__half_prev(*link_field(c, half)));
     if (*w != b && segment_vertex_side(c, a, b, *w) != 0) return false;
     channel_flip(c, half);
-    half_mark(c, mw__link(mw__link_triangle(half), 1), number);
+    *number = mw__segment_insertion_mark(c, mw__link(mw__link_triangle(half), 1));
     c->crossed += 2;
     return true;
 }
@@ -515,7 +515,7 @@ static mw_subsegment_result cut_through(mw_segment_insertion *c, uint32_t a, uin
     uint32_t left = side_fill(c, c->left, ch.left_count, true, &next);
     *link_field(c, right) = left;
     *link_field(c, left) = right;
-    half_mark(c, left, number);
+    *number = mw__segment_insertion_mark(c, left);
     *w = ch.w;
     return channel_legalize(c, ch.triangle_count) ? MW_SUBSEGMENT_DONE : MW_SUBSEGMENT_MEMORY;
 }
@@ -537,7 +537,7 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
     mw_subsegment_result result = MW_SUBSEGMENT_DONE;
     if (along) {
         w = mw__half_start(c->tri, half) == *ends[i] ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
-        half_mark(c, half, &subsegment->number);
+        subsegment->number = mw__segment_insertion_mark(c, half);
     } else {
         result = cut_through(c, *ends[i], *ends[1 - i], half, &w, &subsegment->number);
         if (result != MW_SUBSEGMENT_DONE) return result;
@@ -553,10 +553,12 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
 static uint32_t follow_through(const mw_segment_insertion *c, uint32_t from, uint32_t to, uint32_t half,
                                mw_segment_visitor *meet, void *context)
 {
+    if (!meet(context, MW_MEETS_TRIANGLE, mw__link_triangle(half))) return MW_NONE;
     for (;;) {
         uint32_t subsegment = *subsegment_of(c, half);
-        if (subsegment != MW_NONE && !meet(context, subsegment, MW_NONE)) return MW_NONE;
+        if (subsegment != MW_NONE && !meet(context, MW_MEETS_SUBSEGMENT, subsegment)) return MW_NONE;
         half = *link_field(c, half);
+        if (!meet(context, MW_MEETS_TRIANGLE, mw__link_triangle(half))) return MW_NONE;
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
         double s = w == to ? 0 : segment_vertex_side(c, from, to, w);
         if (s == 0) return w;
@@ -572,11 +574,12 @@ bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, u
         bool along;
         vertex_rotor r = segment_rotor(c, from, to);
         while (!leaves_here(&r, &half, &along)) segment_rotor_turn(c, &r, from, to);
+        if (along && !meet(context, MW_MEETS_EDGE, half)) return false;
         if (along)
             from = mw__half_start(c->tri, half) == from ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
         else
             from = follow_through(c, from, to, half, meet, context);
-        if (from == MW_NONE || (from != to && !meet(context, MW_NONE, from))) return false;
+        if (from == MW_NONE || (from != to && !meet(context, MW_MEETS_VERTEX, from))) return false;
     }
     return true;
 }
