@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info | check) echo "--as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
-        locate) echo "--details $query $stream $common" ;;
+        locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
@@ -104,7 +104,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field | --layer | --where) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field | --layer | --where | --attribute | --polygon-layer) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then
