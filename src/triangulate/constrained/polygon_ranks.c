@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 /* The segments that belong to polygons, by polygon. Returns NULL when out of memory. */
-static mw_key *sort_by_polygon(const mw_constraints *given, size_t *count)
+static mw_key *polygon_segments_sort(const mw_constraints *given, size_t *count)
 {
     size_t n = given->segment_count;
     mw_key *key = mw__alloc(n, sizeof *key), *scratch = mw__alloc(n, sizeof *scratch);
@@ -24,7 +24,7 @@ static mw_key *sort_by_polygon(const mw_constraints *given, size_t *count)
 }
 
 /* Inside and outside make sense where at each vertex an even number of a polygon's segments end. */
-static mw_status check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
+static mw_status polygons_check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
 {
     uint8_t *odd = mw__calloc(m->given->point_count, sizeof *odd);
     mw_status status = odd ? MW_OK : mw__fail_memory(error);
@@ -42,7 +42,7 @@ static mw_status check_closed(const mw_cdt *m, const mw_key *key, size_t count, 
     return status;
 }
 
-static bool rank_polygons(mw_polygon_ranks *r, size_t segments, const mw_key *key, size_t count)
+static bool ranks_number(mw_polygon_ranks *r, size_t segments, const mw_key *key, size_t count)
 {
     r->rank = mw__alloc(segments, sizeof *r->rank);
     for (size_t i = 0; i < count; i++) r->count += i == 0 || key[i].key != key[i - 1].key;
@@ -62,9 +62,9 @@ mw_status mw__polygon_ranks_create(mw_polygon_ranks *r, const mw_cdt *m, mw_erro
 {
     size_t count;
     *r = (mw_polygon_ranks){0};
-    mw_key *key = sort_by_polygon(m->given, &count);
-    mw_status status = key ? check_closed(m, key, count, error) : mw__fail_memory(error);
-    if (status == MW_OK && !rank_polygons(r, m->given->segment_count, key, count)) status = mw__fail_memory(error);
+    mw_key *key = polygon_segments_sort(m->given, &count);
+    mw_status status = key ? polygons_check_closed(m, key, count, error) : mw__fail_memory(error);
+    if (status == MW_OK && !ranks_number(r, m->given->segment_count, key, count)) status = mw__fail_memory(error);
     free(key);
     return status;
 }
