@@ -24,7 +24,7 @@ int dataset_named(const char *name)
 }
 
 /* splitmix64 [Steele, Lea, Flood 2014]. */
-static uint64_t next_random(uint64_t *random)
+static uint64_t dataset_random(uint64_t *random)
 {
     uint64_t z = *random += UINT64_C(0x9e3779b97f4a7c15);
     z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -34,7 +34,7 @@ static uint64_t next_random(uint64_t *random)
 
 double dataset_unit(uint64_t *random)
 {
-    return (double)(next_random(random) >> 11) * 0x1p-53;
+    return (double)(dataset_random(random) >> 11) * 0x1p-53;
 }
 
 /* Two independent normal numbers [Box, Muller 1958]. */
@@ -71,7 +71,7 @@ static void fill_gaussian(dataset *d, size_t n, uint64_t *random)
     dataset_bound(d, n);
 }
 
-static bool in_unit_square(const double p[2])
+static bool point_in_unit_square(const double p[2])
 {
     return p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1;
 }
@@ -86,10 +86,10 @@ static void fill_clusters(dataset *d, size_t n, uint64_t *random)
     for (size_t i = 0; i < n; i++) {
         double *p = d->points + 2 * i;
         do {
-            size_t c = (size_t)(next_random(random) % CLUSTERS);
+            size_t c = (size_t)(dataset_random(random) % CLUSTERS);
             draw_normal_pair(p, random);
             for (size_t k = 0; k < 2; k++) p[k] = centre[2 * c + k] + CLUSTER_DEVIATION * p[k];
-        } while (!in_unit_square(p));
+        } while (!point_in_unit_square(p));
     }
 }
 
@@ -113,13 +113,13 @@ static void fill_arcs(dataset *d, size_t n, uint64_t *random)
     for (size_t i = 0; i < n; i++) {
         double *p = d->points + 2 * i;
         do {
-            const dataset_arc *a = &arc_of[next_random(random) % ARCS];
+            const dataset_arc *a = &arc_of[dataset_random(random) % ARCS];
             double angle = a->begin + a->length * dataset_unit(random), off[2];
             draw_normal_pair(off, random);
             double radius = a->radius + ARC_DEVIATION * off[0];
             p[0] = a->centre[0] + radius * cos(angle);
             p[1] = a->centre[1] + radius * sin(angle);
-        } while (!in_unit_square(p));
+        } while (!point_in_unit_square(p));
     }
 }
 

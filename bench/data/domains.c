@@ -21,7 +21,7 @@ typedef struct star_waves {
     double size[WAVES], phase[WAVES];
 } star_waves;
 
-static star_waves draw_waves(uint64_t *random)
+static star_waves star_draw_waves(uint64_t *random)
 {
     star_waves w;
     for (size_t i = 0; i < WAVES; i++) {
@@ -32,7 +32,7 @@ static star_waves draw_waves(uint64_t *random)
 }
 
 /* The seed of other numbers. */
-static uint64_t draw_seed(uint64_t *random)
+static uint64_t star_draw_seed(uint64_t *random)
 {
     return (uint64_t)(dataset_unit(random) * 0x1p53);
 }
@@ -75,7 +75,7 @@ static bool star_contains(const star_polygon *s, const double p[2])
     return mw_orient2d(s->corner + 2 * k, s->corner + 2 * ((k + 1) % s->count), p) > 0;
 }
 
-static double turn_of(const double a[2], const double b[2], const double c[2])
+static double corner_turn(const double a[2], const double b[2], const double c[2])
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
@@ -83,7 +83,7 @@ static double turn_of(const double a[2], const double b[2], const double c[2])
 static double polygon_area(const double *corner, size_t count)
 {
     double sum = 0;
-    for (size_t k = 1; k + 1 < count; k++) sum += turn_of(corner, corner + 2 * k, corner + 2 * (k + 1)) / 2;
+    for (size_t k = 1; k + 1 < count; k++) sum += corner_turn(corner, corner + 2 * k, corner + 2 * (k + 1)) / 2;
     return sum;
 }
 
@@ -97,7 +97,7 @@ static double star_hull_area(const star_polygon *s, double *hull)
             first = k;
     for (size_t k = 0; k <= s->count; k++) {
         const double *next = s->corner + 2 * ((first + k) % s->count);
-        while (count > 1 && turn_of(hull + 2 * (count - 2), hull + 2 * (count - 1), next) <= 0) count--;
+        while (count > 1 && corner_turn(hull + 2 * (count - 2), hull + 2 * (count - 1), next) <= 0) count--;
         memcpy(hull + 2 * count++, next, 2 * sizeof *next);
     }
     return polygon_area(hull, count);
@@ -113,8 +113,8 @@ static double star_hull_area(const star_polygon *s, double *hull)
 static double star_shape_outline(star_polygon *s, double share, double *hull, uint64_t *random)
 {
     for (int drawn = 0;; drawn++) {
-        star_waves w = draw_waves(random);
-        uint64_t noise = draw_seed(random);
+        star_waves w = star_draw_waves(random);
+        uint64_t noise = star_draw_seed(random);
         for (int i = 0; i <= HEIGHTS; i++) {
             star_shape(s, &w, GREATEST_HEIGHT * i / HEIGHTS, noise);
             double area = star_hull_area(s, hull);
@@ -162,8 +162,8 @@ static bool domain_is_free(const holed_domain *d, size_t i, const double p[2])
 static void domain_place_hole(holed_domain *d, size_t i, double area, uint64_t *random)
 {
     star_polygon *s = &d->star[i];
-    star_waves w = draw_waves(random);
-    star_shape(s, &w, 0.5, draw_seed(random));
+    star_waves w = star_draw_waves(random);
+    star_shape(s, &w, 0.5, star_draw_seed(random));
     star_scale(s, sqrt(area / polygon_area(s->corner, s->count)));
     double p[2] = {0, 0};
     for (int drawn = 1;; drawn++) {

@@ -97,7 +97,7 @@ typedef struct edge_middles {
     uint32_t other, middle; /* other 0: free, since no edge ends there as the higher one */
 } edge_middles[6];
 
-static uint32_t middle_of(polyhedron *p, edge_middles *known, uint32_t a, uint32_t b)
+static uint32_t polyhedron_edge_middle(polyhedron *p, edge_middles *known, uint32_t a, uint32_t b)
 {
     uint32_t low = a < b ? a : b, high = a < b ? b : a;
     size_t i = 0;
@@ -118,7 +118,7 @@ static void polyhedron_cut_in_four(polyhedron *p, edge_middles *known)
     for (size_t i = p->triangle_count; i-- > 0;) {
         uint32_t v[3], m[3];
         memcpy(v, p->triangles + 3 * i, sizeof v);
-        for (size_t k = 0; k < 3; k++) m[k] = middle_of(p, known, v[k], v[(k + 1) % 3]);
+        for (size_t k = 0; k < 3; k++) m[k] = polyhedron_edge_middle(p, known, v[k], v[(k + 1) % 3]);
         const uint32_t parts[4][3] = {{v[0], m[0], m[2]}, {m[0], v[1], m[1]}, {m[2], m[1], v[2]}, {m[0], m[1], m[2]}};
         memcpy(p->triangles + 12 * i, parts, sizeof parts);
     }
@@ -145,7 +145,7 @@ typedef struct sphere_frame {
     double u[3], v[3], pole[3];
 } sphere_frame;
 
-static sphere_frame draw_frame(uint64_t *random)
+static sphere_frame polyhedron_draw_frame(uint64_t *random)
 {
     sphere_frame f;
     double other[3];
@@ -198,7 +198,7 @@ static mw_status polyhedron_make_hull(polyhedron *p, size_t n, uint64_t *random,
     mw_status status = MW_ERROR_MEMORY;
     double *seen = malloc(2 * n * sizeof *seen);
     if (seen && polyhedron_allocate(p, n, 2 * n - 4)) {
-        sphere_frame f = draw_frame(random);
+        sphere_frame f = polyhedron_draw_frame(random);
         polyhedron_draw_points(p, &f, random);
         for (size_t i = 1; i < n; i++) {
             const double *q = p->points + 3 * i;

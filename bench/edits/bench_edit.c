@@ -45,7 +45,7 @@ static int edit_check_set(const char *name, void *self)
     return END_USAGE;
 }
 
-static int edit_check_settings(const bench_settings *s)
+static int edits_check_settings(const bench_settings *s)
 {
     if (s->enclose != ENCLOSE_AUTO || s->no_times || s->data || s->plot || s->format == FORMAT_JSON) {
         complain("bench edit makes its own points, takes times, and prints them "
@@ -86,7 +86,7 @@ static int edit_take_settings(edit_run *r, const char *names)
         .rounds = s->rounds ? s->rounds : 5,
         .seed = s->common.seed,
     };
-    int end = edit_check_settings(s);
+    int end = edits_check_settings(s);
     if (end == 0 && s->sizes) end = word_list_sizes(s->sizes, &r->sizes);
     if (end == 0 && s->engines) end = edit_take_engines(s->engines, &r->plan.engines);
     if (end == 0 && s->tasks) end = word_list_names(s->tasks, &edit_task_choices, &r->plan.tasks);

@@ -5,16 +5,16 @@ const edit_engine edit_engines[EDIT_ENGINES] = {
 #include "bench/edits/edit_engine.def"
 };
 
-static const char *listed_engine_name(int i)
+static const char *listed_edit_engine_name(int i)
 {
     return i < EDIT_ENGINES ? edit_engines[i].name : NULL;
 }
-static const char *listed_task_name(int i)
+static const char *listed_edit_task_name(int i)
 {
     return i < EDIT_TASKS ? edit_task_name((edit_task)i) : NULL;
 }
-const choices edit_engine_choices = {"engine", listed_engine_name, NULL};
-const choices edit_task_choices = {"task", listed_task_name, NULL};
+const choices edit_engine_choices = {"engine", listed_edit_engine_name, NULL};
+const choices edit_task_choices = {"task", listed_edit_task_name, NULL};
 
 #ifndef MW_PEERS
 const edit_engine_code *edit_engine_cgal_code(edit_engine_id id)

@@ -47,7 +47,7 @@ static void edit_row_cells(const edit_row *r, char cells[COLUMNS][WIDEST])
     edit_table_number(cells[9], 3, r->ratio);
 }
 
-static bool is_text(size_t column)
+static bool edit_column_is_text(size_t column)
 {
     return column < 2 || column == 4;
 }
@@ -59,13 +59,13 @@ static bool edit_table_is_new_block(const edit_row *rows, size_t i)
 }
 
 /* Aligned, or with tabs. */
-static void print_cells(const char *const cells[COLUMNS], const int width[COLUMNS], text *t)
+static void edit_table_print_cells(const char *const cells[COLUMNS], const int width[COLUMNS], text *t)
 {
     for (size_t k = 0; k < COLUMNS; k++) {
         if (!width)
             text_printf(t, "%s%s", k ? "\t" : "", cells[k]);
         else
-            text_printf(t, is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k], cells[k]);
+            text_printf(t, edit_column_is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k], cells[k]);
     }
     text_string(t, "\n");
 }
@@ -74,12 +74,12 @@ static void edit_table_print_rows(const edit_table *table, const int *width, tex
 {
     char cells[COLUMNS][WIDEST];
     const char *row[COLUMNS];
-    print_cells(names, width, t);
+    edit_table_print_cells(names, width, t);
     for (size_t k = 0; k < COLUMNS; k++) row[k] = cells[k];
     for (size_t i = 0; i < table->count; i++) {
         if (width && i > 0 && edit_table_is_new_block(table->rows, i)) text_string(t, "\n");
         edit_row_cells(&table->rows[i], cells);
-        print_cells(row, width, t);
+        edit_table_print_cells(row, width, t);
     }
 }
 

@@ -88,7 +88,7 @@ static void near_vertices_release(near_vertices *s)
     mw_mesh_destroy(s->mesh);
 }
 
-static double nudged(double value, uint64_t *random)
+static double value_nudged(double value, uint64_t *random)
 {
     double spacing = nextafter(fabs(value), INFINITY) - fabs(value);
     return value + (2 * dataset_unit(random) - 1) * fmax(1e-15, 1.5 * spacing);
@@ -98,7 +98,7 @@ static void near_vertices_draw(near_vertices *s, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         size_t v = (size_t)(dataset_unit(&s->random) * (double)s->data->count);
-        for (size_t k = 0; k < 2; k++) s->queries[2 * i + k] = nudged(s->data->points[2 * v + k], &s->random);
+        for (size_t k = 0; k < 2; k++) s->queries[2 * i + k] = value_nudged(s->data->points[2 * v + k], &s->random);
     }
 }
 
@@ -139,7 +139,7 @@ static int near_vertices_run(near_vertices *s)
 
 /* --- the rows --------------------------------------------------------------------------------- */
 
-static double per_million(uint64_t count, uint64_t queries)
+static double count_per_million(uint64_t count, uint64_t queries)
 {
     return 1e6 * (double)count / (double)queries;
 }
@@ -155,7 +155,8 @@ static void near_vertices_print(const near_vertices *s, text *t)
         const mw_counters *c = &e->counters;
         const char *walk = mw_walk_name(e->walk), *form = e->areas ? "-areas" : "";
         const char *arithmetic = e->arithmetic == MW_EXACT ? "exact" : "double";
-        double cycles = per_million(c->cycles, c->queries), handovers = per_million(c->handovers, c->queries);
+        double cycles = count_per_million(c->cycles, c->queries),
+               handovers = count_per_million(c->handovers, c->queries);
         if (tsv)
             text_printf(t, "%s\t%zu\t%s%s\t%s\t%llu\t%llu\t%llu\t%.6g\t%.6g\n", s->name, s->data->count, walk, form,
                         arithmetic, (unsigned long long)c->queries, (unsigned long long)c->cycles,

@@ -10,17 +10,17 @@
 
 /* The walks take about so many triangles times the square root of the vertices: divided by it the
  * curves can be told apart. */
-static bool is_scaled(const paper_table *table)
+static bool table_is_scaled(const paper_table *table)
 {
     bool plain = strcmp(table->start, "random") == 0 || strcmp(table->start, "front") == 0;
     return table->drawn == TRIANGLES && table->subject != PAPER_DOMAINS && plain;
 }
 
-static const char *label_of(const paper_table *table)
+static const char *table_label(const paper_table *table)
 {
     if (table->drawn == TIME_EXACT_US) return "microseconds per query, exact";
     if (table->drawn == TRIANGLES_FINAL) return "triangles of the final location per query";
-    return is_scaled(table) ? "triangles per query / square root of vertices" : "triangles per query";
+    return table_is_scaled(table) ? "triangles per query / square root of vertices" : "triangles per query";
 }
 
 int paper_plot_check(const bench_settings *s, const paper_table *table)
@@ -44,7 +44,7 @@ typedef struct paper_curve {
     const char *name, *label;
 } paper_curve;
 
-static size_t curves_of(const paper_table *table, paper_curve curves[MOST_ALGORITHMS])
+static size_t table_curves(const paper_table *table, paper_curve curves[MOST_ALGORITHMS])
 {
     static const paper_curve phases[] = {{0, TRIANGLES, "walk", "walk"},
                                          {0, TRIANGLES_BORDER, "border walk", "border"}};
@@ -61,11 +61,11 @@ static size_t curves_of(const paper_table *table, paper_curve curves[MOST_ALGORI
 }
 
 /* All triangles of the thesis' column, the final location of the cheap walks too. */
-static plot_point point_of(const paper *p, const paper_result *r, const paper_curve *c)
+static plot_point result_point(const paper *p, const paper_result *r, const paper_curve *c)
 {
     plot_point at = {.x = (double)r->outcome.vertices};
     if (c->quantity == TRIANGLES && p->table->subject != PAPER_DOMAINS) {
-        double scale = is_scaled(p->table) ? sqrt(at.x) : 1;
+        double scale = table_is_scaled(p->table) ? sqrt(at.x) : 1;
         at.ours = paper_sum(p, r, c->algorithm, PAPER_TRIANGLES, false) / scale;
         at.published = paper_sum(p, r, c->algorithm, PAPER_TRIANGLES, true) / scale;
     } else {
@@ -76,13 +76,13 @@ static plot_point point_of(const paper *p, const paper_result *r, const paper_cu
 }
 
 /* In the figures of Appendix D walks begin at the nearest of a sample. */
-static bool is_drawn(const paper *p, const paper_result *r)
+static bool result_is_drawn(const paper *p, const paper_result *r)
 {
     return r->walks && (p->table->subject != PAPER_DOMAINS || r->outcome.value[0][SAMPLE] > 1);
 }
 
 /* The panel of a result: that of its set; a file is a set of its own. */
-static plot_panel *panel_of(plot_panel *panels, size_t *count, const paper_result *r)
+static plot_panel *result_panel(plot_panel *panels, size_t *count, const paper_result *r)
 {
     for (size_t k = 0; k < *count && !r->users_file; k++)
         if (strcmp(panels[k].title, r->dataset) == 0) return &panels[k];
@@ -94,10 +94,10 @@ static size_t paper_group_panels(const paper *p, const paper_curve *curves, size
 {
     size_t count = 0;
     for (size_t k = 0; k < p->count; k++) {
-        if (!is_drawn(p, &p->results[k])) continue;
-        plot_panel *panel = panel_of(panels, &count, &p->results[k]);
+        if (!result_is_drawn(p, &p->results[k])) continue;
+        plot_panel *panel = result_panel(panels, &count, &p->results[k]);
         for (size_t i = 0; i < curve_count; i++)
-            panel->curve[i].point[panel->curve[i].count++] = point_of(p, &p->results[k], &curves[i]);
+            panel->curve[i].point[panel->curve[i].count++] = result_point(p, &p->results[k], &curves[i]);
     }
     return count;
 }
@@ -112,10 +112,10 @@ int paper_plot(const paper *p, const char *path)
     plot drawing = {
         .title = title,
         .x_label = "vertices",
-        .y_label = label_of(p->table),
+        .y_label = table_label(p->table),
         .log_y = p->table->drawn == TIME_EXACT_US,
         .panels = panels,
-        .curves = curves_of(p->table, curves),
+        .curves = table_curves(p->table, curves),
     };
     drawing.count = paper_group_panels(p, curves, drawing.curves, panels);
     for (size_t i = 0; i < drawing.curves; i++) {

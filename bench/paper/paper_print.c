@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Four digits after the point hold more than a million queries tell. */
-static double rounded(double value)
+static double value_rounded(double value)
 {
     return round(value * 1e4) / 1e4;
 }
@@ -23,55 +23,57 @@ typedef struct paper_figure {
 
 typedef void paper_figure_print(text *t, const paper_figure *f);
 
-static bool has_spread(const paper *p)
+static bool paper_has_spread(const paper *p)
 {
     return p->settings->seeds > 1;
 }
 
-static void each_quantity(const paper *p, const paper_result *r, const algorithm *a, const double *value,
-                          const double *spread, uint64_t which, text *t, paper_figure_print *print)
+static void paper_each_quantity(const paper *p, const paper_result *r, const algorithm *a, const double *value,
+                                const double *spread, uint64_t which, text *t, paper_figure_print *print)
 {
     for (quantity q = 0; q < QUANTITIES; q++) {
         if (!(which >> q & 1) || (quantity_is_time(q) && p->settings->no_times)) continue;
-        paper_figure f = {p, r, a, q, rounded(value[q]), has_spread(p) ? rounded(spread[q]) : NAN, 0, 0};
+        paper_figure f = {p, r, a, q, value_rounded(value[q]), paper_has_spread(p) ? value_rounded(spread[q]) : NAN,
+                          0, 0};
         f.published = paper_published_of(p, r, a, q);
-        f.ratio = f.published > 0 ? rounded(f.ours / f.published) : NAN;
+        f.ratio = f.published > 0 ? value_rounded(f.ours / f.published) : NAN;
         print(t, &f);
     }
 }
 
-static void each_figure(const paper *p, const paper_result *r, text *t, paper_figure_print *print)
+static void paper_each_figure(const paper *p, const paper_result *r, text *t, paper_figure_print *print)
 {
     const paper_table *table = p->table;
     for (size_t i = 0; r->walks && table->algorithms[i]; i++)
-        each_quantity(p, r, table->algorithms[i], r->outcome.value[i], r->spread.value[i], table->quantities, t, print);
+        paper_each_quantity(p, r, table->algorithms[i], r->outcome.value[i], r->spread.value[i], table->quantities, t,
+                            print);
     if (r->whole)
-        each_quantity(p, r, table->whole, r->outcome.whole, r->spread.whole, table->whole_quantities, t, print);
+        paper_each_quantity(p, r, table->whole, r->outcome.whole, r->spread.whole, table->whole_quantities, t, print);
 }
 
 /* --format tsv */
 
-static void tsv_number(text *t, double value)
+static void print_tsv_number(text *t, double value)
 {
     text_string(t, "\t");
     if (!isnan(value)) text_double(t, value);
 }
 
-static void tsv_line(text *t, const paper_figure *f)
+static void print_tsv_line(text *t, const paper_figure *f)
 {
     text_printf(t, "%s\t", f->paper->table->name);
     for (const char *c = f->result->dataset; *c; c++) text_bytes(t, *c == '\t' || *c == '\n' ? " " : c, 1);
     text_printf(t, "\t%zu\t%s\t%s", f->result->outcome.vertices, f->algorithm->name, quantity_name(f->quantity));
-    tsv_number(t, f->ours);
-    tsv_number(t, f->published);
-    tsv_number(t, f->ratio);
-    if (has_spread(f->paper)) tsv_number(t, f->spread);
+    print_tsv_number(t, f->ours);
+    print_tsv_number(t, f->published);
+    print_tsv_number(t, f->ratio);
+    if (paper_has_spread(f->paper)) print_tsv_number(t, f->spread);
     text_string(t, "\n");
 }
 
 /* --format json: an array of objects with the columns of the other format. */
 
-static void json_number(text *t, const char *name, double value)
+static void print_json_number(text *t, const char *name, double value)
 {
     text_printf(t, ", \"%s\": ", name);
     if (isnan(value))
@@ -80,17 +82,17 @@ static void json_number(text *t, const char *name, double value)
         text_double(t, value);
 }
 
-static void json_object(text *t, const paper_figure *f)
+static void print_json_object(text *t, const paper_figure *f)
 {
     bool first = t->size == 1; /* nothing but the bracket */
     text_printf(t, "%s\n {\"table\": \"%s\", \"dataset\": ", first ? "" : ",", f->paper->table->name);
     report_quote(t, f->result->dataset);
     text_printf(t, ", \"vertices\": %zu, \"algorithm\": \"%s\", \"quantity\": \"%s\"", f->result->outcome.vertices,
                 f->algorithm->name, quantity_name(f->quantity));
-    json_number(t, "ours", f->ours);
-    json_number(t, "published", f->published);
-    json_number(t, "ratio", f->ratio);
-    if (has_spread(f->paper)) json_number(t, "spread", f->spread);
+    print_json_number(t, "ours", f->ours);
+    print_json_number(t, "published", f->published);
+    print_json_number(t, "ratio", f->ratio);
+    if (paper_has_spread(f->paper)) print_json_number(t, "spread", f->spread);
     text_string(t, "}");
 }
 
@@ -106,13 +108,13 @@ static void print_cell(text *t, int width, int decimals, double value)
 }
 
 /* The blanks of empty cells at the end of a line go. */
-static void end_line(text *t)
+static void print_end_line(text *t)
 {
     while (t->size > 0 && t->bytes[t->size - 1] == ' ') t->size--;
     text_string(t, "\n");
 }
 
-static int decimals_of(quantity q)
+static int quantity_decimals(quantity q)
 {
     if (q == LOCATOR_BYTES || q == MESH_TRIANGLES || q == MESH_BORDER_EDGES || q == MESH_HOLES || q == OPTIMAL ||
         q == SAMPLE || q == FOUND_PER_MILLION)
@@ -122,40 +124,40 @@ static int decimals_of(quantity q)
 }
 
 /* What is zero and not published says nothing, nor do layers where there are none. */
-static void table_line(text *t, const paper_figure *f)
+static void print_table_line(text *t, const paper_figure *f)
 {
-    int decimals = decimals_of(f->quantity);
+    int decimals = quantity_decimals(f->quantity);
     if (f->ours == 0 && isnan(f->published)) return;
     if (f->quantity == LAYERS && strcmp(f->paper->table->start, "layers") != 0) return;
     text_printf(t, "  %-26s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation, quantity_name(f->quantity));
     print_cell(t, 10, decimals, f->ours);
-    if (has_spread(f->paper)) print_cell(t, 10, decimals, f->spread);
+    if (paper_has_spread(f->paper)) print_cell(t, 10, decimals, f->spread);
     print_cell(t, 10, decimals, f->published);
     print_cell(t, 7, 3, f->ratio);
-    end_line(t);
+    print_end_line(t);
 }
 
 /* A figure of algorithm i over that of the reference, ours and published. Of real data what is
  * published is the least and the largest of the thesis' own real data. */
 typedef double paper_proportion(const paper *p, const paper_result *r, size_t i, bool published);
 
-static double triangles(const paper *p, const paper_result *r, size_t i, bool published)
+static double proportion_triangles(const paper *p, const paper_result *r, size_t i, bool published)
 {
     return paper_sum(p, r, i, PAPER_TRIANGLES, published);
 }
-static double tests_per_triangle(const paper *p, const paper_result *r, size_t i, bool published)
+static double proportion_tests(const paper *p, const paper_result *r, size_t i, bool published)
 {
     return paper_sum(p, r, i, PAPER_TESTS, published) / paper_sum(p, r, i, PAPER_TRIANGLES, published);
 }
-static double side_length(const paper *p, const paper_result *r, size_t i, bool published)
+static double proportion_side_length(const paper *p, const paper_result *r, size_t i, bool published)
 {
     return published ? paper_published(p, r, i, SIDE_LENGTH) : r->outcome.value[i][SIDE_LENGTH];
 }
-static double time_in_doubles(const paper *p, const paper_result *r, size_t i, bool published)
+static double proportion_time_in_doubles(const paper *p, const paper_result *r, size_t i, bool published)
 {
     return published ? paper_published(p, r, i, TIME_US) : r->outcome.value[i][TIME_US];
 }
-static double time_exact(const paper *p, const paper_result *r, size_t i, bool published)
+static double proportion_time_exact(const paper *p, const paper_result *r, size_t i, bool published)
 {
     return published ? paper_published(p, r, i, TIME_EXACT_US) : r->outcome.value[i][TIME_EXACT_US];
 }
@@ -165,26 +167,26 @@ static const struct {
     const char *name;
     quantity needs; /* a quantity that the table has, and measures */
 } proportions[] = {
-    {triangles, "triangles", TRIANGLES},       {tests_per_triangle, "tests per triangle", ORIENT},
-    {side_length, "side length", SIDE_LENGTH}, {time_in_doubles, "time", TIME_US},
-    {time_exact, "exact time", TIME_EXACT_US},
+    {proportion_triangles, "triangles", TRIANGLES},       {proportion_tests, "tests per triangle", ORIENT},
+    {proportion_side_length, "side length", SIDE_LENGTH}, {proportion_time_in_doubles, "time", TIME_US},
+    {proportion_time_exact, "exact time", TIME_EXACT_US},
 };
 #define PROPORTIONS (sizeof proportions / sizeof *proportions)
 
-static size_t reference_of(const paper_table *table)
+static size_t proportion_reference(const paper_table *table)
 {
     size_t i = 0;
     while (table->algorithms[i] != table->reference) i++;
     return i;
 }
 
-static double over_reference(const paper *p, const paper_result *r, size_t i, paper_proportion *of, bool published)
+static double proportion_value(const paper *p, const paper_result *r, size_t i, paper_proportion *of, bool published)
 {
-    return of(p, r, i, published) / of(p, r, reference_of(p->table), published);
+    return of(p, r, i, published) / of(p, r, proportion_reference(p->table), published);
 }
 
 /* From the least to the largest over the real data of the thesis. */
-static void cell_of_range(text *t, const paper *p, size_t i, paper_proportion *of)
+static void print_range(text *t, const paper *p, size_t i, paper_proportion *of)
 {
     double least = INFINITY, most = -INFINITY;
     paper_result r = {.users_file = false};
@@ -192,28 +194,28 @@ static void cell_of_range(text *t, const paper *p, size_t i, paper_proportion *o
     for (size_t k = 0; published_real(p->table->name, k, &set, &r.outcome.vertices); k++) {
         strncpy(r.dataset, set, sizeof r.dataset - 1);
         r.dataset[sizeof r.dataset - 1] = 0;
-        double value = over_reference(p, &r, i, of, true);
+        double value = proportion_value(p, &r, i, of, true);
         least = fmin(least, value);
         most = fmax(most, value);
     }
     if (least <= most) text_printf(t, "  %.3f to %.3f", least, most);
 }
 
-static void proportion_line(text *t, const paper *p, const paper_result *r, size_t i, size_t k)
+static void print_proportion_line(text *t, const paper *p, const paper_result *r, size_t i, size_t k)
 {
-    double ours = over_reference(p, r, i, proportions[k].of, false);
-    double published = over_reference(p, r, i, proportions[k].of, true);
+    double ours = proportion_value(p, r, i, proportions[k].of, false);
+    double published = proportion_value(p, r, i, proportions[k].of, true);
     text_printf(t, "  %-26s %-4s %-21s", p->table->algorithms[i]->name, p->table->algorithms[i]->abbreviation,
                 proportions[k].name);
     print_cell(t, 10, 3, ours);
-    if (has_spread(p)) print_cell(t, 10, 3, NAN);
+    if (paper_has_spread(p)) print_cell(t, 10, 3, NAN);
     if (r->users_file) {
-        cell_of_range(t, p, i, proportions[k].of);
+        print_range(t, p, i, proportions[k].of);
     } else {
         print_cell(t, 10, 3, published);
         print_cell(t, 7, 3, ours / published);
     }
-    end_line(t);
+    print_end_line(t);
 }
 
 static bool paper_has(const paper *p, quantity q)
@@ -221,7 +223,7 @@ static bool paper_has(const paper *p, quantity q)
     return p->table->quantities >> q & 1 && !(quantity_is_time(q) && p->settings->no_times);
 }
 
-static bool has_range(const paper *p)
+static bool paper_has_range(const paper *p)
 {
     const char *set;
     size_t vertices;
@@ -232,11 +234,12 @@ static bool has_range(const paper *p)
 static void paper_print_proportions(text *t, const paper *p, const paper_result *r)
 {
     text_printf(t, "\n  over those of %s%s\n", p->table->reference->name,
-                r->users_file && has_range(p) ? "; published: from the least to the largest of the thesis' real data"
-                                              : "");
+                r->users_file && paper_has_range(p)
+                    ? "; published: from the least to the largest of the thesis' real data"
+                    : "");
     for (size_t k = 0; k < PROPORTIONS; k++)
         for (size_t i = 0; paper_has(p, proportions[k].needs) && p->table->algorithms[i]; i++)
-            if (p->table->algorithms[i] != p->table->reference) proportion_line(t, p, r, i, k);
+            if (p->table->algorithms[i] != p->table->reference) print_proportion_line(t, p, r, i, k);
 }
 
 static void paper_print_local_optima(text *t, const paper *p, const paper_result *r)
@@ -250,7 +253,7 @@ static void paper_print_table(text *t, const paper *p)
 {
     text_printf(t, "%s: %s\n%" PRIu64 " queries on each set, from %s; means per query, times in microseconds\n",
                 p->table->name, p->table->title, p->queries, p->table->from);
-    if (has_spread(p))
+    if (paper_has_spread(p))
         text_printf(t, "means over %" PRIu32 " seeds, and the standard deviation of one\n", p->settings->seeds);
     for (size_t i = 0; i < p->count; i++) {
         const paper_result *r = &p->results[i];
@@ -258,9 +261,9 @@ static void paper_print_table(text *t, const paper *p)
         if (r->model) text_printf(t, "; published: the thesis' %s", r->model);
         text_string(t, "\n\n");
         text_printf(t, "  %-31s %-21s %10s", "algorithm", "quantity", "ours");
-        if (has_spread(p)) text_printf(t, " %10s", "spread");
+        if (paper_has_spread(p)) text_printf(t, " %10s", "spread");
         text_printf(t, " %10s %7s\n", "published", "ratio");
-        each_figure(p, r, t, table_line);
+        paper_each_figure(p, r, t, print_table_line);
         if (!r->walks) continue;
         paper_print_local_optima(t, p, r);
         if (p->table->algorithms[1]) paper_print_proportions(t, p, r);
@@ -272,12 +275,12 @@ void paper_print(const paper *p, text *t)
     switch (p->settings->format) {
     case FORMAT_TSV:
         text_string(t, "table\tdataset\tvertices\talgorithm\tquantity\tours\tpublished\tratio");
-        text_string(t, has_spread(p) ? "\tspread\n" : "\n");
-        for (size_t i = 0; i < p->count; i++) each_figure(p, &p->results[i], t, tsv_line);
+        text_string(t, paper_has_spread(p) ? "\tspread\n" : "\n");
+        for (size_t i = 0; i < p->count; i++) paper_each_figure(p, &p->results[i], t, print_tsv_line);
         break;
     case FORMAT_JSON:
         text_string(t, "[");
-        for (size_t i = 0; i < p->count; i++) each_figure(p, &p->results[i], t, json_object);
+        for (size_t i = 0; i < p->count; i++) paper_each_figure(p, &p->results[i], t, print_json_object);
         text_string(t, "\n]\n");
         break;
     default: paper_print_table(t, p);

@@ -53,7 +53,8 @@ static void probe_measurement_release(probe_measurement *s)
 }
 
 /* Its corners, its normal as long as twice its area. */
-static void corners_of(const probe_measurement *s, uint32_t triangle, double corner[3][3], double normal[3])
+static void probe_measurement_corners(const probe_measurement *s, uint32_t triangle, double corner[3][3],
+                                      double normal[3])
 {
     uint32_t v[3];
     double u[3], w[3];
@@ -72,18 +73,18 @@ static double motion_length(const double a[3])
 }
 
 /* Is the normal a direction? Not so of a triangle without area, or beyond the range of doubles. */
-static bool is_usable(const double normal[3])
+static bool normal_is_usable(const double normal[3])
 {
     double length = motion_length(normal);
     return length > 0 && isfinite(length);
 }
 
-static bool has_usable(const probe_measurement *s)
+static bool probe_measurement_has_usable(const probe_measurement *s)
 {
     double corner[3][3], normal[3];
     for (uint32_t i = 0; i < mw_surface_triangle_count(s->surface); i++) {
-        corners_of(s, i, corner, normal);
-        if (is_usable(normal)) return true;
+        probe_measurement_corners(s, i, corner, normal);
+        if (normal_is_usable(normal)) return true;
     }
     return false;
 }
@@ -96,7 +97,7 @@ static int probe_measurement_prepare(probe_measurement *s, const mw_surface_info
     progress_phase("preparing", s->name);
     for (size_t k = 0; k < 3; k++) diagonal[k] = info->high[k] - info->low[k];
     s->distance = DISTANCE * motion_length(diagonal);
-    if (!has_usable(s) || !isfinite(s->distance)) {
+    if (!probe_measurement_has_usable(s) || !isfinite(s->distance)) {
         complain("%s: the surface has no area, or one too large for a double", s->name);
         return END_INPUT;
     }
@@ -110,12 +111,12 @@ static int probe_measurement_prepare(probe_measurement *s, const mw_surface_info
 /* --- queries */
 
 /* A point of a random triangle, and its normal of length 1. */
-static void draw_point(probe_measurement *s, double point[3], double normal[3])
+static void probe_measurement_draw_point(probe_measurement *s, double point[3], double normal[3])
 {
     double corner[3][3], count = mw_surface_triangle_count(s->surface);
     do {
-        corners_of(s, (uint32_t)(dataset_unit(&s->random) * count), corner, normal);
-    } while (!is_usable(normal));
+        probe_measurement_corners(s, (uint32_t)(dataset_unit(&s->random) * count), corner, normal);
+    } while (!normal_is_usable(normal));
     double a = dataset_unit(&s->random), b = dataset_unit(&s->random), length = motion_length(normal);
     if (a + b > 1) {
         a = 1 - a;
@@ -128,7 +129,7 @@ static void draw_point(probe_measurement *s, double point[3], double normal[3])
 }
 
 /* Uniform among the directions against the normal. */
-static void deviate(probe_measurement *s, const double normal[3], double motion[3])
+static void probe_measurement_deviate(probe_measurement *s, const double normal[3], double motion[3])
 {
     double along;
     do {
@@ -138,12 +139,12 @@ static void deviate(probe_measurement *s, const double normal[3], double motion[
     for (size_t k = 0; k < 3 && along > 0; k++) motion[k] = -motion[k];
 }
 
-static void draw_query(probe_measurement *s, double query[6])
+static void probe_measurement_draw_query(probe_measurement *s, double query[6])
 {
     double normal[3], *motion = query + 3, before = 0;
-    draw_point(s, query, normal);
+    probe_measurement_draw_point(s, query, normal);
     for (size_t k = 0; k < 3; k++) motion[k] = -normal[k];
-    if (s->paper->table->variant != ON_SURFACE) deviate(s, normal, motion);
+    if (s->paper->table->variant != ON_SURFACE) probe_measurement_deviate(s, normal, motion);
     if (s->paper->table->variant == NEAR_SURFACE) before = s->distance * dataset_unit(&s->random);
     if (s->paper->table->variant == OFF_SURFACE)
         before = s->distance * (1 + (FARTHER - 1) * (1 - dataset_unit(&s->random)));
@@ -189,7 +190,7 @@ static int probe_measurement_draw(probe_measurement *s, size_t n)
         }
         size_t more = n - found;
         double *queries = s->queries + 6 * found;
-        for (size_t i = 0; i < more; i++) draw_query(s, queries + 6 * i);
+        for (size_t i = 0; i < more; i++) probe_measurement_draw_query(s, queries + 6 * i);
         int end = probe_measurement_search(s, queries, more, s->touches);
         if (end) return end;
         for (size_t i = 0; i < more; i++) {
@@ -299,7 +300,7 @@ static const struct {
 #define VERSION 0.05 /* of the triangles, may be more or fewer in another version of a model */
 
 /* A file that bears the name of a model, and has about as many triangles. */
-static void find_model(paper_result *r, double triangles)
+static void published_find_model(paper_result *r, double triangles)
 {
     for (size_t i = 0; i < sizeof models / sizeof *models && r->users_file; i++) {
         double wanted = models[i].triangles;
@@ -327,7 +328,7 @@ int paper_probe(paper *p, const mw_arrays *arrays, const char *name, bool users_
     r->walks = r->whole = true;
     r->outcome.vertices = info.vertices - info.unused_vertices;
     r->outcome.whole[MESH_TRIANGLES] = info.triangles;
-    find_model(r, info.triangles);
+    published_find_model(r, info.triangles);
     int end = probe_measurement_prepare(&s, &info);
     if (end == 0) end = probe_measurement_count(&s, &r->outcome);
     if (end == 0 && !p->settings->no_times) end = probe_measurement_time(&s, &r->outcome);

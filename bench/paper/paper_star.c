@@ -31,16 +31,16 @@ typedef struct star_measurement {
     uint64_t random; /* of the queries */
 } star_measurement;
 
-static const algorithm *algorithm_of(const star_measurement *s, size_t i)
+static const algorithm *star_measurement_algorithm(const star_measurement *s, size_t i)
 {
     return s->paper->table->algorithms[i];
 }
 
 /* Where the table is about indexes, an algorithm has the name of its start. */
-static mw_star_start_kind start_of(const star_measurement *s, size_t i)
+static mw_star_start_kind star_measurement_start(const star_measurement *s, size_t i)
 {
     const char *start = s->paper->table->start;
-    return mw_star_start_by_name(strcmp(start, "index") == 0 ? algorithm_of(s, i)->name : start);
+    return mw_star_start_by_name(strcmp(start, "index") == 0 ? star_measurement_algorithm(s, i)->name : start);
 }
 
 static void star_measurement_release(star_measurement *s)
@@ -52,7 +52,7 @@ static void star_measurement_release(star_measurement *s)
 }
 
 /* An octahedron of 8 facets, each level with four times as many. */
-static uint32_t levels_of(uint32_t elements)
+static uint32_t octahedron_levels(uint32_t elements)
 {
     uint32_t level = 0;
     while (UINT32_C(8) << 2 * level < elements) level++;
@@ -62,17 +62,17 @@ static uint32_t levels_of(uint32_t elements)
 static int star_measurement_prepare(star_measurement *s, uint32_t elements)
 {
     mw_error error;
-    mw_star_index_options options = {.cells = elements, .levels = levels_of(elements) + 1};
+    mw_star_index_options options = {.cells = elements, .levels = octahedron_levels(elements) + 1};
     progress_phase("preparing", s->name);
-    while (algorithm_of(s, s->algorithms)) s->algorithms++;
+    while (star_measurement_algorithm(s, s->algorithms)) s->algorithms++;
     s->random = ~s->paper->settings->common.seed;
     s->queries = malloc(3 * BLOCK * sizeof *s->queries);
     s->answers = malloc(BLOCK * sizeof *s->answers);
     s->locations = malloc(BLOCK * sizeof *s->locations);
     if (!s->queries || !s->answers || !s->locations) return fail_memory();
     for (size_t i = 0; i < s->algorithms; i++)
-        if (mw_star_start_has_index(start_of(s, i)) &&
-            mw_star_index_create(s->star, start_of(s, i), &options, &s->index[i], &error) != MW_OK)
+        if (mw_star_start_has_index(star_measurement_start(s, i)) &&
+            mw_star_index_create(s->star, star_measurement_start(s, i), &options, &s->index[i], &error) != MW_OK)
             return fail_mesh(s->name, &error);
     return 0;
 }
@@ -89,8 +89,8 @@ static void star_measurement_draw(star_measurement *s, size_t n)
 static mw_star_query_options paper_star_options(const star_measurement *s, size_t i)
 {
     return (mw_star_query_options){
-        .walk = mw_star_walk_by_name(algorithm_of(s, i)->walk),
-        .start = start_of(s, i),
+        .walk = mw_star_walk_by_name(star_measurement_algorithm(s, i)->walk),
+        .start = star_measurement_start(s, i),
         .finish = mw_star_walk_by_name(s->paper->table->finish),
         .index = s->index[i],
         .seed = s->paper->settings->common.seed,
@@ -125,7 +125,7 @@ static int star_measurement_count_block(star_measurement *s, size_t n, uint64_t 
         if (mw_star_locate_batch(s->star, s->queries, n, 3, &options, s->locations, &counters, &error) != MW_OK)
             return fail_mesh(s->name, &error);
         mw_counters_add(&sums[i], &counters);
-        int end = star_measurement_compare(s, n, algorithm_of(s, i)->name);
+        int end = star_measurement_compare(s, n, star_measurement_algorithm(s, i)->name);
         if (end) return end;
     }
     return 0;
@@ -133,7 +133,7 @@ static int star_measurement_count_block(star_measurement *s, size_t n, uint64_t 
 
 /* The paper's orthogonal walk counts the facets that it enters, and two comparisons for each; ours
  * the first one, too. */
-static void leave_out_first(double value[QUANTITIES])
+static void star_values_leave_out_first(double value[QUANTITIES])
 {
     value[TRIANGLES] -= 1;
     value[COMPARISONS] -= 2;
@@ -150,7 +150,7 @@ static void star_measurement_take_counts(const star_measurement *s, size_t i, co
     value[ORIENT] = (double)c->orient / queries;
     value[ORIENT_FINAL] = (double)c->orient_final / queries;
     value[COMPARISONS] = (double)c->comparisons / queries;
-    if (c->comparisons) leave_out_first(value);
+    if (c->comparisons) star_values_leave_out_first(value);
     if (!s->index[i]) return;
     mw_star_index_info info;
     mw_star_index_describe(s->index[i], &info);
@@ -230,7 +230,7 @@ static int paper_measure_star(paper *p, const mw_surface *surface, const mw_star
 }
 
 /* The origin; or the mean of the vertices, where that will not do. */
-static mw_status make_star(const mw_surface *surface, mw_star **star, mw_error *error)
+static mw_status star_make_checked(const mw_surface *surface, mw_star **star, mw_error *error)
 {
     mw_star_options options = {.angles = 1};
     uint32_t count = mw_surface_vertex_count(surface);
@@ -252,7 +252,8 @@ int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool users_f
     mw_star *star = NULL;
     mw_surface_options options = {.weld = 1};
     int end = 0;
-    if (mw_surface_create(arrays, &options, &surface, &error) != MW_OK || make_star(surface, &star, &error) != MW_OK)
+    if (mw_surface_create(arrays, &options, &surface, &error) != MW_OK ||
+        star_make_checked(surface, &star, &error) != MW_OK)
         end = fail_mesh(name, &error);
     else if (strcmp(p->table->start, "index") != 0)
         end = paper_measure_star(p, surface, star, name, users_file, 0);

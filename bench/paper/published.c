@@ -26,14 +26,14 @@ static const published_row rows[] = {
 };
 #define ROWS (sizeof rows / sizeof *rows)
 
-static const double *cell_of(const published_row *r, quantity q)
+static const double *published_row_cell(const published_row *r, quantity q)
 {
     for (size_t i = 0; i < r->count; i++)
         if (r->cells[i].quantity == q) return &r->cells[i].value;
     return NULL;
 }
 
-static bool is_about(const published_row *r, const char *table, const char *walk)
+static bool published_row_is_about(const published_row *r, const char *table, const char *walk)
 {
     return strcmp(r->table, table) == 0 && strcmp(r->algorithm, walk) == 0;
 }
@@ -41,8 +41,9 @@ static bool is_about(const published_row *r, const char *table, const char *walk
 double published_value(const char *table, const char *set, size_t vertices, const char *walk, quantity q)
 {
     for (const published_row *r = rows; r < rows + ROWS; r++) {
-        if (!is_about(r, table, walk) || r->vertices != vertices || strcmp(r->dataset, set) != 0) continue;
-        const double *value = cell_of(r, q);
+        if (!published_row_is_about(r, table, walk) || r->vertices != vertices || strcmp(r->dataset, set) != 0)
+            continue;
+        const double *value = published_row_cell(r, q);
         return value ? *value : NAN;
     }
     return NAN;
@@ -51,11 +52,11 @@ double published_value(const char *table, const char *set, size_t vertices, cons
 bool published_prints(const char *table, const char *walk, quantity q)
 {
     for (const published_row *r = rows; r < rows + ROWS; r++)
-        if (is_about(r, table, walk) && cell_of(r, q)) return true;
+        if (published_row_is_about(r, table, walk) && published_row_cell(r, q)) return true;
     return false;
 }
 
-static bool is_real(const published_row *r, const char *table)
+static bool published_row_is_real(const published_row *r, const char *table)
 {
     static const char *const real[] = {"cadastre", "lidar", "skull", "bunny"};
     for (size_t i = 0; i < sizeof real / sizeof *real; i++)
@@ -67,8 +68,8 @@ static bool is_real(const published_row *r, const char *table)
 bool published_real(const char *table, size_t i, const char **set, size_t *vertices)
 {
     for (const published_row *r = rows; r < rows + ROWS; r++) {
-        bool again = r > rows && is_real(r - 1, table) && r[-1].vertices == r->vertices;
-        if (!is_real(r, table) || again || i-- > 0) continue;
+        bool again = r > rows && published_row_is_real(r - 1, table) && r[-1].vertices == r->vertices;
+        if (!published_row_is_real(r, table) || again || i-- > 0) continue;
         *set = r->dataset;
         *vertices = r->vertices;
         return true;

@@ -32,7 +32,7 @@ static void comparison_row_cells(const comparison_row *r, char cells[COLUMNS][WI
     comparison_number(cells[8], 0, r->wrong);
 }
 
-static bool is_text(size_t column)
+static bool comparison_column_is_text(size_t column)
 {
     return column < 2 || column == 3;
 }
@@ -58,7 +58,7 @@ static void comparison_print_json(const comparison_table *table, text *t)
         text_string(t, i ? ",\n {" : "\n {");
         for (size_t k = 0; k < COLUMNS; k++) {
             text_printf(t, "%s\"%s\": ", k ? ", " : "", names[k]);
-            if (is_text(k))
+            if (comparison_column_is_text(k))
                 report_quote(t, cells[k]);
             else
                 text_string(t, *cells[k] ? cells[k] : "null");
@@ -69,10 +69,10 @@ static void comparison_print_json(const comparison_table *table, text *t)
 }
 
 /* Words to the left, numbers to the right. */
-static void print_aligned(const char *const cells[COLUMNS], const int width[COLUMNS], text *t)
+static void comparison_print_aligned(const char *const cells[COLUMNS], const int width[COLUMNS], text *t)
 {
     for (size_t k = 0; k < COLUMNS; k++)
-        text_printf(t, is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k], cells[k]);
+        text_printf(t, comparison_column_is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k], cells[k]);
     text_string(t, "\n");
 }
 
@@ -94,12 +94,12 @@ static void comparison_print_table(const comparison_table *table, text *t)
         for (size_t k = 0; k < COLUMNS; k++)
             if ((int)strlen(cells[k]) > width[k]) width[k] = (int)strlen(cells[k]);
     }
-    print_aligned(names, width, t);
+    comparison_print_aligned(names, width, t);
     for (size_t i = 0; i < table->count; i++) {
         if (i > 0 && comparison_is_new_block(table->rows, i)) text_string(t, "\n");
         comparison_row_cells(&table->rows[i], cells);
         for (size_t k = 0; k < COLUMNS; k++) row[k] = cells[k];
-        print_aligned(row, width, t);
+        comparison_print_aligned(row, width, t);
     }
 }
 

@@ -117,12 +117,12 @@ static void workload_draw_dense(workload *w, double *query)
 }
 
 /* How queries are proposed, and which of them are taken. */
-typedef struct query_source {
+typedef struct drawn_source {
     const dataset *region; /* uniform in it; NULL: dense */
     bool outside;
-} query_source;
+} drawn_source;
 
-static void workload_propose(workload *w, const query_source *from, double *queries, size_t n)
+static void workload_propose(workload *w, const drawn_source *from, double *queries, size_t n)
 {
     if (from->region)
         dataset_draw(from->region, queries, n, &w->random);
@@ -133,7 +133,7 @@ static void workload_propose(workload *w, const query_source *from, double *quer
 /* So many drawn in vain, beyond a thousand for each found, are no accident. */
 #define DRAWN_IN_VAIN 1000000
 
-static int workload_draw_from(workload *w, const query_source *from, double *queries, size_t n)
+static int workload_draw_from(workload *w, const drawn_source *from, double *queries, size_t n)
 {
     size_t found = 0, drawn = 0;
     mw_location *locations = malloc(BLOCK * sizeof *locations);
@@ -158,7 +158,7 @@ static int workload_draw_from(workload *w, const query_source *from, double *que
 
 static int workload_draw_inside(workload *w, double *queries, size_t n)
 {
-    return workload_draw_from(w, &(query_source){.region = &w->region}, queries, n);
+    return workload_draw_from(w, &(drawn_source){.region = &w->region}, queries, n);
 }
 
 /* Outside is what a domain twice as wide and high, about the same middle, has beside the mesh, its
@@ -174,7 +174,7 @@ static int workload_draw_half_outside(workload *w, double *queries, size_t n)
     int end = workload_draw_inside(w, queries, n / 2);
     if (end == 0)
         end =
-            workload_draw_from(w, &(query_source){.region = &wide, .outside = true}, queries + 2 * (n / 2), n - n / 2);
+            workload_draw_from(w, &(drawn_source){.region = &wide, .outside = true}, queries + 2 * (n / 2), n - n / 2);
     for (size_t i = n; i > 1 && end == 0; i--) {
         double other[2], *a = queries + 2 * (i - 1);
         double *b = queries + 2 * (size_t)(dataset_unit(&w->random) * (double)i);
@@ -293,7 +293,7 @@ static int workload_draw_task(workload *w, engine_task task, double *queries, si
     case TASK_SORTED: return workload_draw_sorted(w, queries, n);
     case TASK_COHERENT: return workload_draw_coherent(w, queries, n);
     case TASK_HALF_OUTSIDE: return workload_draw_half_outside(w, queries, n);
-    case TASK_DENSE: return workload_draw_from(w, &(query_source){.region = NULL}, queries, n);
+    case TASK_DENSE: return workload_draw_from(w, &(drawn_source){.region = NULL}, queries, n);
     default: return workload_draw_inside(w, queries, n);
     }
 }

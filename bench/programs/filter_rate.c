@@ -37,7 +37,7 @@ typedef struct point_cloud {
     size_t count, capacity;
 } point_cloud;
 
-static void *checked(void *memory)
+static void *memory_checked(void *memory)
 {
     if (memory) return memory;
     fprintf(stderr, "filter_rate: out of memory\n");
@@ -48,7 +48,7 @@ static void point_cloud_add(point_cloud *c, double x, double y)
 {
     if (c->count == c->capacity) {
         c->capacity = 2 * c->capacity + 1024;
-        c->xy = checked(realloc(c->xy, 2 * c->capacity * sizeof(double)));
+        c->xy = memory_checked(realloc(c->xy, 2 * c->capacity * sizeof(double)));
     }
     c->xy[2 * c->count] = x;
     c->xy[2 * c->count++ + 1] = y;
@@ -56,7 +56,7 @@ static void point_cloud_add(point_cloud *c, double x, double y)
 
 /* ---- points ---- */
 
-static void make_uniform(point_cloud *c)
+static void point_cloud_make_uniform(point_cloud *c)
 {
     uint64_t state = 1;
     for (int i = 0; i < 200000; i++) {
@@ -66,7 +66,7 @@ static void make_uniform(point_cloud *c)
 }
 
 /* A square kilometre of points on the ground. */
-static void make_centimetres(point_cloud *c)
+static void point_cloud_make_centimetres(point_cloud *c)
 {
     uint64_t state = 1;
     for (int i = 0; i < 200000; i++) {
@@ -75,14 +75,14 @@ static void make_centimetres(point_cloud *c)
     }
 }
 
-static void make_grid(point_cloud *c)
+static void point_cloud_make_grid(point_cloud *c)
 {
     for (int i = 0; i < 450; i++) {
         for (int k = 0; k < 450; k++) point_cloud_add(c, 4.5e5 + 30 * i, 5.4e6 + 30 * k);
     }
 }
 
-static void read_points(point_cloud *c, const char *path)
+static void point_cloud_read(point_cloud *c, const char *path)
 {
     FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
     char line[4096];
@@ -102,7 +102,7 @@ static void read_points(point_cloud *c, const char *path)
 
 /* ---- calls ---- */
 
-static mw_point vertex(const mw_mesh *mesh, uint32_t number)
+static mw_point mesh_vertex_point(const mw_mesh *mesh, uint32_t number)
 {
     double p[2];
     mw_mesh_vertex(mesh, number, p);
@@ -110,13 +110,13 @@ static mw_point vertex(const mw_mesh *mesh, uint32_t number)
 }
 
 /* The vertex across a local edge of a triangle; false at the border. */
-static bool across(const mw_mesh *mesh, uint32_t triangle, unsigned edge, mw_point *apex)
+static bool mesh_apex_across(const mw_mesh *mesh, uint32_t triangle, unsigned edge, mw_point *apex)
 {
     unsigned there;
     uint32_t corner[3], other = mw_mesh_neighbour(mesh, triangle, edge, &there);
     if (other == MW_NONE) return false;
     mw_mesh_triangle(mesh, other, corner);
-    *apex = vertex(mesh, corner[(there + 2) % 3]);
+    *apex = mesh_vertex_point(mesh, corner[(there + 2) % 3]);
     return true;
 }
 
@@ -134,20 +134,20 @@ static void collect_calls(call_list list[LISTS], const mw_mesh *mesh, const doub
     uint64_t state = 2;
     uint32_t triangles = mw_mesh_triangle_count(mesh);
     for (int i = 0; i < LISTS; i++)
-        list[i] = (call_list){checked(malloc((3 * (size_t)triangles + 1) * sizeof(predicate_call))), 0};
+        list[i] = (call_list){memory_checked(malloc((3 * (size_t)triangles + 1) * sizeof(predicate_call))), 0};
     for (uint32_t t = 0; t < triangles; t++) {
         uint32_t corner[3];
         mw_mesh_triangle(mesh, t, corner);
         for (unsigned k = 0; k < 3; k++) {
-            mw_point a = vertex(mesh, corner[k]), b = vertex(mesh, corner[(k + 1) % 3]);
-            mw_point c = vertex(mesh, corner[(k + 2) % 3]), apex;
+            mw_point a = mesh_vertex_point(mesh, corner[k]), b = mesh_vertex_point(mesh, corner[(k + 1) % 3]);
+            mw_point c = mesh_vertex_point(mesh, corner[(k + 2) % 3]), apex;
             const double *other = xy + 2 * (size_t)(dataset_unit(&state) * (double)count);
             double s = dataset_unit(&state), u = dataset_unit(&state);
             call_list_add(&list[FAR], a, b,
                           (mw_point){other[0] + u * (a.x - other[0]), other[1] + u * (a.y - other[1])}, c);
             call_list_add(&list[ON_EDGE], a, b, (mw_point){a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, c);
-            if (across(mesh, t, (k + 1) % 3, &apex)) call_list_add(&list[NEAR], a, b, apex, c);
-            if (across(mesh, t, k, &apex)) call_list_add(&list[INCIRCLE], a, b, c, apex);
+            if (mesh_apex_across(mesh, t, (k + 1) % 3, &apex)) call_list_add(&list[NEAR], a, b, apex, c);
+            if (mesh_apex_across(mesh, t, k, &apex)) call_list_add(&list[INCIRCLE], a, b, c, apex);
         }
     }
 }
@@ -180,7 +180,7 @@ static size_t incircle_filter(const call_list *list)
     return undecided;
 }
 
-static size_t orient2d_exact(const call_list *list)
+static size_t time_orient2d_exact(const call_list *list)
 {
     double sum = 0;
     for (size_t i = 0; i < list->count; i++) {
@@ -191,7 +191,7 @@ static size_t orient2d_exact(const call_list *list)
     return 0;
 }
 
-static size_t incircle_exact(const call_list *list)
+static size_t time_incircle_exact(const call_list *list)
 {
     double sum = 0;
     for (size_t i = 0; i < list->count; i++) {
@@ -219,7 +219,7 @@ static void report_list(int kind, const call_list *list)
 {
     size_t undecided, none;
     double filter = time_pass(kind == INCIRCLE ? incircle_filter : orient2d_filter, list, &undecided);
-    double exact = time_pass(kind == INCIRCLE ? incircle_exact : orient2d_exact, list, &none);
+    double exact = time_pass(kind == INCIRCLE ? time_incircle_exact : time_orient2d_exact, list, &none);
     double share = list->count ? 100 * (double)undecided / (double)list->count : 0;
     printf("  %-9s %9zu calls, exact stage %9zu (%8.4f %%), filter %6.2f ns, exact %8.2f ns\n", list_names[kind],
            list->count, undecided, share, filter, exact);
@@ -245,14 +245,15 @@ static void report_points(const char *name, const point_cloud *points)
 
 int main(int argc, char **argv)
 {
-    static void (*const make[3])(point_cloud * c) = {make_uniform, make_centimetres, make_grid};
+    static void (*const make[3])(point_cloud * c) = {point_cloud_make_uniform, point_cloud_make_centimetres,
+                                                     point_cloud_make_grid};
     static const char *const made[3] = {"uniform", "centimetres", "grid"};
     for (int i = 1; i < argc || (argc == 1 && i <= 3); i++) {
         point_cloud points = {0};
         if (argc == 1)
             make[i - 1](&points);
         else
-            read_points(&points, argv[i]);
+            point_cloud_read(&points, argv[i]);
         report_points(argc == 1 ? made[i - 1] : argv[i], &points);
         free(points.xy);
     }

@@ -28,7 +28,7 @@
 
 static const double green[3] = {0.00, 0.62, 0.45}, vermilion[3] = {0.84, 0.37, 0.00};
 
-static void mix(const double a[3], const double b[3], double part, double rgb[3])
+static void colour_mix(const double a[3], const double b[3], double part, double rgb[3])
 {
     for (int k = 0; k < 3; k++) rgb[k] = a[k] + part * (b[k] - a[k]);
 }
@@ -36,13 +36,13 @@ static void mix(const double a[3], const double b[3], double part, double rgb[3]
 #define HUES 4
 
 /* From light to dark: blue, purple, brown, pink. */
-static void hue_shade(uint32_t hue, double part, double rgb[3])
+static void colour_of_hue(uint32_t hue, double part, double rgb[3])
 {
     static const double light[HUES][3] = {
         {0.80, 0.90, 0.98}, {0.93, 0.83, 0.95}, {0.98, 0.92, 0.75}, {0.99, 0.87, 0.90}};
     static const double dark[HUES][3] = {
         {0.03, 0.25, 0.55}, {0.42, 0.13, 0.45}, {0.50, 0.33, 0.00}, {0.62, 0.10, 0.28}};
-    mix(light[hue], dark[hue], part, rgb);
+    colour_mix(light[hue], dark[hue], part, rgb);
 }
 
 /* The stages of a search have a colour each: the second, which is the walk, blue. */
@@ -53,13 +53,13 @@ static uint32_t stage_hue(uint32_t stage)
 }
 
 /* Each walk has a colour, or each stage of one; it grows dark on the way. */
-static void shade(const scene *s, uint32_t visit, double rgb[3])
+static void colour_of_visit(const scene *s, uint32_t visit, double rgb[3])
 {
     uint32_t hue = s->d->stage ? stage_hue(s->d->stage[visit]) : s->d->iteration[visit] % 3;
-    hue_shade(hue, s->part[visit], rgb);
+    colour_of_hue(hue, s->part[visit], rgb);
 }
 
-static void colour_of(const scene *s, const painted_triangle *p, double rgb[3])
+static void colour_of_triangle(const scene *s, const painted_triangle *p, double rgb[3])
 {
     const drawing *d = s->d;
     if (p->triangle == d->path[d->path_count - 1])
@@ -67,42 +67,42 @@ static void colour_of(const scene *s, const painted_triangle *p, double rgb[3])
     else if (p->triangle == d->path[0])
         memcpy(rgb, green, sizeof green);
     else
-        shade(s, s->visit[p->triangle], rgb);
-    if (p->back) mix(rgb, (const double[]){1, 1, 1}, 0.45, rgb);
+        colour_of_visit(s, s->visit[p->triangle], rgb);
+    if (p->back) colour_mix(rgb, (const double[]){1, 1, 1}, 0.45, rgb);
 }
 
 /* --- painting ----------------------------------------------------------------------------------------------------- */
 
 /* Points of a unit. */
-static double scale_of(const scene *s)
+static double scene_scale(const scene *s)
 {
     return PAGE_SIDE / page_box_side(&s->shown);
 }
 
-static double page_x(const scene *s, double x)
+static double scene_page_x(const scene *s, double x)
 {
-    return MARGIN + (x - s->shown.low[0]) * scale_of(s);
+    return MARGIN + (x - s->shown.low[0]) * scene_scale(s);
 }
 
-static double page_y(const scene *s, double y)
+static double scene_page_y(const scene *s, double y)
 {
-    return MARGIN + (s->shown.high[1] - y) * scale_of(s);
+    return MARGIN + (s->shown.high[1] - y) * scene_scale(s);
 }
 
 /* Thinner where triangles are small on the page. */
-static double line_width(const scene *s)
+static double scene_line_width(const scene *s)
 {
     double sum = 0;
     for (size_t i = 0; i < s->count; i++) {
         page_box b = scene_box(s, s->painted[i].triangle);
         sum += page_box_side(&b);
     }
-    double mean = s->count ? sum / (double)s->count * scale_of(s) : 10;
+    double mean = s->count ? sum / (double)s->count * scene_scale(s) : 10;
     return fmin(0.6, fmax(0.08, 0.05 * mean));
 }
 
 /* Where triangles are left out, a faint grey in their place. */
-static void paint_veil(cairo_t *c, const scene *s)
+static void scene_paint_veil(cairo_t *c, const scene *s)
 {
     double side[2];
     if (!s->veil) return;
@@ -112,29 +112,29 @@ static void paint_veil(cairo_t *c, const scene *s)
         for (size_t x = 0, end; x < SCENE_CELLS; x = end + 1) {
             for (end = x; end < SCENE_CELLS && s->veil[y * SCENE_CELLS + end];) end++;
             if (end == x) continue;
-            double left = page_x(s, s->shown.low[0] + (double)x * side[0]);
-            double top = page_y(s, s->shown.low[1] + (double)(y + 1) * side[1]);
-            cairo_rectangle(c, left, top, (double)(end - x) * side[0] * scale_of(s), side[1] * scale_of(s));
+            double left = scene_page_x(s, s->shown.low[0] + (double)x * side[0]);
+            double top = scene_page_y(s, s->shown.low[1] + (double)(y + 1) * side[1]);
+            cairo_rectangle(c, left, top, (double)(end - x) * side[0] * scene_scale(s), side[1] * scene_scale(s));
         }
     cairo_fill(c);
 }
 
-static void trace(cairo_t *c, const scene *s, uint32_t triangle)
+static void triangle_trace(cairo_t *c, const scene *s, uint32_t triangle)
 {
     for (size_t k = 0; k < 3; k++) {
         const page_point *at = scene_corner(s, triangle, k);
-        cairo_line_to(c, page_x(s, at->x), page_y(s, at->y));
+        cairo_line_to(c, scene_page_x(s, at->x), scene_page_y(s, at->y));
     }
     cairo_close_path(c);
 }
 
-static void paint(cairo_t *c, const scene *s, const painted_triangle *p, double width)
+static void triangle_paint(cairo_t *c, const scene *s, const painted_triangle *p, double width)
 {
     bool walk = s->visit[p->triangle] != UINT32_MAX;
     double rgb[3];
-    trace(c, s, p->triangle);
+    triangle_trace(c, s, p->triangle);
     if (walk) {
-        colour_of(s, p, rgb);
+        colour_of_triangle(s, p, rgb);
         cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
         cairo_fill_preserve(c);
     } else if (s->d->view != VIEW_PLANE) {
@@ -148,20 +148,20 @@ static void paint(cairo_t *c, const scene *s, const painted_triangle *p, double 
 }
 
 /* A triangle that is too small or thin to show its colour gets a ring of it. */
-static void ring(cairo_t *c, const scene *s, uint32_t triangle, const double rgb[3])
+static void triangle_ring(cairo_t *c, const scene *s, uint32_t triangle, const double rgb[3])
 {
     page_box b = scene_box(s, triangle);
-    if (!scene_is_finite(s, triangle) || fmin(b.high[0] - b.low[0], b.high[1] - b.low[1]) * scale_of(s) > 1.5 * RING)
+    if (!scene_is_finite(s, triangle) || fmin(b.high[0] - b.low[0], b.high[1] - b.low[1]) * scene_scale(s) > 1.5 * RING)
         return;
     cairo_new_sub_path(c);
-    cairo_arc(c, page_x(s, b.low[0] / 2 + b.high[0] / 2), page_y(s, b.low[1] / 2 + b.high[1] / 2), RING, 0,
+    cairo_arc(c, scene_page_x(s, b.low[0] / 2 + b.high[0] / 2), scene_page_y(s, b.low[1] / 2 + b.high[1] / 2), RING, 0,
               2 * acos(-1));
     cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
     cairo_set_line_width(c, 2);
     cairo_stroke(c);
 }
 
-static void paint_line(cairo_t *c, const scene *s)
+static void scene_paint_line(cairo_t *c, const scene *s)
 {
     const double *line = s->d->line;
     cairo_set_line_width(c, 1.1);
@@ -172,20 +172,20 @@ static void paint_line(cairo_t *c, const scene *s)
             projection_shows(&s->projection, line + 3 * i) && projection_shows(&s->projection, line + 3 * i + 3);
         double grey = seen ? 0 : 0.6;
         cairo_set_source_rgb(c, grey, grey, grey);
-        cairo_move_to(c, page_x(s, a.x), page_y(s, a.y));
-        cairo_line_to(c, page_x(s, b.x), page_y(s, b.y));
+        cairo_move_to(c, scene_page_x(s, a.x), scene_page_y(s, a.y));
+        cairo_line_to(c, scene_page_x(s, b.x), scene_page_y(s, b.y));
         cairo_stroke(c);
     }
 }
 
 /* The beginning of the line is a ring, its end a disc. */
-static void paint_end(cairo_t *c, const scene *s, const double *point, bool last)
+static void scene_paint_end(cairo_t *c, const scene *s, const double *point, bool last)
 {
     page_point at = projection_at(&s->projection, point);
     if (!page_point_is_finite(&at)) return;
     double grey = projection_shows(&s->projection, point) ? 0 : 0.6, paper = last ? grey : 1;
     cairo_new_sub_path(c);
-    cairo_arc(c, page_x(s, at.x), page_y(s, at.y), 2.5, 0, 2 * acos(-1));
+    cairo_arc(c, scene_page_x(s, at.x), scene_page_y(s, at.y), 2.5, 0, 2 * acos(-1));
     cairo_set_source_rgb(c, paper, paper, paper);
     cairo_fill_preserve(c);
     cairo_set_source_rgb(c, grey, grey, grey);
@@ -193,7 +193,7 @@ static void paint_end(cairo_t *c, const scene *s, const double *point, bool last
     cairo_stroke(c);
 }
 
-static double write_words(cairo_t *c, double x, double y, const char *words)
+static double legend_write_words(cairo_t *c, double x, double y, const char *words)
 {
     cairo_text_extents_t e;
     cairo_set_source_rgb(c, 0.1, 0.1, 0.1);
@@ -203,12 +203,12 @@ static double write_words(cairo_t *c, double x, double y, const char *words)
     return x + e.x_advance;
 }
 
-static double sample(cairo_t *c, double x, double y, const double rgb[3], const char *words)
+static double legend_sample(cairo_t *c, double x, double y, const double rgb[3], const char *words)
 {
     cairo_rectangle(c, x, y - 8, 9, 9);
     cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
     cairo_fill(c);
-    return write_words(c, x + 13, y, words) + 14;
+    return legend_write_words(c, x + 13, y, words) + 14;
 }
 
 static bool stage_is_seen(const drawing *d, uint32_t stage)
@@ -219,13 +219,13 @@ static bool stage_is_seen(const drawing *d, uint32_t stage)
 }
 
 /* The legend: what the colours mean, of the stages that there are, and the line. */
-static double paint_stages(cairo_t *c, const drawing *d, double x, double y)
+static double legend_paint_stages(cairo_t *c, const drawing *d, double x, double y)
 {
     double rgb[3];
     for (uint32_t stage = 0; d->stage && d->stage_names[stage]; stage++) {
         if (!stage_is_seen(d, stage)) continue;
-        hue_shade(stage_hue(stage), 0.6, rgb);
-        x = sample(c, x, y, rgb, d->stage_names[stage]);
+        colour_of_hue(stage_hue(stage), 0.6, rgb);
+        x = legend_sample(c, x, y, rgb, d->stage_names[stage]);
     }
     if (!d->stage || d->line_count < 2 || isnan(d->line[3])) return x;
     cairo_set_source_rgb(c, 0, 0, 0);
@@ -233,50 +233,50 @@ static double paint_stages(cairo_t *c, const drawing *d, double x, double y)
     cairo_move_to(c, x, y - 3.5);
     cairo_line_to(c, x + 14, y - 3.5);
     cairo_stroke(c);
-    return write_words(c, x + 18, y, "its line") + 14;
+    return legend_write_words(c, x + 18, y, "its line") + 14;
 }
 
-static void paint_caption(cairo_t *c, const scene *s, double y)
+static void scene_paint_caption(cairo_t *c, const scene *s, double y)
 {
     cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(c, 11);
     double x = MARGIN;
-    write_words(c, x, y, s->d->caption);
+    legend_write_words(c, x, y, s->d->caption);
     if (!s->d->path_count) return;
-    x = sample(c, x, y + LEGEND, green, "first");
-    x = sample(c, x, y + LEGEND, vermilion, "last");
-    paint_stages(c, s->d, x, y + LEGEND);
+    x = legend_sample(c, x, y + LEGEND, green, "first");
+    x = legend_sample(c, x, y + LEGEND, vermilion, "last");
+    legend_paint_stages(c, s->d, x, y + LEGEND);
 }
 
-static double page_width(const scene *s)
+static double scene_page_width(const scene *s)
 {
-    return 2 * MARGIN + fmax(PAGE_LEAST, (s->shown.high[0] - s->shown.low[0]) * scale_of(s));
+    return 2 * MARGIN + fmax(PAGE_LEAST, (s->shown.high[0] - s->shown.low[0]) * scene_scale(s));
 }
 
-static double page_height(const scene *s)
+static double scene_page_height(const scene *s)
 {
-    return MARGIN + (s->shown.high[1] - s->shown.low[1]) * scale_of(s) + CAPTION;
+    return MARGIN + (s->shown.high[1] - s->shown.low[1]) * scene_scale(s) + CAPTION;
 }
 
-static void draw(cairo_t *c, const void *self)
+static void drawing_draw(cairo_t *c, const void *self)
 {
     const scene *s = self;
-    double width = line_width(s);
+    double width = scene_line_width(s);
     cairo_save(c);
-    cairo_rectangle(c, 0, 0, page_width(s), page_height(s) - CAPTION + 4);
+    cairo_rectangle(c, 0, 0, scene_page_width(s), scene_page_height(s) - CAPTION + 4);
     cairo_clip(c);
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
-    paint_veil(c, s);
-    for (size_t i = 0; i < s->count; i++) paint(c, s, &s->painted[i], width);
-    paint_line(c, s);
+    scene_paint_veil(c, s);
+    for (size_t i = 0; i < s->count; i++) triangle_paint(c, s, &s->painted[i], width);
+    scene_paint_line(c, s);
     if (s->d->path_count) {
-        ring(c, s, s->d->path[0], green);
-        ring(c, s, s->d->path[s->d->path_count - 1], vermilion);
+        triangle_ring(c, s, s->d->path[0], green);
+        triangle_ring(c, s, s->d->path[s->d->path_count - 1], vermilion);
     }
-    paint_end(c, s, s->d->line, false);
-    paint_end(c, s, s->d->line + 3 * (s->d->line_count - 1), true);
+    scene_paint_end(c, s, s->d->line, false);
+    scene_paint_end(c, s, s->d->line + 3 * (s->d->line_count - 1), true);
     cairo_restore(c);
-    paint_caption(c, s, page_height(s) - 9 - LEGEND);
+    scene_paint_caption(c, s, scene_page_height(s) - 9 - LEGEND);
 }
 
 /* --- sheets ------------------------------------------------------------------------------------------------------- */
@@ -288,13 +288,13 @@ typedef struct sheet {
     double width, height; /* of a field */
 } sheet;
 
-static void draw_sheet(cairo_t *c, const void *self)
+static void drawing_draw_sheet(cairo_t *c, const void *self)
 {
     const sheet *all = self;
     for (size_t i = 0; i < all->count; i++) {
         cairo_save(c);
         cairo_translate(c, (double)(i % all->columns) * all->width, (double)(i / all->columns) * all->height);
-        draw(c, &all->scenes[i]);
+        drawing_draw(c, &all->scenes[i]);
         cairo_restore(c);
     }
 }
@@ -305,13 +305,14 @@ int drawing_write_sheet(const drawing *d, size_t count, const char *path)
     bool made = all.scenes;
     while (made && all.count < count) {
         made = scene_make(&all.scenes[all.count], &d[all.count]);
-        all.width = fmax(all.width, page_width(&all.scenes[all.count]));
-        all.height = fmax(all.height, page_height(&all.scenes[all.count]));
+        all.width = fmax(all.width, scene_page_width(&all.scenes[all.count]));
+        all.height = fmax(all.height, scene_page_height(&all.scenes[all.count]));
         all.count++;
     }
     size_t rows = made ? (count + all.columns - 1) / all.columns : 0;
-    int end = made ? picture_write(path, (double)all.columns * all.width, (double)rows * all.height, draw_sheet, &all)
-                   : fail_memory();
+    int end =
+        made ? picture_write(path, (double)all.columns * all.width, (double)rows * all.height, drawing_draw_sheet, &all)
+             : fail_memory();
     for (size_t i = 0; i < all.count; i++) scene_release(&all.scenes[i]);
     free(all.scenes);
     return end;

@@ -18,7 +18,7 @@ bool page_point_is_finite(const page_point *at)
     return isfinite(at->x) && isfinite(at->y);
 }
 
-static void grow(page_box *b, const page_point *at)
+static void box_grow(page_box *b, const page_point *at)
 {
     if (!page_point_is_finite(at)) return;
     b->low[0] = fmin(b->low[0], at->x);
@@ -35,7 +35,7 @@ const page_point *scene_corner(const scene *s, uint32_t triangle, size_t k)
 page_box scene_box(const scene *s, uint32_t triangle)
 {
     page_box b = nothing;
-    for (size_t k = 0; k < 3; k++) grow(&b, scene_corner(s, triangle, k));
+    for (size_t k = 0; k < 3; k++) box_grow(&b, scene_corner(s, triangle, k));
     return b;
 }
 
@@ -44,7 +44,7 @@ double page_box_side(const page_box *b)
     return fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]);
 }
 
-static page_box widen(page_box b, double margin)
+static page_box box_widen(page_box b, double margin)
 {
     for (int k = 0; k < 2; k++) {
         b.low[k] -= margin;
@@ -53,7 +53,7 @@ static page_box widen(page_box b, double margin)
     return b;
 }
 
-static page_box join(page_box a, page_box b)
+static page_box box_join(page_box a, page_box b)
 {
     for (int k = 0; k < 2; k++) {
         a.low[k] = fmin(a.low[k], b.low[k]);
@@ -62,7 +62,7 @@ static page_box join(page_box a, page_box b)
     return a;
 }
 
-static page_box meet(page_box a, page_box b)
+static page_box box_meet(page_box a, page_box b)
 {
     for (int k = 0; k < 2; k++) {
         a.low[k] = fmax(a.low[k], b.low[k]);
@@ -72,38 +72,38 @@ static page_box meet(page_box a, page_box b)
 }
 
 /* An end of the line should be seen, unless it lies far away: from a mesh in the plane, or from the walk of a probe. */
-static void grow_to_end(scene *s, const double *point)
+static void scene_grow_to_end(scene *s, const double *point)
 {
     page_point at = projection_at(&s->projection, point);
-    page_box near = s->d->view == VIEW_PLANE ? widen(s->all, 2) : widen(s->shown, page_box_side(&s->shown));
+    page_box near = s->d->view == VIEW_PLANE ? box_widen(s->all, 2) : box_widen(s->shown, page_box_side(&s->shown));
     if (at.x >= near.low[0] && at.x <= near.high[0] && at.y >= near.low[1] && at.y <= near.high[1])
-        grow(&s->shown, &at);
+        box_grow(&s->shown, &at);
 }
 
 /* The walk and the ends of its line, with a margin; the whole mesh where that is not much more. */
-static void choose_box(scene *s)
+static void scene_choose_box(scene *s)
 {
     const drawing *d = s->d;
     double sides = 0;
     s->all = s->shown = nothing;
-    for (size_t i = 0; i < 3 * d->triangle_count; i++) grow(&s->all, &s->at[d->triangles[i]]);
+    for (size_t i = 0; i < 3 * d->triangle_count; i++) box_grow(&s->all, &s->at[d->triangles[i]]);
     for (size_t i = 0; i < d->path_count; i++) {
         page_box b = scene_box(s, d->path[i]);
         sides += page_box_side(&b);
-        for (size_t k = 0; k < 3; k++) grow(&s->shown, scene_corner(s, d->path[i], k));
+        for (size_t k = 0; k < 3; k++) box_grow(&s->shown, scene_corner(s, d->path[i], k));
     }
-    for (size_t i = 0; i < d->line_count; i += d->line_count - 1) grow_to_end(s, d->line + 3 * i);
+    for (size_t i = 0; i < d->line_count; i += d->line_count - 1) scene_grow_to_end(s, d->line + 3 * i);
     double side = page_box_side(&s->shown), mean = d->path_count ? sides / (double)d->path_count : 0;
-    page_box near = widen(s->shown, fmax(0.12 * side, 1.5 * mean)), most = join(s->shown, s->all);
+    page_box near = box_widen(s->shown, fmax(0.12 * side, 1.5 * mean)), most = box_join(s->shown, s->all);
     bool whole = !d->path_count || page_box_side(&near) > 0.6 * page_box_side(&s->all);
-    s->shown = whole ? most : meet(near, most);
-    s->shown = widen(s->shown, 0.02 * page_box_side(&s->shown));
+    s->shown = whole ? most : box_meet(near, most);
+    s->shown = box_widen(s->shown, 0.02 * page_box_side(&s->shown));
     if (!(page_box_side(&s->shown) > 0)) s->shown = (page_box){{-1, -1}, {1, 1}};
 }
 
 /* --- what is painted ---------------------------------------------------------------------------------------------- */
 
-static bool is_in_sight(const scene *s, const page_box *b)
+static bool scene_shows_box(const scene *s, const page_box *b)
 {
     return b->low[0] <= s->shown.high[0] && b->high[0] >= s->shown.low[0] && b->low[1] <= s->shown.high[1] &&
            b->high[1] >= s->shown.low[1];
@@ -115,7 +115,7 @@ bool scene_is_finite(const scene *s, uint32_t triangle)
            page_point_is_finite(scene_corner(s, triangle, 2));
 }
 
-static double depth_of(const scene *s, uint32_t triangle)
+static double scene_depth_of(const scene *s, uint32_t triangle)
 {
     return (scene_corner(s, triangle, 0)->z + scene_corner(s, triangle, 1)->z + scene_corner(s, triangle, 2)->z) / 3;
 }
@@ -125,15 +125,15 @@ static void scene_add_triangle(scene *s, uint32_t triangle)
 {
     page_box b = scene_box(s, triangle);
     bool walk = s->visit[triangle] != UINT32_MAX;
-    if (!scene_is_finite(s, triangle) || !is_in_sight(s, &b)) return;
+    if (!scene_is_finite(s, triangle) || !scene_shows_box(s, &b)) return;
     bool back = projection_turns_back(&s->projection, triangle);
     if (back && !walk) return;
     double key =
-        s->d->view == VIEW_PLANE ? (walk ? s->visit[triangle] : -1.0) : depth_of(s, triangle) - (back ? 10 : 0);
+        s->d->view == VIEW_PLANE ? (walk ? s->visit[triangle] : -1.0) : scene_depth_of(s, triangle) - (back ? 10 : 0);
     s->painted[s->count++] = (painted_triangle){key, triangle, back};
 }
 
-static int by_key(const void *a, const void *b)
+static int painted_compare(const void *a, const void *b)
 {
     const painted_triangle *p = a, *q = b;
     if (p->key != q->key) return p->key < q->key ? -1 : 1;
@@ -147,66 +147,68 @@ typedef struct nearness {
 
 #define FAR 0x7fff
 
-static int cell(double x, double low, double high)
+static int nearness_cell(double x, double low, double high)
 {
     double c = 1 + floor((x - low) / (high - low) * CELLS);
     return c < 1 ? 1 : c > CELLS ? CELLS : (int)c;
 }
 
-static void mark_walk(const scene *s, nearness *near)
+static void nearness_mark_walk(const scene *s, nearness *near)
 {
     const page_box *v = &s->shown;
     for (size_t i = 0; i < s->d->path_count; i++) {
         if (!scene_is_finite(s, s->d->path[i])) continue;
         page_box b = scene_box(s, s->d->path[i]);
-        int right = cell(b.high[0], v->low[0], v->high[0]), top = cell(b.high[1], v->low[1], v->high[1]);
-        for (int y = cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
-            for (int x = cell(b.low[0], v->low[0], v->high[0]); x <= right; x++) near->cells[y][x] = 0;
+        int right = nearness_cell(b.high[0], v->low[0], v->high[0]),
+            top = nearness_cell(b.high[1], v->low[1], v->high[1]);
+        for (int y = nearness_cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
+            for (int x = nearness_cell(b.low[0], v->low[0], v->high[0]); x <= right; x++) near->cells[y][x] = 0;
     }
 }
 
-static uint16_t closer(uint16_t here, uint16_t there)
+static uint16_t nearness_closer(uint16_t here, uint16_t there)
 {
     return there + 1 < here ? (uint16_t)(there + 1) : here;
 }
 
 /* Steps of a king, in two sweeps. */
-static void spread(nearness *near)
+static void nearness_spread(nearness *near)
 {
     for (int y = 1; y <= CELLS; y++)
         for (int x = 1; x <= CELLS; x++) {
             uint16_t *c = &near->cells[y][x];
-            for (int k = -1; k <= 1; k++) *c = closer(*c, near->cells[y - 1][x + k]);
-            *c = closer(*c, near->cells[y][x - 1]);
+            for (int k = -1; k <= 1; k++) *c = nearness_closer(*c, near->cells[y - 1][x + k]);
+            *c = nearness_closer(*c, near->cells[y][x - 1]);
         }
     for (int y = CELLS; y >= 1; y--)
         for (int x = CELLS; x >= 1; x--) {
             uint16_t *c = &near->cells[y][x];
-            for (int k = -1; k <= 1; k++) *c = closer(*c, near->cells[y + 1][x + k]);
-            *c = closer(*c, near->cells[y][x + 1]);
+            for (int k = -1; k <= 1; k++) *c = nearness_closer(*c, near->cells[y + 1][x + k]);
+            *c = nearness_closer(*c, near->cells[y][x + 1]);
         }
 }
 
-static uint32_t steps_away(const scene *s, const nearness *near, uint32_t triangle)
+static uint32_t nearness_steps_away(const scene *s, const nearness *near, uint32_t triangle)
 {
     const page_box *v = &s->shown;
     page_box b = scene_box(s, triangle);
-    return near->cells[cell((b.low[1] + b.high[1]) / 2, v->low[1], v->high[1])]
-                      [cell((b.low[0] + b.high[0]) / 2, v->low[0], v->high[0])];
+    return near->cells[nearness_cell((b.low[1] + b.high[1]) / 2, v->low[1], v->high[1])]
+                      [nearness_cell((b.low[0] + b.high[0]) / 2, v->low[0], v->high[0])];
 }
 
 /* A triangle is left out: the cells of its box are veiled. */
-static void veil_triangle(scene *s, uint32_t triangle)
+static void scene_veil_triangle(scene *s, uint32_t triangle)
 {
     const page_box *v = &s->shown;
     page_box b = scene_box(s, triangle);
-    int right = cell(b.high[0], v->low[0], v->high[0]), top = cell(b.high[1], v->low[1], v->high[1]);
-    for (int y = cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
-        for (int x = cell(b.low[0], v->low[0], v->high[0]); x <= right; x++) s->veil[(y - 1) * CELLS + x - 1] = true;
+    int right = nearness_cell(b.high[0], v->low[0], v->high[0]), top = nearness_cell(b.high[1], v->low[1], v->high[1]);
+    for (int y = nearness_cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
+        for (int x = nearness_cell(b.low[0], v->low[0], v->high[0]); x <= right; x++)
+            s->veil[(y - 1) * CELLS + x - 1] = true;
 }
 
 /* Keep those near the walk, as many as are to be painted. False: out of memory. */
-static bool keep_near(scene *s)
+static bool scene_keep_near(scene *s)
 {
     size_t counts[CELLS + 1] = {0}, sum = 0, kept = 0;
     size_t bound = s->d->most_triangles ? s->d->most_triangles : MOST_TRIANGLES;
@@ -220,19 +222,19 @@ static bool keep_near(scene *s)
     }
     for (int y = 0; y < CELLS + 2; y++)
         for (int x = 0; x < CELLS + 2; x++) near->cells[y][x] = FAR;
-    mark_walk(s, near);
-    spread(near);
+    nearness_mark_walk(s, near);
+    nearness_spread(near);
     for (size_t i = 0; i < s->count; i++) {
-        uint32_t away = steps_away(s, near, s->painted[i].triangle);
+        uint32_t away = nearness_steps_away(s, near, s->painted[i].triangle);
         if (away <= CELLS) counts[away]++;
     }
     while (most < CELLS && sum + counts[most] <= bound) sum += counts[most++];
     for (size_t i = 0; i < s->count; i++) {
         uint32_t t = s->painted[i].triangle;
-        if (s->visit[t] != UINT32_MAX || steps_away(s, near, t) < most)
+        if (s->visit[t] != UINT32_MAX || nearness_steps_away(s, near, t) < most)
             s->painted[kept++] = s->painted[i];
         else
-            veil_triangle(s, t);
+            scene_veil_triangle(s, t);
     }
     s->count = kept;
     free(near);
@@ -242,14 +244,14 @@ static bool keep_near(scene *s)
 static bool scene_choose_triangles(scene *s)
 {
     for (size_t t = 0; t < s->d->triangle_count; t++) scene_add_triangle(s, (uint32_t)t);
-    if (!keep_near(s)) return false;
-    qsort(s->painted, s->count, sizeof *s->painted, by_key);
+    if (!scene_keep_near(s)) return false;
+    qsort(s->painted, s->count, sizeof *s->painted, painted_compare);
     return true;
 }
 
 /* --- the whole ---------------------------------------------------------------------------------------------------- */
 
-static bool make_room(scene *s)
+static bool scene_make_room(scene *s)
 {
     const drawing *d = s->d;
     s->at = malloc((d->point_count + 1) * sizeof *s->at);
@@ -259,7 +261,7 @@ static bool make_room(scene *s)
     return s->at && s->visit && s->part && s->painted;
 }
 
-static void number_visits(scene *s)
+static void scene_number_visits(scene *s)
 {
     const drawing *d = s->d;
     memset(s->visit, 0xff, d->triangle_count * sizeof *s->visit);
@@ -274,10 +276,10 @@ static void number_visits(scene *s)
 bool scene_make(scene *s, const drawing *d)
 {
     *s = (scene){.d = d, .projection = projection_make(d)};
-    if (!make_room(s)) return false;
+    if (!scene_make_room(s)) return false;
     for (size_t v = 0; v < s->d->point_count; v++) s->at[v] = projection_at(&s->projection, s->d->points + 3 * v);
-    number_visits(s);
-    choose_box(s);
+    scene_number_visits(s);
+    scene_choose_box(s);
     return scene_choose_triangles(s);
 }
 

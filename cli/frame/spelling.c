@@ -5,7 +5,7 @@
 
 #define LONGEST 32 /* longer words are not compared */
 
-static size_t smaller(size_t a, size_t b)
+static size_t smaller_of_two(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
@@ -20,9 +20,9 @@ static size_t edit_distance(const char *a, size_t n, const char *b, size_t m)
     for (size_t i = 1; i <= n; i++)
         for (size_t j = 1; j <= m; j++) {
             size_t replaced = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            d[i][j] = smaller(replaced, 1 + smaller(d[i - 1][j], d[i][j - 1]));
+            d[i][j] = smaller_of_two(replaced, 1 + smaller_of_two(d[i - 1][j], d[i][j - 1]));
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = smaller(d[i][j], d[i - 2][j - 2] + 1);
+                d[i][j] = smaller_of_two(d[i][j], d[i - 2][j - 2] + 1);
         }
     return d[n][m];
 }
@@ -39,7 +39,7 @@ void spelling_try(spelling *s, const char *candidate)
     size_t d = edit_distance(s->word, n, candidate, m);
     /* A word of three letters or more that begins the candidate is a good guess too: --thr,
      * --arith. */
-    if (n >= 3 && n < m && strncmp(s->word, candidate, n) == 0) d = smaller(d, 1);
+    if (n >= 3 && n < m && strncmp(s->word, candidate, n) == 0) d = smaller_of_two(d, 1);
     if (d < s->distance) {
         s->distance = d;
         s->best = candidate;

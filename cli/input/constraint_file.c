@@ -12,7 +12,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-static bool is_directory(const char *path)
+static bool path_is_directory(const char *path)
 {
     struct stat s;
     return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
@@ -25,13 +25,13 @@ static int constraint_file_read_any(const char *path, mw_constraint_file *file)
     mw_status status = mw_read_constraints(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
     if (status == MW_OK) return 0;
     bool unknown = status == MW_ERROR_INPUT && !files_is_standard(path) && !mw_constraints_known(path);
-    if (gdal_library_built() && (unknown || is_directory(path))) return gdal_constraints_read(path, file);
+    if (gdal_library_built() && (unknown || path_is_directory(path))) return gdal_constraints_read(path, file);
     int end = fail_reading(&error);
     if (unknown) complain("a program that was built with GDAL reads other vector files too");
     return end;
 }
 
-static void complain_of_ring(const char *path, const mw_constraint_file *file, const mw_skipped_ring *ring, bool strict)
+static void ring_complain(const char *path, const mw_constraint_file *file, const mw_skipped_ring *ring, bool strict)
 {
     complain("%s: %s%s %" PRIu32 ": ring %" PRIu32 " of polygon %" PRIu32 " has fewer than three different points%s",
              path, strict ? "" : "warning: ", file->record_name, ring->record, ring->ring, ring->polygon,
@@ -41,11 +41,11 @@ static void complain_of_ring(const char *path, const mw_constraint_file *file, c
 }
 
 /* Name the first ones, and count the others. */
-static void warn_of_rings(const char *path, const mw_constraint_file *file)
+static void rings_warn(const char *path, const mw_constraint_file *file)
 {
     enum { NAMED = 10 };
     const size_t count = file->skipped_count, named = count <= NAMED ? count : NAMED;
-    for (size_t i = 0; i < named; i++) complain_of_ring(path, file, &file->skipped[i], false);
+    for (size_t i = 0; i < named; i++) ring_complain(path, file, &file->skipped[i], false);
     if (count > named) complain("%s: warning: %zu more such rings are skipped", path, count - named);
 }
 
@@ -54,10 +54,10 @@ int constraint_file_read(const char *path, constraint_file_options options, mw_c
     int end = constraint_file_read_any(path, file);
     if (end || file->skipped_count == 0) return end;
     if (!options.strict) {
-        if (!options.quiet) warn_of_rings(path, file);
+        if (!options.quiet) rings_warn(path, file);
         return 0;
     }
-    complain_of_ring(path, file, &file->skipped[0], true);
+    ring_complain(path, file, &file->skipped[0], true);
     mw_constraint_file_release(file);
     return END_INPUT;
 }

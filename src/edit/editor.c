@@ -3,12 +3,13 @@
 #include "base/options.h"
 
 #include "tiling/tiling_create.h"
-#include "edit/dynamic_tiling_memory.h"
+#include "dynamic/dynamic_tiling_memory.h"
 #include "walk/prefetch.h"
-#include "edit/flip.h"
-#include "edit/journal.h"
-#include "edit/operations.h"
-#include "edit/vertex_star.h"
+#include "dynamic/flip.h"
+#include "dynamic/journal.h"
+#include "dynamic/move/move.h"
+#include "dynamic/operations.h"
+#include "dynamic/vertex_star.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -18,63 +19,63 @@
 
 void mw__editor_update_view(mw_editor *editor)
 {
-    const mw_dynamic_tiling *f = &editor->dynamic;
+    const mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_tiling *tiling = &editor->locator.tiling;
     mw_mesh *view = &editor->view;
     view->point = tiling->point;
     view->tri = tiling->tri;
     view->triangle_slot = tiling->tile_of;
-    view->vertex_slot = f->vertex_slot;
-    view->vertex_number = f->vertex_number;
+    view->vertex_slot = dynamic->vertex_slot;
+    view->vertex_number = dynamic->vertex_number;
     view->point_count = tiling->point_count;
     view->tri_count = tiling->tri_count;
 }
 
-mw_status mw__fix_edges(mw_dynamic_tiling *f, const uint32_t *ends, size_t count, mw_error *error)
+mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t count, mw_error *error)
 {
-    if (!mw__journal_begin(f, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
+    if (!mw__journal_begin(dynamic, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
     mw_status status = MW_OK;
     for (size_t i = 0; i < count && !status; i++) {
-        uint32_t a = mw__used_vertex_slot(f, ends[2 * i]), b = mw__used_vertex_slot(f, ends[2 * i + 1]),
+        uint32_t a = mw__used_vertex_slot(dynamic, ends[2 * i]), b = mw__used_vertex_slot(dynamic, ends[2 * i + 1]),
                  constrained_edges;
-        if (a == MW_NONE || b == MW_NONE || a == b || mw__dynamic_edge(f, a, b) == MW_NONE)
+        if (a == MW_NONE || b == MW_NONE || a == b || mw__dynamic_edge(dynamic, a, b) == MW_NONE)
             status = mw__fail_at(error, -1, ends[2 * i],
                                  "the constraint from vertex %" PRIu32 " to %" PRIu32 " is no edge of the mesh",
                                  ends[2 * i], ends[2 * i + 1]);
         else
-            status = mw__dynamic_constrain(f, a, b, false, &constrained_edges, error);
+            status = mw__dynamic_constrain(dynamic, a, b, false, &constrained_edges, error);
     }
     if (status) {
-        mw__journal_rollback(f);
+        mw__journal_rollback(dynamic);
         return status;
     }
-    mw__journal_commit(f);
-    mw__journal_forget(f, 0);
+    mw__journal_commit(dynamic);
+    mw__journal_forget(dynamic, 0);
     return MW_OK;
 }
 
-static bool dynamic_is_delaunay(const mw_dynamic_tiling *f)
+static bool dynamic_is_delaunay(const mw_dynamic_tiling *dynamic)
 {
-    for (uint32_t t = 0; t < f->tiling->tri_count; t++)
+    for (uint32_t t = 0; t < dynamic->tiling->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
-            uint32_t half = mw__link(t, k), other = mw__beyond(f, half);
-            if (other != MW_NONE && other > half && mw__is_users_tile(f, t) && mw__edge_is_illegal(f, half))
+            uint32_t half = mw__link(t, k), other = mw__beyond(dynamic, half);
+            if (other != MW_NONE && other > half && mw__is_users_tile(dynamic, t) && mw__edge_is_illegal(dynamic, half))
                 return false;
         }
     return true;
 }
 
-static mw_status editor_choose_delaunay(mw_dynamic_tiling *f, mw_delaunay_mode wanted, mw_error *error)
+static mw_status editor_choose_delaunay(mw_dynamic_tiling *dynamic, mw_delaunay_mode wanted, mw_error *error)
 {
-    f->delaunay = wanted != MW_DELAUNAY_NEVER && dynamic_is_delaunay(f);
-    if (wanted != MW_DELAUNAY_MAKE || f->delaunay) return MW_OK;
-    mw_status status = mw__journal_begin(f, &(mw_edit){.kind = MW_EDIT_FLIP}, true)
-                           ? mw__dynamic_make_delaunay(f, error)
+    dynamic->delaunay = wanted != MW_DELAUNAY_NEVER && dynamic_is_delaunay(dynamic);
+    if (wanted != MW_DELAUNAY_MAKE || dynamic->delaunay) return MW_OK;
+    mw_status status = mw__journal_begin(dynamic, &(mw_edit){.kind = MW_EDIT_FLIP}, true)
+                           ? mw__dynamic_make_delaunay(dynamic, error)
                            : mw__fail_memory(error);
     if (status) return status;
-    mw__journal_commit(f);
-    mw__journal_forget(f, 0);
-    mw__dynamic_trim(f); /* no edit will need as much */
+    mw__journal_commit(dynamic);
+    mw__journal_forget(dynamic, 0);
+    mw__dynamic_trim(dynamic); /* no edit will need as much */
     return MW_OK;
 }
 
@@ -104,20 +105,20 @@ static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh, const mw_ed
                              mw_error *error)
 {
     mw_locator *locator = &editor->locator;
-    mw_dynamic_tiling *f = &editor->dynamic;
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
     locator->mesh = &editor->view;
     mw_job_span outer = mw__job_part(job, 0.6);
     mw_status status = mw__tiling_create(mesh, (mw_tiling_options){0}, job, &locator->tiling, error);
     mw__job_part_end(job, outer);
     mw__job_stage(job, "preparing edits", 0.3);
-    if (!status) status = mw__dynamic_create(f, &locator->tiling, mesh, locator->tiling.ghost_count == 0, error);
-    if (!status) status = mw__fix_edges(f, options->constrained_edges, options->constrained_edge_count, error);
-    if (!status) status = editor_choose_delaunay(f, options->delaunay, error);
+    if (!status) status = mw__dynamic_create(dynamic, &locator->tiling, mesh, locator->tiling.ghost_count == 0, error);
+    if (!status) status = mw__fix_edges(dynamic, options->constrained_edges, options->constrained_edge_count, error);
+    if (!status) status = editor_choose_delaunay(dynamic, options->delaunay, error);
     if (!status && !copy_fields(editor, mesh)) status = mw__fail_memory(error);
     if (status) return status;
     mw__editor_update_view(editor);
     outer = mw__job_part(job, 0.1);
-    status = mw__upkeep_create(&editor->upkeep, locator, f, job, error);
+    status = mw__upkeep_create(&editor->upkeep, locator, dynamic, job, error);
     mw__job_part_end(job, outer);
     return status ? status : mw_cursor_init(locator, NULL, &editor->cursor, error);
 }
@@ -188,7 +189,7 @@ bool mw__field_room(mw_editor *editor, size_t more)
  * outside of the mesh. The search begins at tile `from`; returns the tile where it ends. */
 static uint32_t editor_set_values(mw_editor *editor, const mw_edit *edit, uint32_t from, bool *borrows)
 {
-    const mw_dynamic_tiling *f = &editor->dynamic;
+    const mw_dynamic_tiling *dynamic = &editor->dynamic;
     mw_mesh *view = &editor->view;
     editor->cursor.last = from;
     editor->cursor.epoch = editor->locator.epoch;
@@ -196,7 +197,7 @@ static uint32_t editor_set_values(mw_editor *editor, const mw_edit *edit, uint32
     mw_location at = mw_locate(&editor->locator, &editor->cursor, edit->x, edit->y);
     *borrows = at.triangle == MW_NONE;
     for (uint32_t i = 0; i < view->field_count; i++) {
-        double *values = view->field[i].values, *value = &values[f->vertex_count];
+        double *values = view->field[i].values, *value = &values[dynamic->vertex_count];
         if (i == edit->field && !isnan(edit->value))
             *value = edit->value;
         else
@@ -206,34 +207,35 @@ static uint32_t editor_set_values(mw_editor *editor, const mw_edit *edit, uint32
 }
 
 /* The vertex nearer to p: v (which may be MW_NONE) or w. Of equally near ones, the lower number. */
-static uint32_t nearer_vertex(const mw_dynamic_tiling *f, mw_point p, uint32_t v, uint32_t w)
+static uint32_t nearer_vertex(const mw_dynamic_tiling *dynamic, mw_point p, uint32_t v, uint32_t w)
 {
     if (v == MW_NONE) return w;
-    double one = mw__square_length(f->tiling->point[v], p), two = mw__square_length(f->tiling->point[w], p);
-    return two < one || (two == one && f->vertex_number[w] < f->vertex_number[v]) ? w : v;
+    double one = mw__square_length(dynamic->tiling->point[v], p), two = mw__square_length(dynamic->tiling->point[w], p);
+    return two < one || (two == one && dynamic->vertex_number[w] < dynamic->vertex_number[v]) ? w : v;
 }
 
 /* A vertex outside of the former hull takes the values of the nearest vertex that it is joined
  * to. */
 static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t v)
 {
-    const mw_dynamic_tiling *f = &editor->dynamic;
+    const mw_dynamic_tiling *dynamic = &editor->dynamic;
     bool open;
-    uint32_t best = MW_NONE, vertex = f->vertex_number[v];
-    for (uint32_t at = mw__vertex_star_first(f, v, &open); at != MW_NONE; at = mw__beyond(f, mw__half_prev(at))) {
-        best = nearer_vertex(f, f->tiling->point[v], best, mw__corner(f, mw__half_next(at)));
-        best = nearer_vertex(f, f->tiling->point[v], best, mw__corner(f, mw__half_prev(at)));
+    uint32_t best = MW_NONE, vertex = dynamic->vertex_number[v];
+    for (uint32_t at = mw__vertex_star_first(dynamic, v, &open); at != MW_NONE;
+         at = mw__beyond(dynamic, mw__half_prev(at))) {
+        best = nearer_vertex(dynamic, dynamic->tiling->point[v], best, mw__corner(dynamic, mw__half_next(at)));
+        best = nearer_vertex(dynamic, dynamic->tiling->point[v], best, mw__corner(dynamic, mw__half_prev(at)));
     }
     for (uint32_t i = 0; i < editor->view.field_count; i++)
         if (i != edit->field || isnan(edit->value))
-            editor->view.field[i].values[vertex] = editor->view.field[i].values[f->vertex_number[best]];
+            editor->view.field[i].values[vertex] = editor->view.field[i].values[dynamic->vertex_number[best]];
 }
 
 /* --- edits ------------------------------------------------------------------------------------ */
 
-static mw_status refuse_vertex(const mw_dynamic_tiling *f, uint32_t number, mw_error *error)
+static mw_status refuse_vertex(const mw_dynamic_tiling *dynamic, uint32_t number, mw_error *error)
 {
-    bool gone = number >= f->vertex_count || f->vertex_slot[number] == MW_NONE;
+    bool gone = number >= dynamic->vertex_count || dynamic->vertex_slot[number] == MW_NONE;
     return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
 }
 
@@ -252,45 +254,45 @@ static uint32_t insertion_first_tile(mw_editor *editor, mw_point q)
 static mw_status editor_insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *slot, mw_error *error)
 {
     enum { FAR = 8 };
-    mw_dynamic_tiling *f = &editor->dynamic;
-    if (t != MW_NONE) return mw__dynamic_insert(f, q, t, slot, error);
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
+    if (t != MW_NONE) return mw__dynamic_insert(dynamic, q, t, slot, error);
     t = insertion_first_tile(editor, q);
     if (editor->upkeep.large) {
-        mw__prefetch_tiles_round(f->tiling, t);
-        mw__prefetch_points_round(f->tiling, f->tiling->tri[t].v[0]);
+        mw__prefetch_tiles_round(dynamic->tiling, t);
+        mw__prefetch_points_round(dynamic->tiling, dynamic->tiling->tri[t].v[0]);
     }
-    mw_status status = mw__dynamic_insert(f, q, t, slot, error);
-    editor->guide_led_far |= f->walked > FAR;
+    mw_status status = mw__dynamic_insert(dynamic, q, t, slot, error);
+    editor->guide_led_far |= dynamic->walked > FAR;
     return status;
 }
 
 static __attribute__((noinline)) mw_status editor_insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t t,
                                                                      uint32_t *vertex, mw_error *error)
 {
-    mw_dynamic_tiling *f = &editor->dynamic;
-    const uint32_t before = f->vertex_count;
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
+    const uint32_t before = dynamic->vertex_count;
     bool borrows;
     uint32_t slot = MW_NONE;
     if (!isnan(edit->value) && edit->field >= editor->view.field_count)
         return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     if (!mw__field_room(editor, 1)) return mw__fail_memory(error);
-    t = editor_set_values(editor, edit, t == MW_NONE ? f->last : t, &borrows);
-    mw_status status = mw__dynamic_insert(f, (mw_point){edit->x, edit->y}, t, &slot, error);
+    t = editor_set_values(editor, edit, t == MW_NONE ? dynamic->last : t, &borrows);
+    mw_status status = mw__dynamic_insert(dynamic, (mw_point){edit->x, edit->y}, t, &slot, error);
     if (status) return status;
-    if (borrows && f->vertex_count > before) borrow_values(editor, edit, slot);
-    *vertex = f->vertex_number[slot];
+    if (borrows && dynamic->vertex_count > before) borrow_values(editor, edit, slot);
+    *vertex = dynamic->vertex_number[slot];
     return MW_OK;
 }
 
 mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error)
 {
-    mw_dynamic_tiling *f = &editor->dynamic;
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_point q = {edit->x, edit->y};
     if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     if (editor->view.field_count > 0) return editor_insert_with_values(editor, edit, t, vertex, error);
     uint32_t slot = MW_NONE;
     mw_status status = editor_insert_at(editor, q, t, &slot, error);
-    if (!status) *vertex = f->vertex_number[slot];
+    if (!status) *vertex = dynamic->vertex_number[slot];
     return status;
 }
 
@@ -304,40 +306,41 @@ static mw_status edit_insert(mw_editor *editor, const mw_edit *edit, mw_change *
 
 static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
-    mw_dynamic_tiling *f = &editor->dynamic;
-    uint32_t v = mw__used_vertex_slot(f, edit->vertex);
-    if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
+    uint32_t v = mw__used_vertex_slot(dynamic, edit->vertex);
+    if (v == MW_NONE) return refuse_vertex(dynamic, edit->vertex, error);
     change->vertex = edit->vertex;
     if (editor->upkeep.large) {
-        mw__prefetch_points_round(f->tiling, v);
-        mw__prefetch_tiles_round(f->tiling, f->tiling->tile_at[v]);
+        mw__prefetch_points_round(dynamic->tiling, v);
+        mw__prefetch_tiles_round(dynamic->tiling, dynamic->tiling->tile_at[v]);
     }
     if (edit->kind == MW_EDIT_REMOVE) {
         change->vertices_freed = 1;
-        return mw__dynamic_remove(f, v, error);
+        return mw__dynamic_remove(dynamic, v, error);
     }
     if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     mw_point q = {edit->x, edit->y};
-    return mw__dynamic_move(f, v, q, mw__locator_guided_tile(&editor->locator, f->tiling->tile_at[v], q), error);
+    return mw__dynamic_move(dynamic, v, q, mw__locator_guided_tile(&editor->locator, dynamic->tiling->tile_at[v], q),
+                            error);
 }
 
-static mw_status change_edge(mw_dynamic_tiling *f, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status change_edge(mw_dynamic_tiling *dynamic, const mw_edit *edit, mw_change *change, mw_error *error)
 {
-    uint32_t v = mw__used_vertex_slot(f, edit->vertex), w = mw__used_vertex_slot(f, edit->other);
-    if (v == MW_NONE) return refuse_vertex(f, edit->vertex, error);
-    if (w == MW_NONE) return refuse_vertex(f, edit->other, error);
+    uint32_t v = mw__used_vertex_slot(dynamic, edit->vertex), w = mw__used_vertex_slot(dynamic, edit->other);
+    if (v == MW_NONE) return refuse_vertex(dynamic, edit->vertex, error);
+    if (w == MW_NONE) return refuse_vertex(dynamic, edit->other, error);
     if (v == w) return mw__fail_at(error, -1, edit->vertex, "both ends are vertex %" PRIu32, edit->vertex);
-    if (edit->kind == MW_EDIT_FLIP) return mw__dynamic_flip(f, v, w, error);
-    return mw__dynamic_constrain(f, v, w, edit->kind == MW_EDIT_RELEASE, &change->constrained_edges, error);
+    if (edit->kind == MW_EDIT_FLIP) return mw__dynamic_flip(dynamic, v, w, error);
+    return mw__dynamic_constrain(dynamic, v, w, edit->kind == MW_EDIT_RELEASE, &change->constrained_edges, error);
 }
 
 static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *error)
 {
-    const mw_dynamic_tiling *f = &editor->dynamic;
+    const mw_dynamic_tiling *dynamic = &editor->dynamic;
     if (edit->field >= editor->view.field_count) return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
-    if (edit->vertex >= f->vertex_count || f->vertex_slot[edit->vertex] == MW_NONE)
-        return refuse_vertex(f, edit->vertex, error);
-    f->step[f->step_count - 1].value = editor->view.field[edit->field].values[edit->vertex];
+    if (edit->vertex >= dynamic->vertex_count || dynamic->vertex_slot[edit->vertex] == MW_NONE)
+        return refuse_vertex(dynamic, edit->vertex, error);
+    dynamic->step[dynamic->step_count - 1].value = editor->view.field[edit->field].values[edit->vertex];
     return MW_OK; /* mw_edit_apply writes the new value, when nothing can fail any more */
 }
 
@@ -382,23 +385,23 @@ static bool report_room(mw_editor *editor)
 mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
                               mw_error *error)
 {
-    mw_dynamic_tiling *f = &editor->dynamic;
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
     if (!status && change && !report_room(editor)) status = mw__fail_memory(error);
     if (status) {
-        if (f->under_way) mw__journal_rollback(f);
+        if (dynamic->under_way) mw__journal_rollback(dynamic);
         mw__editor_update_view(editor);
         return status;
     }
     mw__editor_update_view(editor);
-    mw__journal_commit(f);
+    mw__journal_commit(dynamic);
     if (editor->undoable < editor->undo) editor->undoable++;
-    editor->edits += f->step[f->step_count - 1].edits;
+    editor->edits += dynamic->step[dynamic->step_count - 1].edits;
     mw__upkeep_edit(&editor->upkeep, false);
     if (change) {
         *change = *own;
-        mw__journal_report(f, editor->changed, change);
+        mw__journal_report(dynamic, editor->changed, change);
     }
-    mw__journal_forget(f, editor->undo);
+    mw__journal_forget(dynamic, editor->undo);
     return MW_OK;
 }
 
@@ -406,17 +409,17 @@ mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_chan
  * mw__dynamic_insert begins one. */
 static mw_status editor_insert_unreported(mw_editor *editor, const mw_edit *edit, mw_error *error)
 {
-    mw_dynamic_tiling *f = &editor->dynamic;
-    const uint32_t before = f->vertex_count;
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
+    const uint32_t before = dynamic->vertex_count;
     uint32_t vertex;
     mw_status status = mw__editor_insert(editor, edit, MW_NONE, &vertex, error);
-    if (MW_UNLIKELY(status || f->under_way)) {
+    if (MW_UNLIKELY(status || dynamic->under_way)) {
         const mw_change own = {.vertex = MW_NONE};
         return mw__editor_conclude(editor, status, &own, NULL, error);
     }
     mw__editor_update_view(editor);
     editor->edits++;
-    mw__upkeep_insertion(&editor->upkeep, f->vertex_count > before ? f->vertex_slot[vertex] : MW_NONE);
+    mw__upkeep_insertion(&editor->upkeep, dynamic->vertex_count > before ? dynamic->vertex_slot[vertex] : MW_NONE);
     return MW_OK;
 }
 
@@ -444,12 +447,12 @@ static void undo_value(mw_editor *editor, const mw_journal_step *step)
 
 /* What undoing an edit did to a vertex. `vertices`: how many numbers of vertices were given out
  * before. */
-static mw_change undone_change(const mw_dynamic_tiling *f, const mw_journal_step *step, uint32_t vertices)
+static mw_change undone_change(const mw_dynamic_tiling *dynamic, const mw_journal_step *step, uint32_t vertices)
 {
     mw_change change = {.vertex = MW_NONE};
     if (step->vertex == MW_NONE) return change;
-    change.vertex = step->made > 0 ? step->vertices : f->vertex_number[step->vertex];
-    change.vertices_freed = vertices - f->vertex_count;
+    change.vertex = step->made > 0 ? step->vertices : dynamic->vertex_number[step->vertex];
+    change.vertices_freed = vertices - dynamic->vertex_count;
     change.vertices_made = step->edit.kind == MW_EDIT_REMOVE;
     return change;
 }
@@ -459,10 +462,10 @@ mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
     if (editor->undoable == 0) return mw__fail(error, MW_ERROR_INPUT, "there is no edit to take back");
     if (change && !report_room(editor)) return mw__fail_memory(error);
-    mw_dynamic_tiling *f = &editor->dynamic;
-    uint32_t vertices = f->vertex_count;
-    if (!mw__journal_revert(f)) return mw__fail_memory(error);
-    const mw_journal_step *step = &f->step[f->step_count - 1];
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
+    uint32_t vertices = dynamic->vertex_count;
+    if (!mw__journal_revert(dynamic)) return mw__fail_memory(error);
+    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
     undo_value(editor, step);
     if (editor->keeps_log) editor->log_count -= step->edits;
     editor->undoable--;
@@ -470,10 +473,10 @@ mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
     mw__editor_update_view(editor);
     mw__upkeep_edit(&editor->upkeep, true);
     if (change) {
-        *change = undone_change(f, step, vertices);
-        mw__journal_report(f, editor->changed, change);
+        *change = undone_change(dynamic, step, vertices);
+        mw__journal_report(dynamic, editor->changed, change);
     }
-    mw__journal_drop(f);
+    mw__journal_drop(dynamic);
     return MW_OK;
 }
 

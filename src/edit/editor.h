@@ -2,7 +2,7 @@
 #ifndef MW_SRC_EDIT_EDITOR_H
 #define MW_SRC_EDIT_EDITOR_H
 
-#include "edit/dynamic_tiling.h"
+#include "dynamic/dynamic_tiling.h"
 #include "edit/upkeep.h"
 
 struct mw_editor {
@@ -57,10 +57,10 @@ bool mw__field_room(mw_editor *editor, size_t more);
 mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t count, mw_error *error);
 
 /* The slot of a vertex that has a tile, by its number; MW_NONE if there is none. */
-static MW_INLINE uint32_t mw__used_vertex_slot(const mw_dynamic_tiling *f, uint32_t number)
+static MW_INLINE uint32_t mw__used_vertex_slot(const mw_dynamic_tiling *dynamic, uint32_t number)
 {
-    uint32_t slot = number < f->vertex_count ? f->vertex_slot[number] : MW_NONE;
-    return slot != MW_NONE && f->tiling->tile_at[slot] != MW_NONE ? slot : MW_NONE;
+    uint32_t slot = number < dynamic->vertex_count ? dynamic->vertex_slot[number] : MW_NONE;
+    return slot != MW_NONE && dynamic->tiling->tile_at[slot] != MW_NONE ? slot : MW_NONE;
 }
 
 #endif

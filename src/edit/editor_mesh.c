@@ -2,7 +2,7 @@
 #include "edit/editor.h"
 
 #include "tiling/tiling_create.h"
-#include "edit/dynamic_tiling_memory.h"
+#include "dynamic/dynamic_tiling_memory.h"
 #include "mesh/mesh_create.h"
 
 #include <stdlib.h>
@@ -22,14 +22,14 @@ static void renumbering_release(renumbering *r)
     free(r->triangle);
 }
 
-static bool renumbering_create(const mw_dynamic_tiling *f, renumbering *r)
+static bool renumbering_create(const mw_dynamic_tiling *dynamic, renumbering *r)
 {
-    const mw_tiling *tiling = f->tiling;
-    *r = (renumbering){.vertex = mw__alloc(f->vertex_count, sizeof *r->vertex),
+    const mw_tiling *tiling = dynamic->tiling;
+    *r = (renumbering){.vertex = mw__alloc(dynamic->vertex_count, sizeof *r->vertex),
                        .triangle = mw__alloc(tiling->number_count, sizeof *r->triangle)};
     if (!r->vertex || !r->triangle) return false;
-    for (uint32_t v = 0; v < f->vertex_count; v++)
-        r->vertex[v] = f->vertex_slot[v] == MW_NONE ? MW_NONE : r->vertices++;
+    for (uint32_t v = 0; v < dynamic->vertex_count; v++)
+        r->vertex[v] = dynamic->vertex_slot[v] == MW_NONE ? MW_NONE : r->vertices++;
     for (uint32_t t = 0; t < tiling->number_count; t++)
         r->triangle[t] = tiling->tile_of[t] & MW_GONE ? MW_NONE : r->triangles++;
     return true;
@@ -38,18 +38,18 @@ static bool renumbering_create(const mw_dynamic_tiling *f, renumbering *r)
 static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, mw_job *job, mw_mesh **out,
                                  mw_error *error)
 {
-    const mw_dynamic_tiling *f = &editor->dynamic;
+    const mw_dynamic_tiling *dynamic = &editor->dynamic;
     mw__job_stage(job, "numbering triangles", 0.3);
     mw_point *point = mw__alloc(r->vertices, sizeof *point);
     uint32_t(*triangle)[3] = mw__alloc(r->triangles, sizeof *triangle);
     mw_status status = MW_OK;
     if (point && triangle) {
-        for (uint32_t v = 0; v < f->vertex_count; v++)
-            if (r->vertex[v] != MW_NONE) point[r->vertex[v]] = f->tiling->point[f->vertex_slot[v]];
-        for (uint32_t t = 0; t < f->tiling->number_count; t++) {
+        for (uint32_t v = 0; v < dynamic->vertex_count; v++)
+            if (r->vertex[v] != MW_NONE) point[r->vertex[v]] = dynamic->tiling->point[dynamic->vertex_slot[v]];
+        for (uint32_t t = 0; t < dynamic->tiling->number_count; t++) {
             if (r->triangle[t] == MW_NONE) continue;
             uint32_t *v = triangle[r->triangle[t]];
-            mw__dynamic_tile_vertices(f, &f->tiling->tri[f->tiling->tile_of[t]], v);
+            mw__dynamic_tile_vertices(dynamic, &dynamic->tiling->tri[dynamic->tiling->tile_of[t]], v);
             for (int k = 0; k < 3; k++) v[k] = r->vertex[v[k]];
         }
         mw_arrays arrays = {
@@ -86,10 +86,11 @@ static mw_status add_renumbered_fields(const mw_editor *editor, const renumberin
     return status;
 }
 
-static void renumbering_copy(const mw_dynamic_tiling *f, const renumbering *r, uint32_t *triangles, uint32_t *vertices)
+static void renumbering_copy(const mw_dynamic_tiling *dynamic, const renumbering *r, uint32_t *triangles,
+                             uint32_t *vertices)
 {
-    if (triangles) memcpy(triangles, r->triangle, f->tiling->number_count * sizeof *triangles);
-    if (vertices) memcpy(vertices, r->vertex, f->vertex_count * sizeof *vertices);
+    if (triangles) memcpy(triangles, r->triangle, dynamic->tiling->number_count * sizeof *triangles);
+    if (vertices) memcpy(vertices, r->vertex, dynamic->vertex_count * sizeof *vertices);
 }
 
 static mw_status editor_make_mesh(const mw_editor *editor, renumbering *r, mw_job *job, mw_mesh **out, mw_error *error)
@@ -125,17 +126,19 @@ mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t 
 
 uint32_t *mw_editor_constrained_edges(const mw_editor *editor, size_t *count)
 {
-    const mw_dynamic_tiling *f = &editor->dynamic;
-    uint32_t *ends = mw__alloc(f->fixed_count, 2 * sizeof *ends);
+    const mw_dynamic_tiling *dynamic = &editor->dynamic;
+    uint32_t *ends = mw__alloc(dynamic->fixed_count, 2 * sizeof *ends);
     *count = 0;
     if (!ends) return NULL;
-    for (uint32_t t = 0; t < f->tiling->tri_count; t++)
+    for (uint32_t t = 0; t < dynamic->tiling->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
-            uint32_t half = mw__link(t, k), other = mw__beyond(f, half);
-            if (!mw__is_fixed(f, half) || !mw__is_users_tile(f, t) || (other == MW_NONE && !f->convex)) continue;
-            if (other != MW_NONE && (other < half || !mw__is_users_tile(f, mw__link_triangle(other)))) continue;
-            ends[2 * *count] = f->vertex_number[mw__corner(f, half)];
-            ends[2 * (*count)++ + 1] = f->vertex_number[mw__corner(f, mw__half_next(half))];
+            uint32_t half = mw__link(t, k), other = mw__beyond(dynamic, half);
+            if (!mw__is_fixed(dynamic, half) || !mw__is_users_tile(dynamic, t) ||
+                (other == MW_NONE && !dynamic->convex))
+                continue;
+            if (other != MW_NONE && (other < half || !mw__is_users_tile(dynamic, mw__link_triangle(other)))) continue;
+            ends[2 * *count] = dynamic->vertex_number[mw__corner(dynamic, half)];
+            ends[2 * (*count)++ + 1] = dynamic->vertex_number[mw__corner(dynamic, mw__half_next(half))];
         }
     return ends;
 }

@@ -1,10 +1,10 @@
 /* insert_points.c - many points at once, in one step. The step records each tile once, or none at
  * all. */
 #include "edit/editor.h"
-#include "edit/dynamic_tiling_memory.h"
+#include "dynamic/dynamic_tiling_memory.h"
 #include "walk/prefetch.h"
-#include "edit/cavity.h"
-#include "edit/journal.h"
+#include "dynamic/cavity.h"
+#include "dynamic/journal.h"
 
 #include "mesh/point_order.h"
 #include "walk/prefetch.h"
@@ -172,8 +172,8 @@ static mw_status points_insert_all(mw_editor *editor, const point_batch *b, mw_j
                                    mw_change *own, mw_error *error)
 {
     enum { SOME = 64 }; /* insertions between two steps of the job */
-    const mw_dynamic_tiling *f = &editor->dynamic;
-    const uint32_t before = f->vertex_count;
+    const mw_dynamic_tiling *dynamic = &editor->dynamic;
+    const uint32_t before = dynamic->vertex_count;
     mw_error why;
     lookahead look;
     lookahead_begin(&look, editor, b);
@@ -188,7 +188,7 @@ static mw_status points_insert_all(mw_editor *editor, const point_batch *b, mw_j
         if (vertices) vertices[at] = vertex;
         mw__upkeep_grow(&editor->upkeep);
     }
-    own->vertices_made = f->vertex_count - before;
+    own->vertices_made = dynamic->vertex_count - before;
     if (own->vertices_made > 0) own->vertex = before;
     return MW_OK;
 }
@@ -203,13 +203,14 @@ static bool points_are_finite(const point_batch *b)
 /* Reserve room for n insertions, wherever they are. False if there is not enough memory, or not
  * enough numbers; also if a point may be refused for another reason, as in a mesh that does not
  * fill its hull. */
-static bool reserve_insertions(mw_dynamic_tiling *f, size_t n)
+static bool reserve_insertions(mw_dynamic_tiling *dynamic, size_t n)
 {
-    mw_tiling *tiling = f->tiling;
+    mw_tiling *tiling = dynamic->tiling;
     /* a triangulation of so many points has fewer tiles */
     const size_t tiles = 2 * (tiling->point_count + n);
-    if (!f->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - f->vertex_count) return false;
-    return mw__tile_room_grow(f, tiles - tiling->tri_count, true) && mw__vertex_room(f, n) && mw__cavity_room(f, tiles);
+    if (!dynamic->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - dynamic->vertex_count) return false;
+    return mw__tile_room_grow(dynamic, tiles - tiling->tri_count, true) && mw__vertex_room(dynamic, n) &&
+           mw__cavity_room(dynamic, tiles);
 }
 
 /* Begin the step. If nobody needs to know what changed, nobody can cancel, and there is room for
@@ -219,25 +220,25 @@ enum { FEW = 100 };
 static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_change *change)
 {
     enum { TILES_PER_POINT = 4 }; /* changed by an insertion */
-    mw_dynamic_tiling *f = &editor->dynamic;
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_edit first = insertion_edit(b->point[point_batch_index(b, 0)]);
     bool sure = b->n >= FEW && !editor->progress && !mw__editor_needs_report(editor, change) && points_are_finite(b) &&
-                mw__field_room(editor, b->n) && reserve_insertions(f, b->n);
-    if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(f, TILES_PER_POINT * b->n))) return false;
-    return mw__journal_begin(f, &first, !sure);
+                mw__field_room(editor, b->n) && reserve_insertions(dynamic, b->n);
+    if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(dynamic, TILES_PER_POINT * b->n))) return false;
+    return mw__journal_begin(dynamic, &first, !sure);
 }
 
 static mw_status points_insert(mw_editor *editor, const point_batch *b, mw_job *job, uint32_t *vertices,
                                mw_change *change, mw_error *error)
 {
-    mw_dynamic_tiling *f = &editor->dynamic;
+    mw_dynamic_tiling *dynamic = &editor->dynamic;
     mw_change own = {.vertex = MW_NONE};
     const uint64_t refreshes = editor->upkeep.refreshes;
     if (!points_begin_step(editor, b, change)) return mw__fail_memory(error);
-    f->step[f->step_count - 1].edits = b->n;
+    dynamic->step[dynamic->step_count - 1].edits = b->n;
     mw_status status = points_insert_all(editor, b, job, vertices, &own, error);
     status = mw__editor_conclude(editor, status, &own, change, error);
-    if (b->n >= FEW) mw__boundary_release(f); /* no edit will need as much */
+    if (b->n >= FEW) mw__boundary_release(dynamic); /* no edit will need as much */
     if (status && editor->upkeep.refreshes > refreshes) mw__upkeep_rolled_back(&editor->upkeep);
     for (size_t i = 0; i < b->n && !status && editor->keeps_log; i++)
         editor->log[editor->log_count++] = insertion_edit(b->point[point_batch_index(b, i)]);

@@ -8,9 +8,10 @@
 #include "edit/live_layers.h"
 
 #include "base/random.h"
-#include "edit/dynamic_tiling_memory.h"
-#include "edit/journal.h"
-#include "edit/operations.h"
+#include "dynamic/dynamic_tiling_memory.h"
+#include "dynamic/journal.h"
+#include "dynamic/move/move.h"
+#include "dynamic/operations.h"
 #include "start/start.h"
 
 #include <stdlib.h>
@@ -158,18 +159,18 @@ static uint32_t copy_above(const mw_live_layers *live, uint32_t i, uint32_t v)
 /* Carry out one edit of layer i as a step of its own. */
 static bool layer_edit(mw_live_layers *live, uint32_t i, mw_edit_kind what, uint32_t *v, mw_point p, uint32_t tile)
 {
-    mw_dynamic_tiling *f = &live->dynamic[i];
-    if (!mw__journal_begin(f, &(mw_edit){.kind = what, .x = p.x, .y = p.y}, true)) return false;
-    mw_status status = what == MW_EDIT_INSERT   ? mw__dynamic_insert(f, p, tile, v, NULL)
-                       : what == MW_EDIT_REMOVE ? mw__dynamic_remove(f, *v, NULL)
-                                                : mw__dynamic_move(f, *v, p, MW_NONE, NULL);
+    mw_dynamic_tiling *dynamic = &live->dynamic[i];
+    if (!mw__journal_begin(dynamic, &(mw_edit){.kind = what, .x = p.x, .y = p.y}, true)) return false;
+    mw_status status = what == MW_EDIT_INSERT   ? mw__dynamic_insert(dynamic, p, tile, v, NULL)
+                       : what == MW_EDIT_REMOVE ? mw__dynamic_remove(dynamic, *v, NULL)
+                                                : mw__dynamic_move(dynamic, *v, p, MW_NONE, NULL);
     if (status) {
-        mw__journal_rollback(f);
+        mw__journal_rollback(dynamic);
         return false;
     }
-    mw__journal_commit(f);
-    mw__journal_forget(f, 0);
-    live->layers->layer[i].vacant = f->free_count;
+    mw__journal_commit(dynamic);
+    mw__journal_forget(dynamic, 0);
+    live->layers->layer[i].vacant = dynamic->free_count;
     return true;
 }
 

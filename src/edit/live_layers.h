@@ -8,7 +8,7 @@
 #ifndef MW_SRC_EDIT_LIVE_LAYERS_H
 #define MW_SRC_EDIT_LIVE_LAYERS_H
 
-#include "edit/dynamic_tiling.h"
+#include "dynamic/dynamic_tiling.h"
 #include "start/layers.h"
 
 typedef struct mw_live_layers {

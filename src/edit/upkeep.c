@@ -2,14 +2,14 @@
 #include "edit/upkeep.h"
 
 #include "base/clock.h"
-#include "edit/journal.h"
+#include "dynamic/journal.h"
 #include "locate/batch_profile.h"
 
 /* --- building --------------------------------------------------------------------------------- */
 
-static uint32_t vertices_in_use(const mw_dynamic_tiling *f)
+static uint32_t vertices_in_use(const mw_dynamic_tiling *dynamic)
 {
-    return f->tiling->point_count - f->free_count;
+    return dynamic->tiling->point_count - dynamic->free_count;
 }
 
 static bool index_is_built(const mw_upkeep *u, mw_start_kind start)
@@ -193,9 +193,9 @@ static const mw_index *kept_index(const mw_upkeep *u, mw_start_kind start)
     return start == MW_START_AUTO ? &u->locator->guide : &u->index[start];
 }
 
-static bool vertex_is_used(const mw_dynamic_tiling *f, uint32_t v)
+static bool vertex_is_used(const mw_dynamic_tiling *dynamic, uint32_t v)
 {
-    return v < f->tiling->point_count && f->tiling->tile_at[v] != MW_NONE;
+    return v < dynamic->tiling->point_count && dynamic->tiling->tile_at[v] != MW_NONE;
 }
 
 /* The extent of the locator contains all points where vertices are or were. An index keeps the
@@ -256,13 +256,14 @@ static void redirect_names(mw_upkeep *u, const mw_journal_step *step, const mw_j
 /* Let the layers follow what an edit did to vertex v. */
 static bool layers_follow(mw_upkeep *u, const mw_journal_step *step, uint32_t v)
 {
-    const mw_dynamic_tiling *f = u->dynamic;
-    bool there = vertex_is_used(f, v);
+    const mw_dynamic_tiling *dynamic = u->dynamic;
+    bool there = vertex_is_used(dynamic, v);
     switch (step->edit.kind) {
     case MW_EDIT_INSERT:
     case MW_EDIT_REMOVE:
-        return there ? mw__live_layers_insert(&u->live, v, f->tiling->point[v]) : mw__live_layers_remove(&u->live, v);
-    case MW_EDIT_MOVE: return mw__live_layers_move(&u->live, v, f->tiling->point[v]);
+        return there ? mw__live_layers_insert(&u->live, v, dynamic->tiling->point[v])
+                     : mw__live_layers_remove(&u->live, v);
+    case MW_EDIT_MOVE: return mw__live_layers_move(&u->live, v, dynamic->tiling->point[v]);
     default: return true;
     }
 }
@@ -301,10 +302,10 @@ static MW_INLINE void count_edits(mw_upkeep *u, mw_start_kind start, uint64_t ed
 
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
 {
-    const mw_dynamic_tiling *f = u->dynamic;
-    const mw_journal_step *step = &f->step[f->step_count - 1];
+    const mw_dynamic_tiling *dynamic = u->dynamic;
+    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
     const mw_journal_entry *first;
-    size_t count = mw__journal_entries(f, &first);
+    size_t count = mw__journal_entries(dynamic, &first);
     if (step->edit.kind == MW_EDIT_VALUE) return;
     upkeep_begin(u);
     if (undone) redirect_names(u, step, first, count);

@@ -24,7 +24,7 @@
 #ifndef MW_SRC_EDIT_UPKEEP_H
 #define MW_SRC_EDIT_UPKEEP_H
 
-#include "edit/dynamic_tiling.h"
+#include "dynamic/dynamic_tiling.h"
 #include "edit/live_layers.h"
 #include "locate/locator.h"
 

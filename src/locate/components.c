@@ -64,7 +64,7 @@ static mw_verdict component_walk(const mw_tiling *tiling, const mw_component *co
     *walk = mw__walk_begin(tiling, walk->q, component->first, fuel, 0, work);
     if (work && work->trace) mw__walk_record(work->trace, walk);
     mw_verdict verdict = mw__walk_run(walk, &mw__border_walk, true, counted);
-    if (MW_LIKELY(verdict != MW_DRY)) return verdict;
+    if (MW_LIKELY(verdict != MW_VERDICT_OUT_OF_FUEL)) return verdict;
     *walk = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, work);
     return mw__walk_surely(walk, counted);
 }
@@ -73,15 +73,16 @@ mw_verdict mw__components_search(const mw_tiling *tiling, mw_walk *walk, bool co
 {
     const mw_border_loops *loops = tiling->border_loops;
     *hole = mw__border_loops_hole(loops, walk->lowest);
-    if (!loops->component_of || walk->phase == MW_PHASE_AWAY) return MW_LEFT;
+    if (!loops->component_of || walk->phase == MW_PHASE_AWAY) return MW_VERDICT_LEFT;
     uint32_t here = loops->component_of[tiling->tri[walk->t].v[0]];
     component_face f = {.hole = MW_NONE};
     face_note(&f, loops, walk->lowest, loops->component[here].box);
-    mw_verdict verdict = MW_LEFT;
-    for (uint32_t i = 0; (i = component_next(loops, i, walk->q)) < loops->component_count && verdict != MW_FOUND; i++) {
+    mw_verdict verdict = MW_VERDICT_LEFT;
+    for (uint32_t i = 0;
+         (i = component_next(loops, i, walk->q)) < loops->component_count && verdict != MW_VERDICT_FOUND; i++) {
         if (i == here) continue;
         verdict = component_walk(tiling, &loops->component[i], walk, counted);
-        if (verdict == MW_LEFT) face_note(&f, loops, walk->lowest, loops->component[i].box);
+        if (verdict == MW_VERDICT_LEFT) face_note(&f, loops, walk->lowest, loops->component[i].box);
     }
     *hole = f.hole;
     return verdict;

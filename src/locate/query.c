@@ -129,8 +129,8 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
     if (!tiling->border_loops) end.stage = MW_STAGE_FINAL;
     mw_verdict verdict = mw__walk_surely(&end, counted);
-    bool round =
-        tiling->border_loops && verdict == MW_LEFT; /* it may have gone round from another edge of the same border */
+    bool round = tiling->border_loops &&
+                 verdict == MW_VERDICT_LEFT; /* it may have gone round from another edge of the same border */
     *changed = verdict != before || (end.t != walk->t && !round);
     if (*changed && counted) work_add_final(walk->work, &more);
     walk->t = end.t;
@@ -143,15 +143,16 @@ mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *curso
 {
     const mw_tiling *tiling = &locator->tiling;
     bool exact = cursor->arithmetic == MW_EXACT, changed = false;
-    if (verdict == MW_CLOSE)
+    if (verdict == MW_VERDICT_UNSURE)
         verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact, cursor->count);
-    bool dry = verdict == MW_DRY;
-    bool sure = exact || (verdict == MW_LEFT && walk_has_left(tiling, walk));
+    bool dry = verdict == MW_VERDICT_OUT_OF_FUEL;
+    bool sure = exact || (verdict == MW_VERDICT_LEFT && walk_has_left(tiling, walk));
     if (MW_UNLIKELY(dry || !sure)) verdict = walk_hand_over(tiling, walk, verdict, cursor->count, &changed);
     uint32_t hole = MW_NONE;
-    if (tiling->border_loops && verdict == MW_LEFT) verdict = mw__components_search(tiling, walk, cursor->count, &hole);
+    if (tiling->border_loops && verdict == MW_VERDICT_LEFT)
+        verdict = mw__components_search(tiling, walk, cursor->count, &hole);
     if (cursor->count) query_count(counters, walk->work, dry, changed);
-    if (MW_UNLIKELY(verdict != MW_FOUND))
+    if (MW_UNLIKELY(verdict != MW_VERDICT_FOUND))
         return query_outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q, cursor->tolerance);
     return query_answer(locator, walk->t, walk->q, cursor->tolerance);
 }
@@ -200,12 +201,10 @@ uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor
                          : start_tile(locator, cursor, last, q, random);
 }
 
-static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
-                          uint64_t *random, mw_work *work)
+static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q, uint64_t *random,
+                          mw_work *work)
 {
     const mw_tiling *tiling = &locator->tiling;
-    if (cursor->count) *work = (mw_work){0};
-    uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
     mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
     if (MW_UNLIKELY(tiling->border_loops)) mw__components_begin(locator, &walk);
     return walk;
@@ -227,12 +226,28 @@ static void walk_allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t 
     walk->fuel += walk->steps; /* at most 4096 + 45 sqrt(2^30), twice */
 }
 
+/* *work is zero, or has what looking for tile t counted. */
+static mw_walk query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
+                              uint64_t *random, mw_work *work)
+{
+    mw_walk walk = query_walk(locator, cursor, t, q, random, work);
+    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) walk_allow_steps(&walk, locator, cursor->steps);
+    return walk;
+}
+
 mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
                         mw_work *work)
 {
-    mw_walk walk = query_walk(locator, cursor, last, q, random, work);
-    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) walk_allow_steps(&walk, locator, cursor->steps);
-    return walk;
+    if (cursor->count) *work = (mw_work){0};
+    uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
+    return query_begin_at(locator, cursor, t, q, random, work);
+}
+
+mw_walk mw__query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q, uint64_t *random,
+                           mw_work *work)
+{
+    if (cursor->count) *work = (mw_work){0};
+    return query_begin_at(locator, cursor, t, q, random, work);
 }
 
 /* --- the public query --- */
@@ -358,11 +373,12 @@ static MW_INLINE bool locate_fast(const mw_locator *locator, mw_cursor *cursor, 
     const mw_verdict verdict = mw__remembering_fast(tiling, q, &t, weight);
     cursor->last = t;
     const mw_triangle *tile = &tiling->tri[t];
-    if (MW_LIKELY(verdict == MW_FOUND && !(tile->user & MW_GHOST))) {
+    if (MW_LIKELY(verdict == MW_VERDICT_FOUND && !(tile->user & MW_GHOST))) {
         mw__location_write_inside(location, tile->user, weight[0], weight[1], weight[2]);
         return true;
     }
-    return mw__fast_path_outside(tiling, cursor, tile, verdict == MW_FOUND, verdict == MW_LEFT, location);
+    return mw__fast_path_outside(tiling, cursor, tile, verdict == MW_VERDICT_FOUND, verdict == MW_VERDICT_LEFT,
+                                 location);
 }
 
 static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator, mw_cursor *cursor, mw_point q)

@@ -171,7 +171,7 @@ void mw__star_angles(const double d[3], double *phi, double *theta);
 /* Fill in star->angle and mark the facets of the seam. */
 void mw__star_fill_angles(mw_star *star);
 
-/* --- star_locate.c --- */
+/* --- star_walk_run.c --- */
 
 /* The stored facet that the ray from the centre along d, rounded, meets; exact for some ray close
  * to d. Walks from facet t. Serves to build indices. */

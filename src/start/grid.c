@@ -183,7 +183,7 @@ static void cell_fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, u
         return;
     }
     mw_walk walk = mw__walk_begin(plan->tiling, middle, t, fuel, 0, NULL);
-    bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_LEFT;
+    bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_VERDICT_LEFT;
     if (left && !cell_is_outermost(&grid->lattice, x, y)) beside = cell_settled(grid, plan, x, y);
     grid->tile[cell] = beside != cell ? grid->tile[beside] : walk.t;
 }

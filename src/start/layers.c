@@ -224,7 +224,7 @@ static void layer_find(const mw_tiling *tiling, const mw_layer_walk *how, mw_wal
 {
     const mw_kernels *kernels = mw__walk_kernels(how->walk, tiling);
     mw_verdict verdict = kernels->run[how->exact][how->count](walk);
-    if (verdict != MW_CLOSE || walk_has_coordinates(how->walk)) return;
+    if (verdict != MW_VERDICT_UNSURE || walk_has_coordinates(how->walk)) return;
     uint32_t fuel = mw__walk_fuel(how->finish, how->exact ? MW_EXACT : MW_DOUBLE, tiling);
     mw__walk_finish(walk, how->finish, fuel, tiling, how->exact, how->count);
 }

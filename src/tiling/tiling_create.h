@@ -17,6 +17,5 @@ mw_status mw__tiling_create(const mw_mesh *mesh, mw_tiling_options options, mw_j
                             mw_error *error);
 /* Find the border loops and components of a tiling without ghosts. MW_ERROR_MEMORY. */
 mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error);
-void mw__tiling_release(mw_tiling *tiling);
 
 #endif

@@ -34,8 +34,8 @@ static MW_INLINE mw_verdict barycentric_step(mw_walk *w, mw_policy P)
         least = b2;
         e = 0;
     }
-    mw_verdict verdict = least < -off ? cross(w, e, P) : MW_CLOSE;
-    if (MW_UNLIKELY(verdict != MW_GO)) w->heaviest = heaviest_corner(b0, b1, b2);
+    mw_verdict verdict = least < -off ? cross(w, e, P) : MW_VERDICT_UNSURE;
+    if (MW_UNLIKELY(verdict != MW_VERDICT_GO_ON)) w->heaviest = heaviest_corner(b0, b1, b2);
     return verdict;
 }
 

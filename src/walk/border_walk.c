@@ -49,14 +49,14 @@ static MW_INLINE mw_verdict border_turn_corner(mw_walk *w, uint32_t e, mw_policy
     uint32_t turn =
         loops && MW_UNLIKELY(loops->jump_count > 0) ? mw__border_loops_jump(loops, mw__link(w->t, e)) : MW_NONE;
     w->e = mw__next(e);
-    if (MW_LIKELY(turn == MW_NONE)) return MW_GO;
+    if (MW_LIKELY(turn == MW_NONE)) return MW_VERDICT_GO_ON;
     w->t = mw__link_triangle(turn);
     w->e = mw__link_edge(turn);
     if (P.count) {
         w->work->visited++;
         w->work->triangles[MW_STAGE_BORDER]++;
     }
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* Leave over edge e, whose end lies strictly to the left: into the next tile, or along the
@@ -64,7 +64,7 @@ static MW_INLINE mw_verdict border_turn_corner(mw_walk *w, uint32_t e, mw_policy
 static MW_INLINE mw_verdict border_go_on(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (MW_LIKELY(w->tri[w->t].link[e] != MW_NONE)) return cross(w, e, P);
-    if (!w->tiling->border_loops && w->tiling->embedding) return MW_LEFT;
+    if (!w->tiling->border_loops && w->tiling->embedding) return MW_VERDICT_LEFT;
     w->exit = w->lowest = mw__link(w->t, e);
     w->farthest = MW_NONE;
     border_begin_run(w, ROUND_LEFT, MW_STAGE_BORDER, P);
@@ -77,7 +77,7 @@ static MW_INLINE mw_verdict border_aim(mw_walk *w, mw_policy P)
     uint32_t e = 0;
     border_begin_run(w, FOLLOW, MW_STAGE_WALK, P);
     while (!beyond(w, e, P))
-        if (++e == 3) return MW_FOUND;
+        if (++e == 3) return MW_VERDICT_FOUND;
     mw_point r = corner(w, e), l = corner(w, e + 1);
     w->p = (mw_point){r.x / 2 + l.x / 2, r.y / 2 + l.y / 2};
     if (border_side(w, r, P) > 0 || border_side(w, l, P) <= 0) w->p = r;
@@ -88,7 +88,7 @@ static MW_INLINE mw_verdict border_aim(mw_walk *w, mw_policy P)
 static MW_INLINE mw_verdict border_follow(mw_walk *w, mw_policy P)
 {
     uint32_t out = border_side(w, apex(w, w->e), P) > 0 ? mw__next(w->e) : mw__prev(w->e);
-    return beyond(w, out, P) ? border_go_on(w, out, P) : MW_FOUND;
+    return beyond(w, out, P) ? border_go_on(w, out, P) : MW_VERDICT_FOUND;
 }
 
 /* An edge that the line crosses, by the ends on its right and left. */
@@ -140,7 +140,7 @@ static MW_INLINE mw_verdict border_come_back(mw_walk *w, uint32_t half, mw_polic
     if (P.count) w->work->triangles[MW_STAGE_WALK]++;
     w->t = mw__link_triangle(half);
     w->e = mw__link_edge(half);
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* Along border edge e to its end: is q there, or does the line come back over it? */
@@ -151,7 +151,7 @@ static MW_INLINE mw_verdict border_pass(mw_walk *w, uint32_t e, bool all, mw_pol
     uint32_t half = mw__link(w->t, e);
     if (P.count) w->work->border_edges++;
     if (half < w->lowest) w->lowest = half;
-    if (MW_UNLIKELY(s == 0 && border_point_is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_FOUND;
+    if (MW_UNLIKELY(s == 0 && border_point_is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_VERDICT_FOUND;
     if (w->phase == ROUND_LEFT && s <= 0 && border_comes_back(w, a, b, P)) {
         if (!all) return border_come_back(w, half, P);
         if (border_is_farthest(w, a, b, P)) w->farthest = half;
@@ -169,14 +169,14 @@ static MW_INLINE mw_verdict border_go_round(mw_walk *w, bool all, mw_policy P)
         w->e = mw__next(w->e);
     }
     if (mw__link(w->t, w->e) != w->exit) return border_pass(w, w->e, all, P);
-    return all && w->farthest != MW_NONE ? border_come_back(w, w->farthest, P) : MW_LEFT;
+    return all && w->farthest != MW_NONE ? border_come_back(w, w->farthest, P) : MW_VERDICT_LEFT;
 }
 
 static MW_INLINE mw_verdict border_step(mw_walk *w, bool all, mw_policy P)
 {
     if (MW_LIKELY(w->phase == FOLLOW)) return border_follow(w, P);
     if (w->phase == FIRST) return border_aim(w, P);
-    return w->phase == MW_PHASE_AWAY ? MW_LEFT : border_go_round(w, all, P);
+    return w->phase == MW_PHASE_AWAY ? MW_VERDICT_LEFT : border_go_round(w, all, P);
 }
 
 static MW_INLINE mw_verdict border_walk_step(mw_walk *w, mw_policy P)

@@ -60,10 +60,10 @@ static MW_INLINE mw_verdict direct_step_with(mw_walk *w, bool stored, mw_policy 
         out = e;
     }
     least += off;
-    if (!(least < 0)) return direct_end(w, e, (double[3]){known, tested, last}, MW_CLOSE);
+    if (!(least < 0)) return direct_end(w, e, (double[3]){known, tested, last}, MW_VERDICT_UNSURE);
     w->c = -least;
     mw_verdict verdict = cross(w, out, P);
-    if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
+    if (MW_LIKELY(verdict == MW_VERDICT_GO_ON)) return MW_VERDICT_GO_ON;
     return direct_end(w, e, (double[3]){known, tested, last}, verdict);
 }
 

@@ -10,12 +10,12 @@ typedef mw_verdict (*mw_step)(mw_walk *walk, mw_policy P);
 static MW_INLINE mw_verdict drive_run(mw_walk *walk, mw_step step, mw_policy P)
 {
     mw_walk w = *walk; /* a local copy can live in registers */
-    mw_verdict verdict = MW_DRY;
+    mw_verdict verdict = MW_VERDICT_OUT_OF_FUEL;
     while (w.fuel) {
         w.fuel--;
         verdict = step(&w, P);
-        if (verdict != MW_GO) break;
-        verdict = MW_DRY;
+        if (verdict != MW_VERDICT_GO_ON) break;
+        verdict = MW_VERDICT_OUT_OF_FUEL;
     }
     *walk = w;
     return verdict;
@@ -23,7 +23,7 @@ static MW_INLINE mw_verdict drive_run(mw_walk *walk, mw_step step, mw_policy P)
 
 static MW_INLINE mw_verdict drive_once(mw_walk *w, mw_step step, mw_policy P)
 {
-    if (MW_UNLIKELY(w->fuel == 0)) return MW_DRY;
+    if (MW_UNLIKELY(w->fuel == 0)) return MW_VERDICT_OUT_OF_FUEL;
     w->fuel--;
     return step(w, P);
 }
@@ -36,11 +36,11 @@ static MW_INLINE void drive_ring(mw_feed *feed, uint32_t lane_count, mw_step ste
     mw_walk lane[MW_MAX_LANES];
     uint32_t name[MW_MAX_LANES], alive = 0;
     for (uint32_t i = 0; i < lane_count; i++)
-        if (feed->deliver(feed, i, &lane[alive], MW_GO)) name[alive++] = i;
+        if (feed->deliver(feed, i, &lane[alive], MW_VERDICT_GO_ON)) name[alive++] = i;
     uint32_t ahead = alive / 2;
     for (uint32_t i = 0; alive;) {
         mw_verdict verdict = drive_once(&lane[i], step, P);
-        if (verdict != MW_GO && !feed->deliver(feed, name[i], &lane[i], verdict)) {
+        if (verdict != MW_VERDICT_GO_ON && !feed->deliver(feed, name[i], &lane[i], verdict)) {
             alive--;
             lane[i] = lane[alive];
             name[i] = name[alive];

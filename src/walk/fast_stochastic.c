@@ -19,7 +19,7 @@
 
 static MW_INLINE mw_verdict fast_stochastic_step(mw_walk *w, mw_policy P)
 {
-    if (MW_UNLIKELY(w->steps == 0)) return MW_CLOSE;
+    if (MW_UNLIKELY(w->steps == 0)) return MW_VERDICT_UNSURE;
     w->steps--;
     uint64_t coin = mw__toss(&w->random);
     bool first = w->e == MW_NO_EDGE;

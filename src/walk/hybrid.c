@@ -42,7 +42,7 @@ static MW_INLINE mw_verdict hybrid_follow(mw_walk *w, uint32_t e, mw_point s, mw
 {
     w->phase = FOLLOW;
     begin_stage(w, MW_STAGE_WALK, P);
-    return hybrid_past(w, s, P) ? MW_CLOSE : cross_unsure(w, e, P);
+    return hybrid_past(w, s, P) ? MW_VERDICT_UNSURE : cross_unsure(w, e, P);
 }
 
 /* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
@@ -50,7 +50,7 @@ static MW_INLINE mw_verdict hybrid_aim(mw_walk *w, mw_policy P)
 {
     initialise(w, P);
     w->p = corner(w, 0);
-    if (MW_UNLIKELY(!set_direction(w, w->q.x - w->p.x, w->q.y - w->p.y))) return MW_CLOSE;
+    if (MW_UNLIKELY(!set_direction(w, w->q.x - w->p.x, w->q.y - w->p.y))) return MW_VERDICT_UNSURE;
     if (hybrid_above(w, corner(w, 1), P)) {
         w->phase = TURN_RIGHT;
         return cross_unsure(w, 0, P);
@@ -68,7 +68,7 @@ static MW_INLINE mw_verdict hybrid_step(mw_walk *w, mw_policy P)
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
     mw_point s = apex(w, w->e);
     if (MW_LIKELY(w->phase == FOLLOW)) { /* entered over edge e = lr */
-        if (MW_UNLIKELY(hybrid_past(w, s, P))) return MW_CLOSE;
+        if (MW_UNLIKELY(hybrid_past(w, s, P))) return MW_VERDICT_UNSURE;
         return cross_guessed_unsure(w, hybrid_above(w, s, P) ? next : prev, P);
     }
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is s */

@@ -32,10 +32,10 @@ enum { START, SET_OUT, FOLLOW }; /* phases */
 /* The tile is past the end of the leg. */
 static MW_INLINE mw_verdict improved_arrive(mw_walk *w, mw_policy P)
 {
-    if (axis_is_vertical(w)) return MW_CLOSE;
+    if (axis_is_vertical(w)) return MW_VERDICT_UNSURE;
     axis_turn_upright(w, P);
     w->phase = SET_OUT;
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* Upright along the line through a vertex, which counts as lying before it. */
@@ -51,14 +51,14 @@ static MW_INLINE void improved_turn_at(mw_walk *w, mw_point s, mw_policy P)
 static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, const mw_point *tested, mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
-    if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
-    if (axis_is_vertical(w)) return MW_CLOSE;
+    if (MW_LIKELY(verdict == MW_VERDICT_GO_ON)) return MW_VERDICT_GO_ON;
+    if (axis_is_vertical(w)) return MW_VERDICT_UNSURE;
     if (tested)
         improved_turn_at(w, *tested, P);
     else
         axis_head_upright(w, tile_inner_point(w), P);
     w->phase = SET_OUT;
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* The vertex of the tile that is farthest along the heading. */
@@ -76,7 +76,7 @@ static MW_INLINE mw_verdict improved_set_out(mw_walk *w, bool to_tested, mw_poli
     mw_point s = improved_farthest(w, P);
     if (axis_is_past(w, s, P)) return improved_arrive(w, P);
     uint32_t e = axis_exit_edge(w, P);
-    if (e == MW_NO_EDGE) return MW_CLOSE;
+    if (e == MW_NO_EDGE) return MW_VERDICT_UNSURE;
     w->phase = FOLLOW;
     return improved_cross_or_detour(w, e, to_tested ? &s : NULL, P);
 }

@@ -58,17 +58,17 @@ static MW_INLINE mw_verdict normal_aim(mw_walk *w, mw_policy P)
     uint32_t e = edge_facing_nearest(w);
     mw_point l = corner(w, e), r = corner(w, e + 1), s = apex(w, e);
     double x = ((w->q.x - l.x) + (w->q.x - r.x)) / 2, y = ((w->q.y - l.y) + (w->q.y - r.y)) / 2;
-    if (MW_UNLIKELY(!set_direction(w, x, y))) return MW_CLOSE;
+    if (MW_UNLIKELY(!set_direction(w, x, y))) return MW_VERDICT_UNSURE;
     bool left = normal_left_of_line(w, s, P);
     if (MW_UNLIKELY(normal_left_of_line(w, left ? r : l, P) == left))
-        return normal_left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P) : MW_CLOSE;
-    return normal_is_past(w, s, P) ? MW_CLOSE : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
+        return normal_left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P) : MW_VERDICT_UNSURE;
+    return normal_is_past(w, s, P) ? MW_VERDICT_UNSURE : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
 }
 
 static MW_INLINE mw_verdict normal_follow(mw_walk *w, mw_policy P)
 {
     mw_point s = apex(w, w->e); /* entered over edge e = lr */
-    if (normal_is_past(w, s, P)) return MW_CLOSE;
+    if (normal_is_past(w, s, P)) return MW_VERDICT_UNSURE;
     return cross_unsure(w, normal_left_of_line(w, s, P) ? mw__next(w->e) : mw__prev(w->e), P);
 }
 
@@ -97,7 +97,7 @@ static MW_INLINE mw_verdict normal_turned(mw_walk *w, uint32_t e, mw_point s, mw
     w->phase = FOLLOW;
     begin_stage(w, MW_STAGE_WALK, P);
     bool parted = normal_left_of_line(w, corner(w, e + 1), P) && !normal_left_of_line(w, corner(w, e), P);
-    return !parted || normal_is_past(w, s, P) ? MW_CLOSE : cross_unsure(w, e, P);
+    return !parted || normal_is_past(w, s, P) ? MW_VERDICT_UNSURE : cross_unsure(w, e, P);
 }
 
 /* The first tile, with p = vertex 0, r = vertex 1 and l = vertex 2. */
@@ -105,7 +105,7 @@ static MW_INLINE mw_verdict normal_turn_aim(mw_walk *w, mw_policy P)
 {
     initialise(w, P);
     w->p = corner(w, 0);
-    if (MW_UNLIKELY(!set_direction(w, w->q.x - w->p.x, w->q.y - w->p.y))) return MW_CLOSE;
+    if (MW_UNLIKELY(!set_direction(w, w->q.x - w->p.x, w->q.y - w->p.y))) return MW_VERDICT_UNSURE;
     if (normal_turn_side(w, corner(w, 1), P) > 0) {
         w->phase = TURN_RIGHT;
         return cross_unsure(w, 0, P);

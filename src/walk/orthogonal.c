@@ -24,7 +24,7 @@
  * of a leg counts as right of it, but where the walk turns to the right, as left
  * (axis_turn_upright). p on the hull: where the turn meets the hull first, the line points out of
  * the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
- * MW_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right,
+ * MW_VERDICT_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right,
  * the walk follows a line moved by next to nothing, so every tile has points of it inside, and its
  * part of the true line runs from the entry edge, or p, to the exit edge. What the leg looks for
  * lies ahead of p; then ahead of each entry edge, since it was beyond that; so it is in the tile
@@ -65,9 +65,9 @@ static MW_INLINE uint32_t nearest_corner(const mw_walk *w)
 /* Run again from this tile. */
 static MW_INLINE mw_verdict orthogonal_restart(mw_walk *w)
 {
-    if (w->phase / RESTART == RESTARTS) return MW_CLOSE;
+    if (w->phase / RESTART == RESTARTS) return MW_VERDICT_UNSURE;
     w->phase = (w->phase / RESTART + 1) * RESTART + START;
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* The horizontal leg would leave the hull: a vertical one from here instead. */
@@ -78,15 +78,15 @@ static MW_INLINE mw_verdict orthogonal_detour(mw_walk *w, mw_policy P)
     if (w->stage == MW_STAGE_INIT) begin_stage(w, MW_STAGE_WALK, P);
     w->phase |= MOVED;
     orthogonal_enter(w, SET_OUT);
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* Cross edge e; if it is on the hull, see on which side of it q lies. */
 static MW_INLINE mw_verdict orthogonal_cross_or_detour(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
-    if (MW_LIKELY(verdict == MW_GO)) return MW_GO;
-    if (beyond(w, e, P)) return MW_LEFT;
+    if (MW_LIKELY(verdict == MW_VERDICT_GO_ON)) return MW_VERDICT_GO_ON;
+    if (beyond(w, e, P)) return MW_VERDICT_LEFT;
     return axis_is_vertical(w) ? orthogonal_restart(w) : orthogonal_detour(w, P);
 }
 
@@ -94,10 +94,10 @@ static MW_INLINE mw_verdict orthogonal_cross_or_detour(mw_walk *w, uint32_t e, m
 static MW_INLINE mw_verdict orthogonal_arrive(mw_walk *w, mw_policy P)
 {
     if (w->phase & MOVED) return orthogonal_restart(w);
-    if (axis_is_vertical(w) || w->q.y == leg_end(w).y) return MW_FOUND;
+    if (axis_is_vertical(w) || w->q.y == leg_end(w).y) return MW_VERDICT_FOUND;
     axis_turn_upright(w, P);
     orthogonal_enter(w, SET_OUT);
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* The line leaves the tile over edge e: so does the walk, unless the leg ends before. */
@@ -133,7 +133,7 @@ static MW_INLINE mw_verdict orthogonal_start(mw_walk *w, mw_policy P)
         begin_stage(w, MW_STAGE_INIT, P);
     uint32_t k = first ? 0 : nearest_corner(w);
     mw_point p = corner(w, k);
-    if (w->q.x == p.x && w->q.y == p.y) return MW_FOUND;
+    if (w->q.x == p.x && w->q.y == p.y) return MW_VERDICT_FOUND;
     if (w->q.x != p.x)
         axis_head_across(w, p, P);
     else
@@ -147,7 +147,7 @@ static MW_INLINE mw_verdict orthogonal_start(mw_walk *w, mw_policy P)
 static MW_INLINE mw_verdict orthogonal_set_out(mw_walk *w, mw_policy P)
 {
     uint32_t e = axis_exit_edge(w, P);
-    if (e == MW_NO_EDGE) return MW_CLOSE; /* the inner point was rounded off the tile */
+    if (e == MW_NO_EDGE) return MW_VERDICT_UNSURE; /* the inner point was rounded off the tile */
     orthogonal_enter(w, FOLLOW);
     return orthogonal_go_on(w, e, P);
 }

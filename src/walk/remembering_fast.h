@@ -62,14 +62,14 @@ static MW_INLINE bool mw__rounded_weights(const mw_rounded_areas *of, double wei
     return true;
 }
 
-/* Walk to q from tile *t, which becomes the tile where the walk ended. MW_FOUND: q is inside it,
- * with these weights; MW_LEFT: beyond an edge of it that is on the hull; MW_CLOSE: rounding cannot
- * tell; MW_DRY: too far. Each turn is a jump: a walk alone should not wait for the areas, and the
+/* Walk to q from tile *t, which becomes the tile where the walk ended. MW_VERDICT_FOUND: q is inside it,
+ * with these weights; MW_VERDICT_LEFT: beyond an edge of it that is on the hull; MW_VERDICT_UNSURE: rounding cannot
+ * tell; MW_VERDICT_OUT_OF_FUEL: too far. Each turn is a jump: a walk alone should not wait for the areas, and the
  * processor guesses where to go on. */
 static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_point q, uint32_t *t, double weight[3])
 {
     const mw_triangle *tri = tiling->tri, *tile = &tri[*t];
-    mw_verdict verdict = MW_DRY;
+    mw_verdict verdict = MW_VERDICT_OUT_OF_FUEL;
     for (uint32_t steps = 0; steps < MW_FAST_STEPS; steps++) {
         mw__prefetch_across(tri, tile);
         const mw_rounded_areas of = mw__rounded_areas(tiling->point, tile, q);
@@ -81,11 +81,11 @@ static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_poi
         } else if (of.area[1] < -of.bound) {
             link = tile->link[2];
         } else {
-            verdict = mw__rounded_weights(&of, weight) ? MW_FOUND : MW_CLOSE;
+            verdict = mw__rounded_weights(&of, weight) ? MW_VERDICT_FOUND : MW_VERDICT_UNSURE;
             break;
         }
         if (MW_UNLIKELY(link == MW_NONE)) {
-            verdict = MW_LEFT;
+            verdict = MW_VERDICT_LEFT;
             break;
         }
         tile = &tri[mw__link_triangle(link)];

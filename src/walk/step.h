@@ -91,14 +91,14 @@ static MW_INLINE bool beyond(mw_walk *w, uint32_t e, mw_policy P)
 static MW_INLINE mw_verdict cross(mw_walk *w, uint32_t e, mw_policy P)
 {
     uint32_t link = w->tri[w->t].link[e];
-    if (MW_UNLIKELY(link == MW_NONE)) return MW_LEFT;
+    if (MW_UNLIKELY(link == MW_NONE)) return MW_VERDICT_LEFT;
     w->t = mw__link_triangle(link);
     w->e = mw__link_edge(link);
     if (P.count) {
         w->work->visited++;
         w->work->triangles[w->stage]++;
     }
-    return MW_GO;
+    return MW_VERDICT_GO_ON;
 }
 
 /* The same for the cheap walks: that they would leave the hull here does not mean that q lies
@@ -106,7 +106,7 @@ static MW_INLINE mw_verdict cross(mw_walk *w, uint32_t e, mw_policy P)
 static MW_INLINE mw_verdict cross_unsure(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
-    return MW_UNLIKELY(verdict == MW_LEFT) ? MW_CLOSE : verdict;
+    return MW_UNLIKELY(verdict == MW_VERDICT_LEFT) ? MW_VERDICT_UNSURE : verdict;
 }
 
 /* Cross edge e, which came out of values. A walk alone should not wait for them: a jump lets the
@@ -124,13 +124,13 @@ static MW_INLINE mw_verdict cross_guessed(mw_walk *w, uint32_t e, mw_policy P)
 static MW_INLINE mw_verdict cross_guessed_unsure(mw_walk *w, uint32_t e, mw_policy P)
 {
     mw_verdict verdict = cross_guessed(w, e, P);
-    return MW_UNLIKELY(verdict == MW_LEFT) ? MW_CLOSE : verdict;
+    return MW_UNLIKELY(verdict == MW_VERDICT_LEFT) ? MW_VERDICT_UNSURE : verdict;
 }
 
 /* Leave through edge e if q lies beyond it; otherwise q is here. */
 static MW_INLINE mw_verdict leave(mw_walk *w, uint32_t e, mw_policy P)
 {
-    return beyond(w, e, P) ? cross(w, e, P) : MW_FOUND;
+    return beyond(w, e, P) ? cross(w, e, P) : MW_VERDICT_FOUND;
 }
 
 /* Leave through `first`, or else `second`, if q lies beyond it; otherwise q is here. Many walks
@@ -145,7 +145,7 @@ static MW_INLINE mw_verdict leave_either(mw_walk *w, uint32_t first, uint32_t se
     double one = orient(w, corner(w, first), corner(w, first + 1), w->q, P);
     double two = orient(w, corner(w, second), corner(w, second + 1), w->q, P);
     double least = one < two ? one : two; /* of `one < 0 | two < 0` compilers make two jumps again */
-    if (!(least < 0)) return MW_FOUND;
+    if (!(least < 0)) return MW_VERDICT_FOUND;
     return cross(w, one < 0 ? first : second, P);
 }
 

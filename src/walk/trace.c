@@ -49,7 +49,7 @@ mw_verdict mw__walk_run(mw_walk *walk, const mw_kernels *kernels, bool exact, bo
     while (walk->fuel) {
         walk->fuel--;
         mw_verdict verdict = walk_step_recorded(walk, kernels);
-        if (verdict != MW_GO) return verdict;
+        if (verdict != MW_VERDICT_GO_ON) return verdict;
     }
-    return MW_DRY;
+    return MW_VERDICT_OUT_OF_FUEL;
 }

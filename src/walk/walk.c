@@ -72,12 +72,12 @@ uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_til
 mw_verdict mw__walk_surely(mw_walk *walk, bool count)
 {
     const mw_tiling *tiling = walk->tiling;
-    mw_verdict verdict = MW_DRY;
+    mw_verdict verdict = MW_VERDICT_OUT_OF_FUEL;
     if (!tiling->border_loops) {
         walk->fuel = mw__walk_fuel(MW_WALK_CELESTIAL, MW_EXACT, tiling);
         return mw__walk_run(walk, &mw__celestial, true, count);
     }
-    while (verdict == MW_DRY) { /* once, unless there are some 10^9 border edges */
+    while (verdict == MW_VERDICT_OUT_OF_FUEL) { /* once, unless there are some 10^9 border edges */
         walk->fuel = UINT32_MAX;
         verdict = mw__walk_run(walk, &mw__border_sure, true, count);
     }

@@ -11,12 +11,14 @@
 
 #include <meshwalk/locate.h>
 
+/* What a step of a walk, and at last the walk, has to say of its tile t. */
 typedef enum mw_verdict {
-    MW_GO,    /* crossed into another tile            */
-    MW_FOUND, /* q is in tile t                       */
-    MW_LEFT,  /* q lies beyond a hull edge of tile t  */
-    MW_CLOSE, /* a cheap walk, whose tests are only a guide, ended in tile t: q is here or near, an exact walk ends it */
-    MW_DRY    /* out of fuel in tile t                */
+    MW_VERDICT_GO_ON,      /* crossed into another tile */
+    MW_VERDICT_FOUND,      /* q is in tile t */
+    MW_VERDICT_LEFT,       /* q lies beyond a hull edge of tile t */
+    MW_VERDICT_UNSURE,     /* a cheap walk, whose tests are only a guide, ended in tile t: q is here or near, and
+                            * an exact walk ends it */
+    MW_VERDICT_OUT_OF_FUEL /* the steps that the walk may take were spent in tile t */
 } mw_verdict;
 
 #define MW_NO_EDGE 3u
@@ -70,7 +72,7 @@ typedef struct mw_walk {
 } mw_walk;
 
 /* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict
- * MW_GO: there is none yet) and replaces it by the next one; false: no more for this lane. */
+ * MW_VERDICT_GO_ON: there is none yet) and replaces it by the next one; false: no more for this lane. */
 typedef struct mw_feed {
     bool (*deliver)(struct mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verdict);
 } mw_feed;
@@ -107,11 +109,11 @@ mw_verdict mw__walk_run(mw_walk *walk, const mw_kernels *kernels, bool exact, bo
 /* The user's triangle of the current tile is the next one of the way; ghosts are passed over. */
 void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk);
 
-/* End with an exact walk (of kind `finish`) what a cheap one left at MW_CLOSE. */
+/* End with an exact walk (of kind `finish`) what a cheap one left at MW_VERDICT_UNSURE. */
 mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
                            bool count);
 
-/* Go on from tile walk->t with an exact walk that ends on every embedding. MW_DRY only where the
+/* Go on from tile walk->t with an exact walk that ends on every embedding. MW_VERDICT_OUT_OF_FUEL only where the
  * mesh is none. */
 mw_verdict mw__walk_surely(mw_walk *walk, bool count);
 

@@ -359,7 +359,7 @@ static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_poin
     mw_work expected = {.comparisons = 7};
     mw_walk w = mw__walk_begin(top, q, t, 100000, mw__random(&seed), &expected);
     mw_verdict verdict = mw__walk_kernels((mw_walk_kind)walk, top)->run[true][true](&w);
-    if (verdict == MW_CLOSE && !has_coordinates(walk))
+    if (verdict == MW_VERDICT_UNSURE && !has_coordinates(walk))
         mw__walk_finish(&w, MW_WALK_REMEMBERING, 100000, top, true, true);
     if (descent == MW_DESCENT_COORDINATE && !has_coordinates(walk)) expected.orient[MW_STAGE_WALK] += 2;
     bool heavy = descent == MW_DESCENT_COORDINATE;

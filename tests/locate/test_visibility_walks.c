@@ -73,7 +73,7 @@ static void test_tests_per_triangle(void **state)
 static uint32_t follow(const mw_kernels *kernels, mw_walk *walk, bool exact)
 {
     walk->fuel = 1;
-    return kernels->run[exact][false](walk) == MW_DRY ? walk->t : MW_NONE;
+    return kernels->run[exact][false](walk) == MW_VERDICT_OUT_OF_FUEL ? walk->t : MW_NONE;
 }
 
 /* The direct walk goes the way of the barycentric one, with stored areas or without, and out of the hull too. */
@@ -268,20 +268,20 @@ static void expect_sure(const mw_kernels *kernels, const mw_tiling *tiling, uint
 {
     enum { STEPS = 300 };
     mw_walk walk = mw__walk_begin(tiling, (mw_point){q[0], q[1]}, t, 0, 0, NULL);
-    mw_verdict verdict = MW_DRY;
-    for (int i = 0; i < STEPS && verdict == MW_DRY; i++) {
+    mw_verdict verdict = MW_VERDICT_OUT_OF_FUEL;
+    for (int i = 0; i < STEPS && verdict == MW_VERDICT_OUT_OF_FUEL; i++) {
         walk.fuel = 1;
         t = walk.t;
         verdict = kernels->run[true][false](&walk);
-        bool sure = verdict == MW_CLOSE;
+        bool sure = verdict == MW_VERDICT_UNSURE;
         for (uint32_t e = 0; e < 3; e++) {
             uint32_t link = walk.tri[t].link[e];
-            bool left = verdict == MW_LEFT && link == MW_NONE;
-            bool crossed_here = verdict == MW_DRY && link == 4 * walk.t + walk.e;
+            bool left = verdict == MW_VERDICT_LEFT && link == MW_NONE;
+            bool crossed_here = verdict == MW_VERDICT_OUT_OF_FUEL && link == 4 * walk.t + walk.e;
             sure |= (left || crossed_here) && parts(&walk, t, e);
         }
         if (!sure) fail_msg("from tile %u: (%a, %a) is not beyond the edge that was crossed", t, q[0], q[1]);
-        *crossed += verdict != MW_CLOSE;
+        *crossed += verdict != MW_VERDICT_UNSURE;
     }
 }
 

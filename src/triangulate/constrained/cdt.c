@@ -18,7 +18,7 @@
 
 /* --- what is given --- */
 
-static mw_status check_segments(const mw_constraints *given, mw_error *error)
+static mw_status cdt_check_segments(const mw_constraints *given, mw_error *error)
 {
     for (size_t i = 0; i < 2 * given->segment_count; i++)
         if (given->segments[i] >= given->point_count)
@@ -42,7 +42,7 @@ static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, 
         return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", given->point_count);
     if (given->segment_count >= MW_NONE)
         return mw__fail(error, MW_ERROR_LIMIT, "too many segments: %zu", given->segment_count);
-    return check_segments(given, error);
+    return cdt_check_segments(given, error);
 }
 
 static void cdt_release(mw_cdt *m)
@@ -61,7 +61,7 @@ static void cdt_release(mw_cdt *m)
 /* --- forcing the stretches in --- */
 
 /* A subsegment was made, or one made before has another owner now. */
-static bool note_subsegment(mw_cdt *m, const mw_subsegment *subsegment, uint32_t segment)
+static bool cdt_note_subsegment(mw_cdt *m, const mw_subsegment *subsegment, uint32_t segment)
 {
     mw_segment_part part = {subsegment->from, subsegment->to, segment};
     if (subsegment->number == m->subsegments.count) {
@@ -80,7 +80,7 @@ static bool part_force(mw_cdt *m, mw_segment_part s)
         mw_subsegment subsegment;
         mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &subsegment);
         if (result == MW_SUBSEGMENT_CROSSES) return mw__segment_parts_add(&m->crossing, s);
-        if (result != MW_SUBSEGMENT_DONE || !note_subsegment(m, &subsegment, s.segment)) return false;
+        if (result != MW_SUBSEGMENT_DONE || !cdt_note_subsegment(m, &subsegment, s.segment)) return false;
     }
     return true;
 }
@@ -89,7 +89,7 @@ static bool part_force(mw_cdt *m, mw_segment_part s)
  * first, and to shield what lies behind them from those that follow; in each round along the
  * Hilbert curve of the triangles, so that what is near is near in memory. NULL when out of
  * memory. */
-static uint32_t *order_parts(const mw_cdt *m)
+static uint32_t *cdt_order_parts(const mw_cdt *m)
 {
     uint32_t n = (uint32_t)m->parts.count, *order = mw__brio_order(n);
     mw_key *along = mw__alloc(n, sizeof *along), *scratch = mw__alloc(n, sizeof *scratch);
@@ -123,7 +123,7 @@ static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_er
         m->parts.item[i].from = mw__vertex_of(m, m->parts.item[i].from);
         m->parts.item[i].to = mw__vertex_of(m, m->parts.item[i].to);
     }
-    uint32_t *order = order_parts(m);
+    uint32_t *order = cdt_order_parts(m);
     bool done = order;
     mw__job_stage(m->job, "inserting segments", 0.5);
     for (size_t i = 0; i < m->parts.count && done && (all || !m->crossing.count); i++)
@@ -151,7 +151,7 @@ typedef struct finder {
     uint32_t subsegment;
 } finder;
 
-static bool find_subsegment(void *context, uint32_t subsegment, uint32_t vertex)
+static bool cdt_find_subsegment(void *context, uint32_t subsegment, uint32_t vertex)
 {
     finder *f = context;
     (void)vertex;
@@ -160,11 +160,11 @@ static bool find_subsegment(void *context, uint32_t subsegment, uint32_t vertex)
 }
 
 /* Name the first pair found that crosses. */
-static mw_status fail_crossing(const mw_cdt *m, const char *why, mw_constrain_report *report, mw_error *error)
+static mw_status cdt_fail_crossing(const mw_cdt *m, const char *why, mw_constrain_report *report, mw_error *error)
 {
     const mw_segment_part *s = &m->crossing.item[0];
     finder f = {m, MW_NONE};
-    mw__segment_insertion_trace(&m->net, s->from, s->to, find_subsegment, &f);
+    mw__segment_insertion_trace(&m->net, s->from, s->to, cdt_find_subsegment, &f);
     const mw_segment_part *p = &m->subsegments.item[f.subsegment];
     report->crossing_segments[0] = s->segment < p->segment ? s->segment : p->segment;
     report->crossing_segments[1] = s->segment < p->segment ? p->segment : s->segment;
@@ -178,12 +178,12 @@ static mw_status fail_crossing(const mw_cdt *m, const char *why, mw_constrain_re
                     crossing.y, why);
 }
 
-static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
-                          mw_error *error);
+static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
+                              mw_error *error);
 
 /* The ends of parts, in the order of their numbers: number[p] is the one of point p among them, or
  * MW_NONE. */
-static uint32_t number_ends(const mw_cdt *m, uint32_t *number)
+static uint32_t cdt_number_ends(const mw_cdt *m, uint32_t *number)
 {
     uint32_t count = 0;
     for (size_t p = 0; p < m->point_count; p++) number[p] = MW_NONE;
@@ -194,7 +194,7 @@ static uint32_t number_ends(const mw_cdt *m, uint32_t *number)
 }
 
 /* Only the parts and their ends, numbered as `number` says. */
-static bool take_ends(const mw_cdt *m, const uint32_t *number, uint32_t count, mw_cdt *ends)
+static bool cdt_take_ends(const mw_cdt *m, const uint32_t *number, uint32_t count, mw_cdt *ends)
 {
     ends->point = mw__alloc_lines(count, sizeof *ends->point);
     ends->parts.item = mw__alloc(m->parts.count, sizeof *ends->parts.item);
@@ -211,7 +211,7 @@ static bool take_ends(const mw_cdt *m, const uint32_t *number, uint32_t count, m
 }
 
 /* The other way: take the parts of `ends`, and the points made there beyond the first `count`. */
-static bool take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
+static bool cdt_take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
 {
     size_t n = m->point_count, made = ends->point_count - count;
     mw_point *point = mw__alloc_lines(n + made, sizeof *point);
@@ -235,21 +235,21 @@ static bool take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *ends)
 }
 
 /* Whether parts cross has nothing to do with the other points. Where these are many, split the
- * parts without them, until nothing crosses. make_all, which calls this, does that, and may come
+ * parts without them, until nothing crosses. cdt_make_all, which calls this, does that, and may come
  * here again; but not deep, as each time at most half the points remain. Hardly ever twice: nearly
  * all points are ends then. */
-static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
+static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
     if (!number) return mw__fail_memory(error);
-    uint32_t count = number_ends(m, number);
+    uint32_t count = cdt_number_ends(m, number);
     mw_cdt ends = {.given = m->given, .job = m->job};
     mw_status status = MW_OK;
     if (count <= m->point_count / 2) {
-        status =
-            take_ends(m, number, count, &ends) ? make_all(&ends, true, NULL, report, error) : mw__fail_memory(error);
+        status = cdt_take_ends(m, number, count, &ends) ? cdt_make_all(&ends, true, NULL, report, error)
+                                                        : mw__fail_memory(error);
         m->crossed += ends.crossed;
-        if (status == MW_OK && !take_back(m, number, count, &ends)) status = mw__fail_memory(error);
+        if (status == MW_OK && !cdt_take_back(m, number, count, &ends)) status = mw__fail_memory(error);
     }
     cdt_release(&ends);
     free(number);
@@ -259,8 +259,8 @@ static mw_status split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *e
 /* Each round puts points where parts cross. Most are then done; but points are rounded, so a part
  * may come to cross another by that, and of many that cross one another each round lets some in,
  * and parts the others. */
-static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
-                          mw_error *error)
+static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
+                              mw_error *error)
 {
     enum { MOST_ROUNDS = 200 };
     double left = 0.5; /* of the job, for further rounds: of what is left, each takes half */
@@ -272,7 +272,7 @@ static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, m
         if (status == MW_OK) {
             cdt_unmake(m);
             outer = mw__job_part(m->job, left / 4);
-            status = split_apart(m, report, error);
+            status = cdt_split_apart(m, report, error);
             mw__job_part_end(m->job, outer);
         }
         outer = mw__job_part(m->job, left / 4);
@@ -282,7 +282,7 @@ static mw_status make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, m
     }
     if (status == MW_OK && m->crossing.count)
         status =
-            fail_crossing(m, split ? ", and so close to others that rounding cannot part them" : "", report, error);
+            cdt_fail_crossing(m, split ? ", and so close to others that rounding cannot part them" : "", report, error);
     return status;
 }
 
@@ -309,7 +309,7 @@ static mw_status cdt_build(mw_cdt *m, const mw_constrain_options *options, uint3
 {
     mw_status status = cdt_take(m, error);
     mw_job_span outer = mw__job_part(m->job, 0.85);
-    if (status == MW_OK) status = make_all(m, options->split, &report->delaunay, report, error);
+    if (status == MW_OK) status = cdt_make_all(m, options->split, &report->delaunay, report, error);
     mw__job_part_end(m->job, outer);
     report->triangles_crossed = m->crossed;
     mw__job_stage(m->job, "removing what is outside", 0.05);

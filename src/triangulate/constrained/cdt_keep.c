@@ -8,7 +8,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-static uint32_t subsegment_at(const mw_cdt *m, uint32_t half)
+static uint32_t keep_subsegment_at(const mw_cdt *m, uint32_t half)
 {
     return m->net.subsegment[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
 }
@@ -32,7 +32,7 @@ static void parity_release(parity *p)
 }
 
 /* The segments that belong to polygons, by polygon. Returns NULL when out of memory. */
-static mw_key *sort_by_polygon(const mw_constraints *given, size_t *count)
+static mw_key *polygon_segments_sort(const mw_constraints *given, size_t *count)
 {
     size_t n = given->segment_count;
     mw_key *key = mw__alloc(n, sizeof *key), *scratch = mw__alloc(n, sizeof *scratch);
@@ -49,7 +49,7 @@ static mw_key *sort_by_polygon(const mw_constraints *given, size_t *count)
     return key;
 }
 
-static bool rank_polygons(parity *p, const mw_key *key, size_t count)
+static bool parity_rank_polygons(parity *p, const mw_key *key, size_t count)
 {
     uint32_t polygons = 0;
     p->rank = mw__alloc(p->m->given->segment_count, sizeof *p->rank);
@@ -64,7 +64,7 @@ static bool rank_polygons(parity *p, const mw_key *key, size_t count)
 }
 
 /* Inside and outside make sense where at each vertex an even number of a polygon's segments end. */
-static mw_status check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
+static mw_status polygons_check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
 {
     uint8_t *odd = mw__calloc(m->given->point_count, sizeof *odd);
     mw_status status = odd ? MW_OK : mw__fail_memory(error);
@@ -85,9 +85,9 @@ static mw_status check_closed(const mw_cdt *m, const mw_key *key, size_t count, 
 static mw_status parity_prepare(parity *p, mw_error *error)
 {
     size_t count;
-    mw_key *key = sort_by_polygon(p->m->given, &count);
-    mw_status status = key ? check_closed(p->m, key, count, error) : mw__fail_memory(error);
-    if (status == MW_OK && !(rank_polygons(p, key, count) && mw__subsegment_owners_create(&p->owners, p->m)))
+    mw_key *key = polygon_segments_sort(p->m->given, &count);
+    mw_status status = key ? polygons_check_closed(p->m, key, count, error) : mw__fail_memory(error);
+    if (status == MW_OK && !(parity_rank_polygons(p, key, count) && mw__subsegment_owners_create(&p->owners, p->m)))
         status = mw__fail_memory(error);
     free(key);
     return status;
@@ -96,7 +96,7 @@ static mw_status parity_prepare(parity *p, mw_error *error)
 /* Cross a half-edge, either way. */
 static void parity_cross(parity *p, uint32_t half)
 {
-    uint32_t subsegment = subsegment_at(p->m, half);
+    uint32_t subsegment = keep_subsegment_at(p->m, half);
     if (subsegment == MW_NONE) return;
     for (size_t i = p->owners.first[subsegment]; i < p->owners.first[subsegment + 1]; i++) {
         uint32_t rank = p->rank[p->owners.segment[i]];
@@ -107,7 +107,7 @@ static void parity_cross(parity *p, uint32_t half)
 }
 
 /* Half-edge of the hull, in the triangle inside. */
-static uint32_t hull_half(const mw_cdt *m)
+static uint32_t hull_first_half(const mw_cdt *m)
 {
     uint32_t t = 0, k = 0;
     while (m->tri[t].link[k] != MW_NONE) {
@@ -119,12 +119,12 @@ static uint32_t hull_half(const mw_cdt *m)
 
 /* Go through all triangles depth first, from outside the hull, keeping the parities of where one
  * is. The way back is the way in: entry[t] is the edge by which triangle t was entered. */
-static void keep_odd(parity *p, uint8_t *entry)
+static void parity_keep_odd(parity *p, uint8_t *entry)
 {
     enum { UNSEEN = 3 };
     const mw_cdt *m = p->m;
     for (uint32_t t = 0; t < m->tri_count; t++) entry[t] = UNSEEN;
-    uint32_t half = hull_half(m);
+    uint32_t half = hull_first_half(m);
     parity_cross(p, half);
     for (;;) {
         uint32_t t = mw__link_triangle(half);
@@ -143,12 +143,12 @@ static void keep_odd(parity *p, uint8_t *entry)
     }
 }
 
-static mw_status keep_polygons(mw_cdt *m, mw_error *error)
+static mw_status parity_keep_polygons(mw_cdt *m, mw_error *error)
 {
     parity p = {.m = m};
     uint8_t *entry = mw__alloc(m->tri_count, sizeof *entry);
     mw_status status = entry ? parity_prepare(&p, error) : mw__fail_memory(error);
-    if (status == MW_OK) keep_odd(&p, entry);
+    if (status == MW_OK) parity_keep_odd(&p, entry);
     free(entry);
     parity_release(&p);
     return status;
@@ -162,7 +162,7 @@ typedef struct flood {
     uint32_t top;
 } flood;
 
-static void remove_triangle(flood *f, uint32_t t)
+static void flood_remove_triangle(flood *f, uint32_t t)
 {
     if (!f->m->kept[t]) return;
     f->m->kept[t] = 0;
@@ -177,18 +177,18 @@ static void flood_spread(flood *f)
         uint32_t t = f->stack[--f->top];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = f->m->tri[t].link[k];
-            if (link != MW_NONE && subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
-                remove_triangle(f, mw__link_triangle(link));
+            if (link != MW_NONE && keep_subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
+                flood_remove_triangle(f, mw__link_triangle(link));
         }
     }
 }
 
-static void remove_outside(flood *f)
+static void flood_remove_outside(flood *f)
 {
     for (uint32_t t = 0; t < f->m->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++)
-            if (f->m->tri[t].link[k] == MW_NONE && subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
-                remove_triangle(f, t);
+            if (f->m->tri[t].link[k] == MW_NONE && keep_subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
+                flood_remove_triangle(f, t);
     flood_spread(f);
 }
 
@@ -202,7 +202,7 @@ static double half_side(const mw_cdt *m, uint32_t half, mw_point q)
 
 /* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried
  * from a random one on: the walk ends with probability 1 [Devillers, Pion, Teillaud 2002]. */
-static bool keep_walk(const mw_cdt *m, mw_point q, uint64_t *random, uint32_t *t)
+static bool hole_point_walk(const mw_cdt *m, mw_point q, uint64_t *random, uint32_t *t)
 {
     for (;;) {
         uint32_t first = mw__random_below(random, 3), k = first;
@@ -216,51 +216,51 @@ static bool keep_walk(const mw_cdt *m, mw_point q, uint64_t *random, uint32_t *t
 }
 
 /* Remove the triangles round the vertex that a half-edge leaves. */
-static void remove_round(flood *f, uint32_t first)
+static void flood_remove_round(flood *f, uint32_t first)
 {
     const mw_triangle *tri = f->m->tri;
     uint32_t half = first;
     do {
-        remove_triangle(f, mw__link_triangle(half));
+        flood_remove_triangle(f, mw__link_triangle(half));
         half = tri[mw__link_triangle(half)].link[mw__prev(mw__link_edge(half))];
     } while (half != first && half != MW_NONE);
     if (half == first) return;
     half = first;
     while ((half = tri[mw__link_triangle(half)].link[mw__link_edge(half)]) != MW_NONE) {
         half = mw__half_next(half);
-        remove_triangle(f, mw__link_triangle(half));
+        flood_remove_triangle(f, mw__link_triangle(half));
     }
 }
 
 /* Remove all triangles that q touches, of which t is one. */
-static void remove_touched(flood *f, uint32_t t, mw_point q)
+static void flood_remove_touched(flood *f, uint32_t t, mw_point q)
 {
     bool on[3];
     for (uint32_t k = 0; k < 3; k++) on[k] = half_side(f->m, mw__link(t, k), q) == 0;
-    remove_triangle(f, t);
+    flood_remove_triangle(f, t);
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t link = f->m->tri[t].link[k];
-        if (on[k] && link != MW_NONE) remove_triangle(f, mw__link_triangle(link));
-        if (on[k] && on[mw__prev(k)]) remove_round(f, mw__link(t, k));
+        if (on[k] && link != MW_NONE) flood_remove_triangle(f, mw__link_triangle(link));
+        if (on[k] && on[mw__prev(k)]) flood_remove_round(f, mw__link(t, k));
     }
 }
 
-static void remove_holes(flood *f)
+static void flood_remove_holes(flood *f)
 {
     const mw_constraints *given = f->m->given;
     uint64_t random = 1;
     uint32_t t = 0;
     for (size_t i = 0; i < given->hole_seed_count; i++) {
         mw_point q = {given->hole_seeds[2 * i], given->hole_seeds[2 * i + 1]};
-        if (!keep_walk(f->m, q, &random, &t)) continue;
-        remove_touched(f, t, q);
+        if (!hole_point_walk(f->m, q, &random, &t)) continue;
+        flood_remove_touched(f, t, q);
         flood_spread(f);
     }
 }
 
 /* --- all together --- */
 
-static bool any_polygon(const mw_constraints *given)
+static bool constraints_have_polygon(const mw_constraints *given)
 {
     for (size_t i = 0; given->polygon && i < given->segment_count; i++)
         if (given->polygon[i] != MW_NONE) return true;
@@ -269,20 +269,20 @@ static bool any_polygon(const mw_constraints *given)
 
 mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error)
 {
-    bool polygons = any_polygon(m->given);
+    bool polygons = constraints_have_polygon(m->given);
     if (keep == MW_KEEP_AUTO) keep = polygons || m->given->hole_seed_count ? MW_KEEP_INSIDE : MW_KEEP_HULL;
     m->kept = mw__alloc(m->tri_count, sizeof *m->kept);
     if (!m->kept) return mw__fail_memory(error);
     for (uint32_t t = 0; t < m->tri_count; t++) m->kept[t] = 1;
     if (keep == MW_KEEP_HULL) return MW_OK;
     if (polygons) {
-        mw_status status = keep_polygons(m, error);
+        mw_status status = parity_keep_polygons(m, error);
         if (status) return status;
     }
     flood f = {.m = m, .stack = mw__alloc(m->tri_count, sizeof *f.stack)};
     if (!f.stack) return mw__fail_memory(error);
-    if (!polygons) remove_outside(&f);
-    remove_holes(&f);
+    if (!polygons) flood_remove_outside(&f);
+    flood_remove_holes(&f);
     free(f.stack);
     return MW_OK;
 }

@@ -16,7 +16,7 @@ void mw_constrained_edges_release(mw_constrained_edges *edges)
 
 /* Points made twice, or where one of the caller's lies, are not vertices: number those that are.
  * NULL when out of memory. */
-static uint32_t *number_points(const mw_cdt *m, uint32_t *count)
+static uint32_t *output_number_points(const mw_cdt *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
     *count = 0;
@@ -27,7 +27,7 @@ static uint32_t *number_points(const mw_cdt *m, uint32_t *count)
 
 /* Per triangle its number among those kept, or MW_NONE. They are numbered along a Hilbert curve
  * from the beginning. NULL when out of memory. */
-static uint32_t *number_triangles(const mw_cdt *m, uint32_t *count)
+static uint32_t *output_number_triangles(const mw_cdt *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->tri_count, sizeof *number);
     *count = 0;
@@ -36,7 +36,7 @@ static uint32_t *number_triangles(const mw_cdt *m, uint32_t *count)
 }
 
 /* The triangles kept, with their new numbers, and those of their vertices. */
-static void cdt_copy_triangles(const mw_cdt *m, const uint32_t *number, const uint32_t *vertex, mw_triangle *out)
+static void output_copy_triangles(const mw_cdt *m, const uint32_t *number, const uint32_t *vertex, mw_triangle *out)
 {
     for (uint32_t t = 0; t < m->tri_count; t++) {
         if (!m->kept[t]) continue;
@@ -53,7 +53,7 @@ static void cdt_copy_triangles(const mw_cdt *m, const uint32_t *number, const ui
 }
 
 /* Nothing has a new number: the triangles are moved. */
-static void move_triangles(mw_cdt *m, mw_mesh *mesh)
+static void output_move_triangles(mw_cdt *m, mw_mesh *mesh)
 {
     for (uint32_t t = 0; t < m->tri_count; t++) m->tri[t].user = t;
     mesh->tri = m->tri;
@@ -62,7 +62,7 @@ static void move_triangles(mw_cdt *m, mw_mesh *mesh)
 
 /* Subsegments of the triangles kept, each once, in the order of the triangles. With out NULL they
  * are only counted. */
-static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_constrained_edges *out)
+static size_t output_list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_constrained_edges *out)
 {
     size_t made = 0;
     for (uint32_t t = 0; t < m->tri_count; t++)
@@ -81,30 +81,30 @@ static size_t list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_const
     return made;
 }
 
-static bool give_subsegments(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
+static bool output_give_subsegments(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
 {
     if (!out) return true;
     out->edge = mw__alloc(2 * count, sizeof *out->edge);
     out->segment = mw__alloc(count, sizeof *out->segment);
     out->count = count;
     if (!out->edge || !out->segment) return false;
-    list_subsegments(m, vertex, out);
+    output_list_subsegments(m, vertex, out);
     return true;
 }
 
-static bool give_triangles(mw_cdt *m, const uint32_t *number, const uint32_t *vertex, mw_mesh *mesh)
+static bool output_give_triangles(mw_cdt *m, const uint32_t *number, const uint32_t *vertex, mw_mesh *mesh)
 {
     if (mesh->tri_count == m->tri_count && mesh->point_count == m->point_count) {
-        move_triangles(m, mesh);
+        output_move_triangles(m, mesh);
         return true;
     }
     mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
     if (!mesh->tri) return false;
-    cdt_copy_triangles(m, number, vertex, mesh->tri);
+    output_copy_triangles(m, number, vertex, mesh->tri);
     return true;
 }
 
-static void give_points(mw_cdt *m, const uint32_t *vertex, mw_mesh *mesh)
+static void output_give_points(mw_cdt *m, const uint32_t *vertex, mw_mesh *mesh)
 {
     for (size_t i = 0; i < m->point_count; i++)
         if (vertex[i] != MW_NONE) m->point[vertex[i]] = m->point[i];
@@ -113,23 +113,25 @@ static void give_points(mw_cdt *m, const uint32_t *vertex, mw_mesh *mesh)
 }
 
 /* Move what was made into a mesh. */
-static bool give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh *mesh)
+static bool output_give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh *mesh)
 {
-    uint32_t *vertex = number_points(m, &mesh->point_count), *number = number_triangles(m, &mesh->tri_count);
+    uint32_t *vertex = output_number_points(m, &mesh->point_count),
+             *number = output_number_triangles(m, &mesh->tri_count);
     bool done = vertex && number;
     if (done) {
         report->triangles_removed = m->tri_count - mesh->tri_count;
         report->vertices_added = mesh->point_count - m->given->point_count;
-        report->constrained_edges = list_subsegments(m, vertex, NULL);
-        done = give_subsegments(m, vertex, report->constrained_edges, edges) && give_triangles(m, number, vertex, mesh);
+        report->constrained_edges = output_list_subsegments(m, vertex, NULL);
+        done = output_give_subsegments(m, vertex, report->constrained_edges, edges) &&
+               output_give_triangles(m, number, vertex, mesh);
     }
-    if (done) give_points(m, vertex, mesh);
+    if (done) output_give_points(m, vertex, mesh);
     free(vertex);
     free(number);
     return done;
 }
 
-static bool cdt_lay_out(const mw_cdt *m, mw_mesh *mesh)
+static bool output_lay_out(const mw_cdt *m, mw_mesh *mesh)
 {
     mw_job_span outer = mw__job_part(m->job, 0.7);
     bool done = mw__mesh_lay_out_vertices(mesh, m->job);
@@ -148,7 +150,7 @@ mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_
                         m->tri_count);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     mw__job_stage(m->job, "making a mesh", 0.3);
-    if (mesh && give_mesh(m, report, edges, mesh) && cdt_lay_out(m, mesh)) {
+    if (mesh && output_give_mesh(m, report, edges, mesh) && output_lay_out(m, mesh)) {
         *out = mesh;
         return MW_OK;
     }

@@ -25,7 +25,7 @@ static double value_clamp(double x, double low, double high)
 }
 
 /* In the boxes of both, which have a point in common. */
-static double clamp_both(double x, double a, double b, double c, double d)
+static double value_clamp_twice(double x, double a, double b, double c, double d)
 {
     return value_clamp(x, fmax(fmin(a, b), fmin(c, d)), fmin(fmax(a, b), fmax(c, d)));
 }
@@ -54,7 +54,7 @@ mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
     int near = area[0] <= area[1] ? 0 : 1;
     double share = area[near] / (area[0] + area[1]);
     mw_point p = {value_between(e[near].x, e[1 - near].x, share), value_between(e[near].y, e[1 - near].y, share)};
-    return (mw_point){clamp_both(p.x, a.x, b.x, c.x, d.x), clamp_both(p.y, a.y, b.y, c.y, d.y)};
+    return (mw_point){value_clamp_twice(p.x, a.x, b.x, c.x, d.x), value_clamp_twice(p.y, a.y, b.y, c.y, d.y)};
 }
 
 /* --- cuts --- */
@@ -78,19 +78,19 @@ typedef struct splitter {
     bool too_many;
 } splitter;
 
-static const mw_segment_part *link_at(const mw_cdt *m, size_t link)
+static const mw_segment_part *splitter_part_at(const mw_cdt *m, size_t link)
 {
     return link < m->subsegments.count ? &m->subsegments.item[link] : &m->crossing.item[link - m->subsegments.count];
 }
 
-static mw_point point_at(const splitter *s, uint32_t p)
+static mw_point splitter_point_at(const splitter *s, uint32_t p)
 {
     return p < s->m->point_count ? s->m->point[p] : s->made[p - s->m->point_count];
 }
 
 /* How far p is along a link: the coordinate in which the link is longer, then the other, both
  * growing from the link's beginning to its end. */
-static mw_point point_along(const splitter *s, const mw_segment_part *link, mw_point p)
+static mw_point splitter_point_along(const splitter *s, const mw_segment_part *link, mw_point p)
 {
     mw_point a = s->m->point[link->from], b = s->m->point[link->to];
     double x = b.x > a.x ? p.x : -p.x, y = b.y > a.y ? p.y : -p.y;
@@ -100,8 +100,8 @@ static mw_point point_along(const splitter *s, const mw_segment_part *link, mw_p
 /* Note that a link is to be cut at a point, unless it ends there. */
 static bool splitter_add_cut(splitter *s, size_t link, uint32_t point, bool exact)
 {
-    const mw_segment_part *l = link_at(s->m, link);
-    mw_point p = point_at(s, point);
+    const mw_segment_part *l = splitter_part_at(s->m, link);
+    mw_point p = splitter_point_at(s, point);
     if (mw__points_equal(p, s->m->point[l->from]) || mw__points_equal(p, s->m->point[l->to])) return true;
     if (s->cut_count == s->cut_capacity) {
         size_t capacity = 2 * s->cut_capacity + 64;
@@ -110,13 +110,13 @@ static bool splitter_add_cut(splitter *s, size_t link, uint32_t point, bool exac
         s->cut = list;
         s->cut_capacity = capacity;
     }
-    s->cut[s->cut_count++] = (cut){link, point, exact, point_along(s, l, p)};
+    s->cut[s->cut_count++] = (cut){link, point, exact, splitter_point_along(s, l, p)};
     return true;
 }
 
 /* The number of a point where two links cross: an end of one of them, or a new one. MW_NONE when
  * out of memory. */
-static uint32_t make_point(splitter *s, const mw_segment_part *a, const mw_segment_part *b)
+static uint32_t splitter_make_point(splitter *s, const mw_segment_part *a, const mw_segment_part *b)
 {
     const mw_point *point = s->m->point;
     uint32_t ends[4] = {a->from, a->to, b->from, b->to};
@@ -138,7 +138,7 @@ static uint32_t make_point(splitter *s, const mw_segment_part *a, const mw_segme
 
 /* Scale three coordinates by a power of two, to at most 1. Returns the distance of doubles at the
  * largest then. */
-static double rescale_line(double c[3])
+static double line_rescale(double c[3])
 {
     int exponent;
     frexp(fmax(fmax(fabs(c[0]), fabs(c[1])), fabs(c[2])), &exponent);
@@ -153,24 +153,25 @@ static bool value_is_between(double a, double b, double x)
 
 /* Does ab, with p in its box, pass by p so closely that it would go through p if the coordinates
  * were off by that many times the distance of doubles? */
-static bool passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
+static bool segment_passes_by(mw_point a, mw_point b, mw_point p, double tolerance)
 {
     if (!value_is_between(a.x, b.x, p.x) || !value_is_between(a.y, b.y, p.y)) return false;
     double x[3] = {a.x, b.x, p.x}, y[3] = {a.y, b.y, p.y};
-    double off_x = rescale_line(x), off_y = rescale_line(y);
+    double off_x = line_rescale(x), off_y = line_rescale(y);
     double dx = x[1] - x[0], dy = y[1] - y[0];
     double area = dx * (y[2] - y[0]) - dy * (x[2] - x[0]);
     return fabs(area) <= tolerance * (fabs(dx) * off_y + fabs(dy) * off_x);
 }
 
 /* Two links cross. Cut the one at those ends of the other that it passes by. */
-static bool cut_at_ends(splitter *s, size_t link, size_t other)
+static bool splitter_cut_at_ends(splitter *s, size_t link, size_t other)
 {
     const mw_point *point = s->m->point;
-    const mw_segment_part *l = link_at(s->m, link), *o = link_at(s->m, other);
+    const mw_segment_part *l = splitter_part_at(s->m, link), *o = splitter_part_at(s->m, other);
     for (int i = 0; i < 2; i++) {
         uint32_t end = i == 0 ? o->from : o->to;
-        if (passes_by(point[l->from], point[l->to], point[end], s->tolerance) && !splitter_add_cut(s, link, end, false))
+        if (segment_passes_by(point[l->from], point[l->to], point[end], s->tolerance) &&
+            !splitter_add_cut(s, link, end, false))
             return false;
     }
     return true;
@@ -182,13 +183,14 @@ static bool splitter_meet(void *context, uint32_t subsegment, uint32_t vertex)
     size_t link = s->m->subsegments.count + s->remainder;
     if (subsegment == MW_NONE) return splitter_add_cut(s, link, vertex, true);
     size_t before = s->cut_count;
-    if (s->tolerance > 0 && !(cut_at_ends(s, link, subsegment) && cut_at_ends(s, subsegment, link))) return false;
+    if (s->tolerance > 0 && !(splitter_cut_at_ends(s, link, subsegment) && splitter_cut_at_ends(s, subsegment, link)))
+        return false;
     if (s->cut_count > before) return true;
-    uint32_t point = make_point(s, link_at(s->m, link), &s->m->subsegments.item[subsegment]);
+    uint32_t point = splitter_make_point(s, splitter_part_at(s->m, link), &s->m->subsegments.item[subsegment]);
     return point != MW_NONE && splitter_add_cut(s, link, point, false) && splitter_add_cut(s, subsegment, point, false);
 }
 
-static bool find_cuts(splitter *s)
+static bool splitter_find_cuts(splitter *s)
 {
     const mw_segment_parts *crossing = &s->m->crossing;
     for (s->remainder = 0; s->remainder < crossing->count; s->remainder++) {
@@ -212,36 +214,36 @@ static int cut_compare(const void *left, const void *right)
 /* The parts of a link, cut at `count` points, for one segment. No part leads back in either
  * coordinate: so their boxes are smaller than the link's, even of a link that is only a few doubles
  * long. A point left out is seen to in the next round. */
-static bool add_parts(splitter *s, const mw_segment_part *link, const cut *cuts, size_t count, uint32_t segment,
-                      mw_segment_parts *parts)
+static bool parts_add_cut(splitter *s, const mw_segment_part *link, const cut *cuts, size_t count, uint32_t segment,
+                          mw_segment_parts *parts)
 {
     uint32_t from = link->from;
-    double reached = point_along(s, link, point_at(s, from)).y;
+    double reached = splitter_point_along(s, link, splitter_point_at(s, from)).y;
     for (size_t i = 0; i <= count; i++) {
         uint32_t to = i < count ? cuts[i].point : link->to;
         if (i < count && cuts[i].along.y < reached && !cuts[i].exact) continue;
         if (i < count) reached = cuts[i].along.y;
-        if (mw__points_equal(point_at(s, from), point_at(s, to))) continue;
+        if (mw__points_equal(splitter_point_at(s, from), splitter_point_at(s, to))) continue;
         if (!mw__segment_parts_add(parts, (mw_segment_part){from, to, segment})) return false;
         from = to;
     }
     return true;
 }
 
-static bool cut_all(splitter *s, const mw_subsegment_owners *owners, mw_segment_parts *parts)
+static bool splitter_cut_all(splitter *s, const mw_subsegment_owners *owners, mw_segment_parts *parts)
 {
     const mw_cdt *m = s->m;
     const cut *cuts = s->cut;
     size_t left = s->cut_count, count;
     for (size_t link = 0; link < m->subsegments.count + m->crossing.count; link++, cuts += count, left -= count) {
         for (count = 0; count < left && cuts[count].link == link;) count++;
-        const mw_segment_part *l = link_at(m, link);
+        const mw_segment_part *l = splitter_part_at(m, link);
         if (link >= m->subsegments.count) {
-            if (!add_parts(s, l, cuts, count, l->segment, parts)) return false;
+            if (!parts_add_cut(s, l, cuts, count, l->segment, parts)) return false;
             continue;
         }
         for (size_t i = owners->first[link]; i < owners->first[link + 1]; i++)
-            if (!add_parts(s, l, cuts, count, owners->segment[i], parts)) return false;
+            if (!parts_add_cut(s, l, cuts, count, owners->segment[i], parts)) return false;
     }
     return true;
 }
@@ -252,7 +254,7 @@ static bool splitter_take_points(splitter *s)
     mw_cdt *m = s->m;
     mw_point *point = mw__alloc_lines(m->point_count + s->made_count, sizeof *point);
     if (!point) return false;
-    for (size_t i = 0; i < m->point_count + s->made_count; i++) point[i] = point_at(s, (uint32_t)i);
+    for (size_t i = 0; i < m->point_count + s->made_count; i++) point[i] = splitter_point_at(s, (uint32_t)i);
     free(m->point);
     m->point = point;
     m->point_count += s->made_count;
@@ -261,7 +263,7 @@ static bool splitter_take_points(splitter *s)
 
 /* None in the first round, when links are still the segments as given; then it doubles every few
  * rounds. */
-static double tolerance_in(int round)
+static double round_tolerance(int round)
 {
     enum { DOUBLING_ROUNDS = 8, MOST_DOUBLINGS = 6 };
     int doublings = round / DOUBLING_ROUNDS;
@@ -270,13 +272,13 @@ static double tolerance_in(int round)
 
 mw_status mw__cdt_split_crossings(mw_cdt *m, int round, mw_error *error)
 {
-    splitter s = {.m = m, .tolerance = tolerance_in(round)};
+    splitter s = {.m = m, .tolerance = round_tolerance(round)};
     mw_subsegment_owners owners = {0};
     mw_segment_parts parts = {0};
-    bool done = find_cuts(&s) && mw__subsegment_owners_create(&owners, m);
+    bool done = splitter_find_cuts(&s) && mw__subsegment_owners_create(&owners, m);
     if (done) {
         qsort(s.cut, s.cut_count, sizeof *s.cut, cut_compare);
-        done = cut_all(&s, &owners, &parts) && splitter_take_points(&s);
+        done = splitter_cut_all(&s, &owners, &parts) && splitter_take_points(&s);
     }
     if (done) {
         free(m->parts.item);

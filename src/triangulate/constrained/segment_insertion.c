@@ -85,12 +85,12 @@ void mw__segment_insertion_release(mw_segment_insertion *c)
     *c = (mw_segment_insertion){0};
 }
 
-static uint32_t *subsegment_of(const mw_segment_insertion *c, uint32_t half)
+static uint32_t *half_subsegment(const mw_segment_insertion *c, uint32_t half)
 {
     return &c->subsegment[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
 }
 
-static uint32_t *link_field(const mw_segment_insertion *c, uint32_t half)
+static uint32_t *half_link_field(const mw_segment_insertion *c, uint32_t half)
 {
     return &c->tri[mw__link_triangle(half)].link[mw__link_edge(half)];
 }
@@ -113,7 +113,7 @@ typedef struct vertex_rotor {
 
 /* On which side of v->p the target lies. Where p is the target no test is made: it would be decided
  * exactly, slowly. */
-static double target_side(const mw_segment_insertion *c, uint32_t v, uint32_t p, uint32_t target)
+static double segment_target_side(const mw_segment_insertion *c, uint32_t v, uint32_t p, uint32_t target)
 {
     return p == target ? 0 : segment_vertex_side(c, v, p, target);
 }
@@ -123,34 +123,34 @@ static vertex_rotor segment_rotor(const mw_segment_insertion *c, uint32_t vertex
     uint32_t t = c->at[vertex], k = 0;
     while (c->tri[t].v[k] != vertex) k++;
     vertex_rotor r = {.half = mw__link(t, k), .first = mw__link(t, k)};
-    r.right = r.first_right = target_side(c, vertex, c->tri[t].v[k + 1], target);
-    r.left = target_side(c, vertex, c->tri[t].v[mw__prev(k)], target);
+    r.right = r.first_right = segment_target_side(c, vertex, c->tri[t].v[k + 1], target);
+    r.left = segment_target_side(c, vertex, c->tri[t].v[mw__prev(k)], target);
     return r;
 }
 
 static void segment_rotor_turn(const mw_segment_insertion *c, vertex_rotor *r, uint32_t vertex, uint32_t target)
 {
     if (!r->clockwise) {
-        uint32_t half = *link_field(c, mw__half_prev(r->half));
+        uint32_t half = *half_link_field(c, mw__half_prev(r->half));
         if (half != MW_NONE) {
             r->half = half;
             r->right = r->left;
-            r->left = target_side(c, vertex, mw__half_start(c->tri, mw__half_prev(half)), target);
+            r->left = segment_target_side(c, vertex, mw__half_start(c->tri, mw__half_prev(half)), target);
             return;
         }
         r->clockwise = true;
         r->half = r->first;
         r->right = r->first_right;
     }
-    r->half = mw__half_next(*link_field(c, r->half));
+    r->half = mw__half_next(*half_link_field(c, r->half));
     r->left = r->right;
-    r->right = target_side(c, vertex, mw__half_end(c->tri, r->half), target);
+    r->right = segment_target_side(c, vertex, mw__half_end(c->tri, r->half), target);
 }
 
 /* Does the segment to the target leave through the triangle of the rotor? Then *half is the edge
  * that it runs along, as it leaves the vertex (or as it comes back: the last edge at the hull), or
  * the one across that it crosses. */
-static bool leaves_here(const vertex_rotor *r, uint32_t *half, bool *along)
+static bool rotor_leaves_here(const vertex_rotor *r, uint32_t *half, bool *along)
 {
     *along = r->right == 0 || r->left == 0;
     *half = r->right == 0 ? r->half : r->left == 0 ? mw__half_prev(r->half) : mw__half_next(r->half);
@@ -183,36 +183,36 @@ typedef struct segment_channel {
     size_t right_count, left_count, triangle_count;
 } segment_channel;
 
-static void add_boundary(const mw_segment_insertion *c, mw_channel_step *boundary, size_t *count, uint32_t half)
+static void channel_add_boundary(const mw_segment_insertion *c, mw_channel_step *boundary, size_t *count, uint32_t half)
 {
     boundary[(*count)++] = (mw_channel_step){.from = mw__half_start(c->tri, half),
                                              .to = mw__half_end(c->tri, half),
                                              .half = half,
-                                             .outer = *link_field(c, half),
-                                             .subsegment = *subsegment_of(c, half),
+                                             .outer = *half_link_field(c, half),
+                                             .subsegment = *half_subsegment(c, half),
                                              .slot = mw__link_triangle(half)};
 }
 
 /* Follow the segment from a through edge `half` to the first vertex on it. Changes no triangle. */
-static mw_subsegment_result open_channel(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half,
+static mw_subsegment_result channel_open(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half,
                                          segment_channel *ch, uint32_t *crossed)
 {
     *ch = (segment_channel){.a = a};
     if (!channel_reserve(c, 2)) return MW_SUBSEGMENT_MEMORY;
-    add_boundary(c, c->right, &ch->right_count, mw__half_prev(half));
-    add_boundary(c, c->left, &ch->left_count, mw__half_next(half));
+    channel_add_boundary(c, c->right, &ch->right_count, mw__half_prev(half));
+    channel_add_boundary(c, c->left, &ch->left_count, mw__half_next(half));
     c->channel[ch->triangle_count++] = mw__link_triangle(half);
     for (;;) {
-        *crossed = *subsegment_of(c, half);
+        *crossed = *half_subsegment(c, half);
         if (*crossed != MW_NONE) return MW_SUBSEGMENT_CROSSES;
         if (ch->triangle_count >= c->reach) return MW_SUBSEGMENT_FAR;
         if (!channel_reserve(c, ch->triangle_count + 2)) return MW_SUBSEGMENT_MEMORY;
-        half = *link_field(c, half); /* its end is on the right now, its start on the left */
+        half = *half_link_field(c, half); /* its end is on the right now, its start on the left */
         c->channel[ch->triangle_count++] = mw__link_triangle(half);
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
         double s = w == b ? 0 : segment_vertex_side(c, a, b, w);
-        if (s <= 0) add_boundary(c, c->right, &ch->right_count, mw__half_next(half));
-        if (s >= 0) add_boundary(c, c->left, &ch->left_count, mw__half_prev(half));
+        if (s <= 0) channel_add_boundary(c, c->right, &ch->right_count, mw__half_next(half));
+        if (s >= 0) channel_add_boundary(c, c->left, &ch->left_count, mw__half_prev(half));
         if (s == 0) {
             ch->w = w;
             return MW_SUBSEGMENT_DONE;
@@ -247,19 +247,19 @@ static void channel_find_mates(mw_segment_insertion *c, const segment_channel *c
 /* Link half-edge `half` of a new triangle to what lies beyond step s of the boundary. */
 static void step_join(mw_segment_insertion *c, uint32_t half, const mw_channel_step *s)
 {
-    *subsegment_of(c, half) = s->subsegment;
+    *half_subsegment(c, half) = s->subsegment;
     uint32_t outer = s->outer;
     if (s->mate) {
         s->origin->half = half;
         outer = s->mate->half; /* MW_NONE where the mate is not placed yet: it will link both */
     }
-    *link_field(c, half) = outer;
-    if (outer != MW_NONE) *link_field(c, outer) = half;
+    *half_link_field(c, half) = outer;
+    if (outer != MW_NONE) *half_link_field(c, outer) = half;
 }
 
 /* Make triangle t the ear of steps s0 and s1 of the boundary; its base becomes a step instead of
  * them. */
-static mw_channel_step cut_ear(mw_segment_insertion *c, uint32_t t, const mw_channel_step *s0,
+static mw_channel_step ear_cut(mw_segment_insertion *c, uint32_t t, const mw_channel_step *s0,
                                const mw_channel_step *s1)
 {
     mw_triangle *tri = &c->tri[t];
@@ -269,22 +269,22 @@ static mw_channel_step cut_ear(mw_segment_insertion *c, uint32_t t, const mw_cha
     for (int k = 0; k < 3; k++) c->at[tri->v[k]] = t;
     step_join(c, mw__link(t, 0), s0);
     step_join(c, mw__link(t, 1), s1);
-    *subsegment_of(c, mw__link(t, 2)) = MW_NONE;
+    *half_subsegment(c, mw__link(t, 2)) = MW_NONE;
     return (mw_channel_step){
         .from = s0->from, .to = s1->to, .outer = mw__link(t, 2), .subsegment = MW_NONE, .slot = s1->slot};
 }
 
-static uint32_t line_of(double base)
+static uint32_t ear_line(double base)
 {
     uint64_t bits;
     memcpy(&bits, &base, sizeof bits); /* not negative, so the sign is 0 */
     return (uint32_t)(bits >> LINE_SHIFT);
 }
 
-static void add_ear(mw_segment_insertion *c, uint32_t i, double base)
+static void ear_add(mw_segment_insertion *c, uint32_t i, double base)
 {
     mw_ears *e = c->ears;
-    uint32_t line = line_of(base);
+    uint32_t line = ear_line(base);
     bool empty = !(e->waiting[line / 64] >> line % 64 & 1);
     c->ring[i].line = line;
     c->ring[i].ahead = empty ? MW_NONE : e->line[line].last;
@@ -298,7 +298,7 @@ static void add_ear(mw_segment_insertion *c, uint32_t i, double base)
     e->some |= UINT64_C(1) << line / 64;
 }
 
-static void drop_ear(mw_segment_insertion *c, uint32_t i)
+static void ear_drop(mw_segment_insertion *c, uint32_t i)
 {
     mw_ears *e = c->ears;
     const mw_channel_step *step = &c->ring[i];
@@ -319,7 +319,7 @@ static void drop_ear(mw_segment_insertion *c, uint32_t i)
 }
 
 /* The first ear of the first line, MW_NONE if there is none. */
-static uint32_t first_ear(const mw_segment_insertion *c)
+static uint32_t ear_first(const mw_segment_insertion *c)
 {
     const mw_ears *e = c->ears;
     if (!e->some) return MW_NONE;
@@ -329,15 +329,15 @@ static uint32_t first_ear(const mw_segment_insertion *c)
 
 /* Take note of whether the boundary turns left behind step i: then that step and the one after it
  * make an ear. */
-static void note_ear(mw_segment_insertion *c, uint32_t i)
+static void ear_note(mw_segment_insertion *c, uint32_t i)
 {
     mw_channel_step *step = &c->ring[i];
-    drop_ear(c, i);
+    ear_drop(c, i);
     if (step->after == MW_NONE) return;
     uint32_t to = c->ring[step->after].to;
     if (segment_vertex_side(c, step->from, step->to, to) <= 0) return;
     double dx = c->point[to].x - c->point[step->from].x, dy = c->point[to].y - c->point[step->from].y;
-    add_ear(c, i, dx * dx + dy * dy);
+    ear_add(c, i, dx * dx + dy * dy);
 }
 
 /* Lay out a boundary of n steps, taken in order or backwards, for cutting. */
@@ -351,7 +351,7 @@ static void ring_lay_out(mw_segment_insertion *c, mw_channel_step *boundary, uin
         c->ring[i].after = i + 1 < n ? i + 1 : MW_NONE;
         c->ring[i].line = MW_NONE;
     }
-    for (uint32_t i = 0; i < n; i++) note_ear(c, i);
+    for (uint32_t i = 0; i < n; i++) ear_note(c, i);
 }
 
 /* Fill the side of the channel along a boundary; the ears are listed from c->channel[*next] on.
@@ -365,27 +365,27 @@ static void ring_lay_out(mw_segment_insertion *c, mw_channel_step *boundary, uin
 static uint32_t side_fill(mw_segment_insertion *c, mw_channel_step *boundary, size_t n, bool backwards, size_t *next)
 {
     ring_lay_out(c, boundary, (uint32_t)n, backwards);
-    for (uint32_t i; (i = first_ear(c)) != MW_NONE;) {
+    for (uint32_t i; (i = ear_first(c)) != MW_NONE;) {
         mw_channel_step *s0 = &c->ring[i], *s1 = &c->ring[s0->after];
-        drop_ear(c, i);
-        drop_ear(c, s0->after);
+        ear_drop(c, i);
+        ear_drop(c, s0->after);
         uint32_t t = s0->slot;
         c->channel[(*next)++] = t;
-        mw_channel_step base = cut_ear(c, t, s0, s1);
+        mw_channel_step base = ear_cut(c, t, s0, s1);
         base.line = MW_NONE;
         base.before = s0->before;
         base.after = s1->after;
         *s0 = base;
         if (base.after != MW_NONE) c->ring[base.after].before = i;
-        note_ear(c, i);
-        if (base.before != MW_NONE) note_ear(c, base.before);
+        ear_note(c, i);
+        if (base.before != MW_NONE) ear_note(c, base.before);
     }
     return c->ring[0].outer;
 }
 
 /* --- the Delaunay property --- */
 
-static bool push_half(mw_segment_insertion *c, size_t *count, uint32_t half)
+static bool channel_push_half(mw_segment_insertion *c, size_t *count, uint32_t half)
 {
     if (*count == c->flip_capacity) {
         size_t capacity = 2 * c->flip_capacity + 64;
@@ -398,17 +398,17 @@ static bool push_half(mw_segment_insertion *c, size_t *count, uint32_t half)
     return true;
 }
 
-static bool is_illegal(const mw_segment_insertion *c, uint32_t half)
+static bool half_is_illegal(const mw_segment_insertion *c, uint32_t half)
 {
-    uint32_t twin = *link_field(c, half);
-    if (twin == MW_NONE || *subsegment_of(c, half) != MW_NONE || c->tri[mw__link_triangle(twin)].user == AWAY)
+    uint32_t twin = *half_link_field(c, half);
+    if (twin == MW_NONE || *half_subsegment(c, half) != MW_NONE || c->tri[mw__link_triangle(twin)].user == AWAY)
         return false;
     const mw_triangle *t = &c->tri[mw__link_triangle(half)];
     uint32_t apex = mw__half_start(c->tri, mw__half_prev(twin));
     return mw__incircle(c->point[t->v[0]], c->point[t->v[1]], c->point[t->v[2]], c->point[apex]) > 0;
 }
 
-static void set_triangle(mw_segment_insertion *c, uint32_t t, uint32_t v0, uint32_t v1, uint32_t v2)
+static void channel_set_triangle(mw_segment_insertion *c, uint32_t t, uint32_t v0, uint32_t v1, uint32_t v2)
 {
     mw_triangle *tri = &c->tri[t];
     tri->v[0] = tri->v[3] = v0;
@@ -424,37 +424,38 @@ static void set_triangle(mw_segment_insertion *c, uint32_t t, uint32_t v0, uint3
  *        s                s       */
 static void channel_flip(mw_segment_insertion *c, uint32_t half)
 {
-    uint32_t twin = *link_field(c, half), t = mw__link_triangle(half), n = mw__link_triangle(twin);
+    uint32_t twin = *half_link_field(c, half), t = mw__link_triangle(half), n = mw__link_triangle(twin);
     uint32_t p = mw__half_start(c->tri, half), q = mw__half_end(c->tri, half);
     uint32_t r = mw__half_start(c->tri, mw__half_prev(half)), s = mw__half_start(c->tri, mw__half_prev(twin));
     uint32_t sides[4] = {mw__half_next(twin), mw__half_prev(half), mw__half_prev(twin),
                          mw__half_next(half)}; /* ps, rp, sq, qr */
     mw_channel_step step[4];
     for (int i = 0; i < 4; i++)
-        step[i] = (mw_channel_step){.outer = *link_field(c, sides[i]), .subsegment = *subsegment_of(c, sides[i])};
-    set_triangle(c, t, p, s, r);
-    set_triangle(c, n, s, q, r);
+        step[i] =
+            (mw_channel_step){.outer = *half_link_field(c, sides[i]), .subsegment = *half_subsegment(c, sides[i])};
+    channel_set_triangle(c, t, p, s, r);
+    channel_set_triangle(c, n, s, q, r);
     step_join(c, mw__link(t, 0), &step[0]);
     step_join(c, mw__link(t, 2), &step[1]);
     step_join(c, mw__link(n, 0), &step[2]);
     step_join(c, mw__link(n, 1), &step[3]);
-    *link_field(c, mw__link(t, 1)) = mw__link(n, 2);
-    *link_field(c, mw__link(n, 2)) = mw__link(t, 1);
-    *subsegment_of(c, mw__link(t, 1)) = *subsegment_of(c, mw__link(n, 2)) = MW_NONE;
+    *half_link_field(c, mw__link(t, 1)) = mw__link(n, 2);
+    *half_link_field(c, mw__link(n, 2)) = mw__link(t, 1);
+    *half_subsegment(c, mw__link(t, 1)) = *half_subsegment(c, mw__link(n, 2)) = MW_NONE;
 }
 
 /* Put the ear t, whose base is its edge 2, back on what lies beyond the base: flip the edges that
  * face its tip, until all are legal. Ends: each flip adds an edge at the tip. */
-static bool put_back(mw_segment_insertion *c, uint32_t t)
+static bool channel_put_back(mw_segment_insertion *c, uint32_t t)
 {
     size_t count = 0;
-    if (!push_half(c, &count, mw__link(t, 2))) return false;
+    if (!channel_push_half(c, &count, mw__link(t, 2))) return false;
     while (count > 0) {
-        uint32_t half = c->flip[--count], twin = *link_field(c, half);
-        if (!is_illegal(c, half)) continue;
+        uint32_t half = c->flip[--count], twin = *half_link_field(c, half);
+        if (!half_is_illegal(c, half)) continue;
         channel_flip(c, half);
-        if (!push_half(c, &count, mw__link(mw__link_triangle(half), 0)) ||
-            !push_half(c, &count, mw__link(mw__link_triangle(twin), 0)))
+        if (!channel_push_half(c, &count, mw__link(mw__link_triangle(half), 0)) ||
+            !channel_push_half(c, &count, mw__link(mw__link_triangle(twin), 0)))
             return false;
     }
     return true;
@@ -467,7 +468,7 @@ static bool channel_legalize(mw_segment_insertion *c, size_t triangle_count)
     for (size_t i = 0; i < triangle_count; i++) c->tri[c->channel[i]].user = AWAY;
     for (size_t i = triangle_count; i-- > 0;) {
         c->tri[c->channel[i]].user = 0;
-        if (!put_back(c, c->channel[i])) return false;
+        if (!channel_put_back(c, c->channel[i])) return false;
     }
     return true;
 }
@@ -476,20 +477,21 @@ static bool channel_legalize(mw_segment_insertion *c, size_t triangle_count)
 
 static void half_mark(mw_segment_insertion *c, uint32_t half, uint32_t *number)
 {
-    if (*subsegment_of(c, half) == MW_NONE) {
-        *subsegment_of(c, half) = c->subsegment_count++;
-        if (*link_field(c, half) != MW_NONE) *subsegment_of(c, *link_field(c, half)) = *subsegment_of(c, half);
+    if (*half_subsegment(c, half) == MW_NONE) {
+        *half_subsegment(c, half) = c->subsegment_count++;
+        if (*half_link_field(c, half) != MW_NONE)
+            *half_subsegment(c, *half_link_field(c, half)) = *half_subsegment(c, half);
     }
-    *number = *subsegment_of(c, half);
+    *number = *half_subsegment(c, half);
 }
 
 /* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two
  * triangles were Delaunay, and now see fewer vertices. Returns whether it is so. */
-static bool cut_through_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
+static bool channel_cut_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
                             uint32_t *number)
 {
-    if (*subsegment_of(c, half) != MW_NONE) return false;
-    *w = mw__half_start(c->tri, mw__half_prev(*link_field(c, half)));
+    if (*half_subsegment(c, half) != MW_NONE) return false;
+    *w = mw__half_start(c->tri, mw__half_prev(*half_link_field(c, half)));
     if (*w != b && segment_vertex_side(c, a, b, *w) != 0) return false;
     channel_flip(c, half);
     half_mark(c, mw__link(mw__link_triangle(half), 1), number);
@@ -498,12 +500,12 @@ static bool cut_through_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uin
 }
 
 /* Make an edge from a towards b, through edge `half`. */
-static mw_subsegment_result cut_through(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
+static mw_subsegment_result channel_cut(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
                                         uint32_t *number)
 {
-    if (cut_through_one(c, a, b, half, w, number)) return MW_SUBSEGMENT_DONE;
+    if (channel_cut_one(c, a, b, half, w, number)) return MW_SUBSEGMENT_DONE;
     segment_channel ch;
-    mw_subsegment_result result = open_channel(c, a, b, half, &ch, number);
+    mw_subsegment_result result = channel_open(c, a, b, half, &ch, number);
     if (result != MW_SUBSEGMENT_DONE) {
         c->wasted += ch.triangle_count;
         return result;
@@ -513,8 +515,8 @@ static mw_subsegment_result cut_through(mw_segment_insertion *c, uint32_t a, uin
     size_t next = 0;
     uint32_t right = side_fill(c, c->right, ch.right_count, false, &next);
     uint32_t left = side_fill(c, c->left, ch.left_count, true, &next);
-    *link_field(c, right) = left;
-    *link_field(c, left) = right;
+    *half_link_field(c, right) = left;
+    *half_link_field(c, left) = right;
     half_mark(c, left, number);
     *w = ch.w;
     return channel_legalize(c, ch.triangle_count) ? MW_SUBSEGMENT_DONE : MW_SUBSEGMENT_MEMORY;
@@ -529,7 +531,7 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
     uint32_t *ends[2] = {from, to}, half;
     unsigned i = 0;
     bool along;
-    while (!leaves_here(&rotors[i], &half, &along)) {
+    while (!rotor_leaves_here(&rotors[i], &half, &along)) {
         segment_rotor_turn(c, &rotors[i], *ends[i], *ends[1 - i]);
         i = 1 - i;
     }
@@ -539,7 +541,7 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
         w = mw__half_start(c->tri, half) == *ends[i] ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
         half_mark(c, half, &subsegment->number);
     } else {
-        result = cut_through(c, *ends[i], *ends[1 - i], half, &w, &subsegment->number);
+        result = channel_cut(c, *ends[i], *ends[1 - i], half, &w, &subsegment->number);
         if (result != MW_SUBSEGMENT_DONE) return result;
     }
     subsegment->from = i == 0 ? *from : w;
@@ -550,13 +552,13 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
 
 /* From `from`, through edge `half`, to the first vertex on the segment; MW_NONE if `meet` will not
  * go on. */
-static uint32_t follow_through(const mw_segment_insertion *c, uint32_t from, uint32_t to, uint32_t half,
+static uint32_t segment_follow(const mw_segment_insertion *c, uint32_t from, uint32_t to, uint32_t half,
                                mw_segment_visitor *meet, void *context)
 {
     for (;;) {
-        uint32_t subsegment = *subsegment_of(c, half);
+        uint32_t subsegment = *half_subsegment(c, half);
         if (subsegment != MW_NONE && !meet(context, subsegment, MW_NONE)) return MW_NONE;
-        half = *link_field(c, half);
+        half = *half_link_field(c, half);
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
         double s = w == to ? 0 : segment_vertex_side(c, from, to, w);
         if (s == 0) return w;
@@ -571,11 +573,11 @@ bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, u
         uint32_t half;
         bool along;
         vertex_rotor r = segment_rotor(c, from, to);
-        while (!leaves_here(&r, &half, &along)) segment_rotor_turn(c, &r, from, to);
+        while (!rotor_leaves_here(&r, &half, &along)) segment_rotor_turn(c, &r, from, to);
         if (along)
             from = mw__half_start(c->tri, half) == from ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
         else
-            from = follow_through(c, from, to, half, meet, context);
+            from = segment_follow(c, from, to, half, meet, context);
         if (from == MW_NONE || (from != to && !meet(context, MW_NONE, from))) return false;
     }
     return true;

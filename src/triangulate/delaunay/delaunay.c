@@ -48,7 +48,7 @@ static void extent_extend(mw_extent *e, const mw_extent *by)
 
 /* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is
  * none. */
-static uint32_t extent_of(const mw_point *points, uint32_t from, uint32_t to, mw_extent *extent)
+static uint32_t points_extent(const mw_point *points, uint32_t from, uint32_t to, mw_extent *extent)
 {
     mw_extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     uint32_t i = from;
@@ -67,7 +67,7 @@ enum { NO_LATTICE = INT_MIN, LATTICE_BITS = 40 };
 
 /* The exponent of the last bit of a finite number that is 1. INT_MAX for 0; NO_LATTICE for a number
  * of more bits than the coordinates of a lattice have in practice. */
-static int last_bit(double x)
+static int value_last_bit(double x)
 {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -82,11 +82,11 @@ static int last_bit(double x)
 
 /* The exponent of the largest power of two that the coordinates of points from..to - 1 are
  * multiples of. For most that are none the first tells. */
-static int lattice_of(const mw_point *points, uint32_t from, uint32_t to)
+static int points_lattice(const mw_point *points, uint32_t from, uint32_t to)
 {
     int lattice = INT_MAX;
     for (uint32_t i = from; i < to && lattice != NO_LATTICE; i++) {
-        int x = last_bit(points[i].x), y = last_bit(points[i].y);
+        int x = value_last_bit(points[i].x), y = value_last_bit(points[i].y);
         if (x < lattice) lattice = x;
         if (y < lattice) lattice = y;
     }
@@ -106,8 +106,8 @@ static void points_survey(void *work, uint64_t from, uint64_t to)
 {
     point_survey *s = work;
     mw_extent extent;
-    uint32_t stop = extent_of(s->points, (uint32_t)from, (uint32_t)to, &extent);
-    int lattice = lattice_of(s->points, (uint32_t)from, stop);
+    uint32_t stop = points_extent(s->points, (uint32_t)from, (uint32_t)to, &extent);
+    int lattice = points_lattice(s->points, (uint32_t)from, stop);
     pthread_mutex_lock(&s->lock);
     extent_extend(&s->extent, &extent);
     if (lattice < s->lattice) s->lattice = lattice;
@@ -135,7 +135,7 @@ static mw_status delaunay_measure(delaunay *d, mw_error *error)
 }
 
 /* Nothing has grown: no three of the points are the corners of a triangle. */
-static mw_status fail_flat(const delaunay *d, mw_error *error)
+static mw_status delaunay_fail_flat(const delaunay *d, mw_error *error)
 {
     const mw_point *p = d->arrays.point;
     uint32_t n = d->arrays.n, second = 1, third;
@@ -199,7 +199,7 @@ static mw_status delaunay_prepare(delaunay *d, mw_error *error)
     return done ? MW_OK : mw__fail_memory(error);
 }
 
-static void report_duplicates(const delaunay *d, uint32_t *duplicate_of)
+static void delaunay_report_duplicates(const delaunay *d, uint32_t *duplicate_of)
 {
     const mw_patch_arrays *g = &d->arrays;
     for (uint32_t i = 0, twin; i < g->n; i++)
@@ -231,11 +231,11 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
         if (!grown)
             status = mw__fail_memory(error);
         else if (d.patches.patch[0].ghost == MW_NONE)
-            status = fail_flat(&d, error);
+            status = delaunay_fail_flat(&d, error);
     }
     if (status == MW_OK) {
         const mw_patch *whole = &d.patches.patch[0];
-        if (duplicate_of) report_duplicates(&d, duplicate_of);
+        if (duplicate_of) delaunay_report_duplicates(&d, duplicate_of);
         if (report) *report = (mw_delaunay_report){n, whole->duplicates, whole->visited};
         mw_job_span outer = mw__job_part(job, 0.1);
         if (!delaunay_collect(&d, tri, tri_count)) status = mw__fail_memory(error);

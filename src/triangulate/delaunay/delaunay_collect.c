@@ -35,7 +35,7 @@ static MW_INLINE uint32_t facet_lowest(const mw_facet *f)
     return low < f->v[2] ? low : f->v[2];
 }
 
-static MW_INLINE bool is_ghost(const collector *h, const mw_facet *f)
+static MW_INLINE bool facet_is_ghost(const collector *h, const mw_facet *f)
 {
     return f->v[0] == h->arrays->n || f->v[1] == h->arrays->n || f->v[2] == h->arrays->n;
 }
@@ -47,7 +47,7 @@ static void slice_count(collector *h, slice *s)
     for (uint32_t f = 2 * s->from; f < 2 * s->to; f++) {
         const mw_facet *facet = &h->arrays->facet[f];
         uint32_t low = facet_lowest(facet);
-        if (is_ghost(h, facet)) {
+        if (facet_is_ghost(h, facet)) {
             h->number[f] = MW_NONE;
         } else if (low >= s->from && low < s->to) {
             h->number[f] = low;
@@ -59,13 +59,13 @@ static void slice_count(collector *h, slice *s)
     }
 }
 
-static void count_foreign(collector *h, slice *s)
+static void slice_count_foreign(collector *h, slice *s)
 {
     for (uint32_t f = s->foreign; f != NO_MORE; f = h->number[f - FOREIGN])
         h->next[facet_lowest(&h->arrays->facet[f - FOREIGN])]++;
 }
 
-static void sum_up(collector *h, slice *s)
+static void slice_sum_up(collector *h, slice *s)
 {
     s->count = 0;
     for (uint32_t i = s->from; i < s->to; i++) s->count += h->next[i];
@@ -84,7 +84,7 @@ static void slice_number(collector *h, slice *s)
         if (h->number[f] < FOREIGN) h->number[f] = h->next[h->number[f]]++;
 }
 
-static void number_foreign(collector *h, slice *s)
+static void slice_number_foreign(collector *h, slice *s)
 {
     for (uint32_t f = s->foreign, after; f != NO_MORE; f = after) {
         after = h->number[f - FOREIGN];
@@ -121,13 +121,13 @@ static void slice_step(void *work, uint64_t i, uint32_t member)
 }
 
 /* Returns false if the job is to stop. */
-static bool for_each_slice(collector *h, void (*step)(collector *h, slice *s), mw_job *job)
+static bool slices_run(collector *h, void (*step)(collector *h, slice *s), mw_job *job)
 {
     slice_loop loop = {h, step};
     return mw__job_chunks(job, mw__job_team(job, h->slice_count), h->slice_count, slice_step, &loop);
 }
 
-static bool list_slices(collector *h, const mw_patches *patches)
+static bool slices_list(collector *h, const mw_patches *patches)
 {
     h->slices = mw__alloc(patches->count, sizeof *h->slices);
     if (!h->slices) return false;
@@ -138,28 +138,28 @@ static bool list_slices(collector *h, const mw_patches *patches)
 }
 
 /* The slices lie in any order: that of the patches. Numbers go along the slots. */
-static int by_slot(const void *left, const void *right)
+static int slices_compare(const void *left, const void *right)
 {
     uint32_t i = ((const slice *)left)->from, j = ((const slice *)right)->from;
     return (i > j) - (i < j);
 }
 
-static bool number_all(collector *h, mw_job *job, uint32_t *tri_count)
+static bool slices_number(collector *h, mw_job *job, uint32_t *tri_count)
 {
     uint32_t sum = 0;
-    qsort(h->slices, h->slice_count, sizeof *h->slices, by_slot);
+    qsort(h->slices, h->slice_count, sizeof *h->slices, slices_compare);
     mw__job_stage(job, "counting triangles", 0.2);
-    if (!for_each_slice(h, slice_count, job)) return false;
-    for (uint32_t i = 0; i < h->slice_count; i++) count_foreign(h, &h->slices[i]);
+    if (!slices_run(h, slice_count, job)) return false;
+    for (uint32_t i = 0; i < h->slice_count; i++) slice_count_foreign(h, &h->slices[i]);
     mw__job_stage(job, "numbering triangles", 0.3);
-    if (!for_each_slice(h, sum_up, job)) return false;
+    if (!slices_run(h, slice_sum_up, job)) return false;
     for (uint32_t i = 0; i < h->slice_count; i++) {
         uint32_t here = h->slices[i].count;
         h->slices[i].count = sum;
         sum += here;
     }
-    if (!for_each_slice(h, slice_number, job)) return false;
-    for (uint32_t i = 0; i < h->slice_count; i++) number_foreign(h, &h->slices[i]);
+    if (!slices_run(h, slice_number, job)) return false;
+    for (uint32_t i = 0; i < h->slice_count; i++) slice_number_foreign(h, &h->slices[i]);
     *tri_count = sum;
     return true;
 }
@@ -169,10 +169,10 @@ bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arra
 {
     collector h = {.arrays = arrays, .number = scratch, .next = scratch + 2 * (size_t)arrays->n};
     if (!slots) h.vertex = arrays->order;
-    bool done = list_slices(&h, patches) && number_all(&h, job, tri_count);
+    bool done = slices_list(&h, patches) && slices_number(&h, job, tri_count);
     if (done) h.tri = mw__alloc_lines(*tri_count, sizeof *h.tri);
     mw__job_stage(job, "copying triangles", 0.5);
-    if (h.tri && !for_each_slice(&h, slice_copy, job)) {
+    if (h.tri && !slices_run(&h, slice_copy, job)) {
         free(h.tri);
         h.tri = NULL;
     }

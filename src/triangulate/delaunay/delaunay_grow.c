@@ -28,22 +28,22 @@ typedef struct lifted {
     uint32_t vertex;
 } lifted;
 
-static MW_INLINE lifted lifted_of(const mw_growth *g, uint32_t vertex, mw_point q)
+static MW_INLINE lifted growth_lifted(const mw_growth *g, uint32_t vertex, mw_point q)
 {
     if (MW_UNLIKELY(vertex == g->infinity)) return (lifted){0, 0, g->far, vertex};
     double x = g->point[vertex].x - q.x, y = g->point[vertex].y - q.y;
     return (lifted){x, y, x * x + y * y, vertex};
 }
 
-static bool strictly_between(double a, double b, double q)
+static bool value_strictly_between(double a, double b, double q)
 {
     return (a < q && q < b) || (b < q && q < a);
 }
 
 /* Is q inside the edge ab, on whose line it lies? */
-static bool inside_edge(mw_point a, mw_point b, mw_point q)
+static bool edge_holds_point(mw_point a, mw_point b, mw_point q)
 {
-    return a.x != b.x ? strictly_between(a.x, b.x, q.x) : strictly_between(a.y, b.y, q.y);
+    return a.x != b.x ? value_strictly_between(a.x, b.x, q.x) : value_strictly_between(a.y, b.y, q.y);
 }
 
 static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g, uint32_t a, uint32_t b, uint32_t c,
@@ -54,7 +54,7 @@ static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g,
     uint32_t from = a == g->infinity ? b : b == g->infinity ? c : a;
     uint32_t to = a == g->infinity ? c : b == g->infinity ? a : b;
     double side = mw__orient2d(p[from], p[to], q);
-    return side > 0 || (side == 0 && inside_edge(p[from], p[to], q));
+    return side > 0 || (side == 0 && edge_holds_point(p[from], p[to], q));
 }
 
 /* Is q inside the circle of the counter-clockwise facet a, b, c? The filter is that of mw__incircle
@@ -72,7 +72,8 @@ static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g,
 #define LATTICE_LIFTS 0x1p26
 #define LATTICE_LEAST 0x1p-250
 #define LATTICE_MOST 0x1p230
-static MW_INLINE bool in_circle(const mw_growth *g, const lifted *a, const lifted *b, const lifted *c, mw_point q)
+static MW_INLINE bool lifted_in_circle(const mw_growth *g, const lifted *a, const lifted *b, const lifted *c,
+                                       mw_point q)
 {
     double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
                  c->lift * (a->x * b->y - a->y * b->x);
@@ -82,7 +83,7 @@ static MW_INLINE bool in_circle(const mw_growth *g, const lifted *a, const lifte
 }
 
 /* Is q strictly to the right of the directed edge ab? */
-static MW_INLINE bool lies_beyond(const mw_growth *g, const lifted *a, const lifted *b, mw_point q)
+static MW_INLINE bool edge_lies_beyond(const mw_growth *g, const lifted *a, const lifted *b, mw_point q)
 {
     double left = a->x * b->y, right = a->y * b->x, det = left - right;
     if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right)) || a->lift + b->lift < g->lattice) return det < 0;
@@ -111,13 +112,13 @@ static MW_INLINE found growth_walk(mw_growth *g, mw_point q)
 {
     uint32_t link = mw__link(growth_start(g), 0);
     const mw_facet *f = &g->facet[mw__link_triangle(link)];
-    lifted a = lifted_of(g, f->v[0], q), b = lifted_of(g, f->v[1], q), c = lifted_of(g, f->v[2], q);
+    lifted a = growth_lifted(g, f->v[0], q), b = growth_lifted(g, f->v[1], q), c = growth_lifted(g, f->v[2], q);
     g->visited++;
-    if (lies_beyond(g, &a, &b, q)) {
+    if (edge_lies_beyond(g, &a, &b, q)) {
         link = f->link[0], c = a, a = b, b = c;
-    } else if (lies_beyond(g, &b, &c, q)) {
+    } else if (edge_lies_beyond(g, &b, &c, q)) {
         link = f->link[1], a = c;
-    } else if (lies_beyond(g, &c, &a, q)) {
+    } else if (edge_lies_beyond(g, &c, &a, q)) {
         link = f->link[2], b = c;
     } else {
         return (found){link, {a, b, c}};
@@ -125,12 +126,12 @@ static MW_INLINE found growth_walk(mw_growth *g, mw_point q)
     for (;;) {
         uint32_t e = mw__link_edge(link);
         f = &g->facet[mw__link_triangle(link)];
-        c = lifted_of(g, f->v[mw__prev(e)], q);
+        c = growth_lifted(g, f->v[mw__prev(e)], q);
         g->visited++;
         if (MW_UNLIKELY(c.vertex == g->infinity)) break;
-        if (lies_beyond(g, &b, &c, q))
+        if (edge_lies_beyond(g, &b, &c, q))
             link = f->link[mw__next(e)], a = c;
-        else if (lies_beyond(g, &c, &a, q))
+        else if (edge_lies_beyond(g, &c, &a, q))
             link = f->link[mw__prev(e)], b = c;
         else
             break;
@@ -138,18 +139,18 @@ static MW_INLINE found growth_walk(mw_growth *g, mw_point q)
     return (found){link, {a, b, c}};
 }
 
-static MW_INLINE void set_link(mw_growth *g, uint32_t from, uint32_t to)
+static MW_INLINE void facet_set_link(mw_growth *g, uint32_t from, uint32_t to)
 {
     g->facet[mw__link_triangle(from)].link[mw__link_edge(from)] = to;
 }
 
 /* Facet t becomes a, b, q with the facet `outer` beyond ab, `next` beyond bq and `prev` beyond
  * qa. */
-static MW_INLINE void set_facet(mw_growth *g, uint32_t t, const uint32_t v[3], uint32_t outer, uint32_t next,
+static MW_INLINE void facet_set(mw_growth *g, uint32_t t, const uint32_t v[3], uint32_t outer, uint32_t next,
                                 uint32_t prev)
 {
     g->facet[t] = (mw_facet){{v[0], v[1], v[2]}, {outer, mw__link(next, 2), mw__link(prev, 1)}};
-    set_link(g, outer, mw__link(t, 0));
+    facet_set_link(g, outer, mw__link(t, 0));
 }
 
 /* Split the facet that holds q into three round q. The first keeps the number of the facet. */
@@ -158,36 +159,36 @@ static MW_INLINE void facet_split(mw_growth *g, const found *at, uint32_t q)
     uint32_t e = mw__link_edge(at->link), a = at->v[0].vertex, b = at->v[1].vertex, c = at->v[2].vertex;
     uint32_t first = mw__link_triangle(at->link), second = g->facet_count++, third = g->facet_count++;
     const mw_facet old = g->facet[first];
-    set_facet(g, first, (uint32_t[]){a, b, q}, old.link[e], second, third);
-    set_facet(g, second, (uint32_t[]){b, c, q}, old.link[mw__next(e)], third, first);
-    set_facet(g, third, (uint32_t[]){c, a, q}, old.link[mw__prev(e)], first, second);
+    facet_set(g, first, (uint32_t[]){a, b, q}, old.link[e], second, third);
+    facet_set(g, second, (uint32_t[]){b, c, q}, old.link[mw__next(e)], third, first);
+    facet_set(g, third, (uint32_t[]){c, a, q}, old.link[mw__prev(e)], first, second);
 }
 
 /* Restore the Delaunay property round q: facet t is a, b, q, the next one counter-clockwise lies
  * beyond bq. */
-static MW_INLINE void flip_round(mw_growth *g, uint32_t first, lifted a, lifted b, mw_point q)
+static MW_INLINE void growth_flip_round(mw_growth *g, uint32_t first, lifted a, lifted b, mw_point q)
 {
     uint32_t t = first;
     for (;;) {
         mw_facet *f = &g->facet[t];
         uint32_t outer = f->link[0], n = mw__link_triangle(outer), e = mw__link_edge(outer);
         mw_facet *beyond_ab = &g->facet[n];
-        lifted d = lifted_of(g, beyond_ab->v[mw__prev(e)], q);
-        if (in_circle(g, &b, &a, &d, q)) { /* a, b, q and b, a, d become a, d, q and d, b, q */
+        lifted d = growth_lifted(g, beyond_ab->v[mw__prev(e)], q);
+        if (lifted_in_circle(g, &b, &a, &d, q)) { /* a, b, q and b, a, d become a, d, q and d, b, q */
             uint32_t over_ad = beyond_ab->link[mw__next(e)], over_db = beyond_ab->link[mw__prev(e)];
             uint32_t next = mw__link_triangle(f->link[1]);
             f->v[1] = d.vertex;
             f->link[0] = over_ad;
             f->link[1] = mw__link(n, 2);
-            set_link(g, over_ad, mw__link(t, 0));
-            set_facet(g, n, (uint32_t[]){d.vertex, b.vertex, f->v[2]}, over_db, next, t);
-            set_link(g, mw__link(next, 2), mw__link(n, 1));
+            facet_set_link(g, over_ad, mw__link(t, 0));
+            facet_set(g, n, (uint32_t[]){d.vertex, b.vertex, f->v[2]}, over_db, next, t);
+            facet_set_link(g, mw__link(next, 2), mw__link(n, 1));
             b = d;
         } else {
             t = mw__link_triangle(f->link[1]);
             if (t == first) return;
             a = b;
-            b = lifted_of(g, g->facet[t].v[1], q);
+            b = growth_lifted(g, g->facet[t].v[1], q);
         }
     }
 }
@@ -227,6 +228,6 @@ uint32_t mw__grow(mw_growth *g, uint32_t point)
     for (int k = 0; k < 3; k++)
         if (at.v[k].x == 0 && at.v[k].y == 0 && at.v[k].vertex != g->infinity) return at.v[k].vertex;
     facet_split(g, &at, point);
-    flip_round(g, g->last, at.v[0], at.v[1], q);
+    growth_flip_round(g, g->last, at.v[0], at.v[1], q);
     return point;
 }

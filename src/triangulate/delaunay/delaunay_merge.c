@@ -64,7 +64,7 @@ static double ghost_coordinate(const mw_growth *g, uint32_t ghost, int axis)
     return axis ? p.y : p.x;
 }
 
-static hull_ends find_ends(const mw_growth *g, uint32_t ghost)
+static hull_ends hull_find_ends(const mw_growth *g, uint32_t ghost)
 {
     hull_ends e = {{ghost, ghost}, {ghost, ghost}};
     for (uint32_t t = hull_onward(g, ghost); t != ghost; t = hull_onward(g, t))
@@ -89,7 +89,7 @@ typedef struct seam {
 
 /* Begin with l the rightmost vertex and r the leftmost: turn to the lower common tangent. Of
  * vertices on the tangent l is the last and r the first, so there is none between them. */
-static void go_to_tangent(const mw_growth *g, seam *s)
+static void seam_go_to_tangent(const mw_growth *g, seam *s)
 {
     const mw_point *p = g->point;
     for (;;) {
@@ -108,7 +108,7 @@ static void go_to_tangent(const mw_growth *g, seam *s)
 }
 
 /* Put a ghost at the lower tangent, between the ghosts before l and after r. */
-static void close_below(mw_growth *g, seam *s, uint32_t ghost)
+static void seam_close_below(mw_growth *g, seam *s, uint32_t ghost)
 {
     uint32_t before = hull_back(g, s->left), after = hull_onward(g, s->right);
     g->facet[ghost] = (mw_facet){{s->r, s->l, g->infinity}, {MW_NONE, MW_NONE, MW_NONE}};
@@ -118,7 +118,7 @@ static void close_below(mw_growth *g, seam *s, uint32_t ghost)
 }
 
 /* Put a ghost at the upper tangent. */
-static void close_above(mw_growth *g, const seam *s, uint32_t ghost)
+static void seam_close_above(mw_growth *g, const seam *s, uint32_t ghost)
 {
     g->facet[ghost] = (mw_facet){{s->l, s->r, g->infinity}, {MW_NONE, MW_NONE, MW_NONE}};
     ghosts_join(g, mw__link(ghost, 0), s->below);
@@ -128,7 +128,7 @@ static void close_above(mw_growth *g, const seam *s, uint32_t ghost)
 
 /* Is the vertex behind the hull edge of a ghost in the circle of l, r and c? Sets *link to the edge
  * behind. */
-static MW_INLINE bool is_met_before(const mw_growth *g, const seam *s, uint32_t ghost, uint32_t c, uint32_t *link)
+static MW_INLINE bool seam_meets_before(const mw_growth *g, const seam *s, uint32_t ghost, uint32_t c, uint32_t *link)
 {
     const mw_point *p = g->point;
     *link = g->facet[ghost].link[mw__next(ghost_corner(g, ghost))];
@@ -138,10 +138,10 @@ static MW_INLINE bool is_met_before(const mw_growth *g, const seam *s, uint32_t 
 
 /* Flip edges ll' that the circle passes. The ghost keeps its edge from l to infinity, whose
  * neighbour is below the seam by now and must not be touched. */
-static uint32_t clear_left(mw_growth *g, const seam *s)
+static uint32_t seam_clear_left(mw_growth *g, const seam *s)
 {
     uint32_t up = hull_to(g, s->left), link;
-    while (is_met_before(g, s, s->left, up, &link)) {
+    while (seam_meets_before(g, s, s->left, up, &link)) {
         uint32_t t = mw__link_triangle(link), e = mw__link_edge(link), k = ghost_corner(g, s->left);
         mw_facet *ghost = &g->facet[s->left];
         const mw_facet old = g->facet[t];
@@ -158,10 +158,10 @@ static uint32_t clear_left(mw_growth *g, const seam *s)
 }
 
 /* The mirror image. */
-static uint32_t clear_right(mw_growth *g, const seam *s)
+static uint32_t seam_clear_right(mw_growth *g, const seam *s)
 {
     uint32_t up = hull_from(g, s->right), link;
-    while (is_met_before(g, s, s->right, up, &link)) {
+    while (seam_meets_before(g, s, s->right, up, &link)) {
         uint32_t t = mw__link_triangle(link), e = mw__link_edge(link), k = ghost_corner(g, s->right);
         mw_facet *ghost = &g->facet[s->right];
         const mw_facet old = g->facet[t];
@@ -178,7 +178,7 @@ static uint32_t clear_right(mw_growth *g, const seam *s)
 }
 
 /* The ghost at l becomes the triangle of l', l and r. */
-static void rise_left(mw_growth *g, seam *s, uint32_t up)
+static void seam_rise_left(mw_growth *g, seam *s, uint32_t up)
 {
     uint32_t t = s->left, k = ghost_corner(g, t);
     s->left = hull_onward(g, t);
@@ -189,7 +189,7 @@ static void rise_left(mw_growth *g, seam *s, uint32_t up)
 }
 
 /* The ghost at r becomes the triangle of r, r' and l. */
-static void rise_right(mw_growth *g, seam *s, uint32_t up)
+static void seam_rise_right(mw_growth *g, seam *s, uint32_t up)
 {
     uint32_t t = s->right, k = ghost_corner(g, t);
     s->right = hull_back(g, t);
@@ -199,28 +199,28 @@ static void rise_right(mw_growth *g, seam *s, uint32_t up)
     s->r = up;
 }
 
-static void close_seam(mw_growth *g, seam *s, uint32_t spare)
+static void seam_close(mw_growth *g, seam *s, uint32_t spare)
 {
     const mw_point *p = g->point;
-    go_to_tangent(g, s);
-    close_below(g, s, spare);
+    seam_go_to_tangent(g, s);
+    seam_close_below(g, s, spare);
     for (;;) {
         uint32_t l = hull_to(g, s->left), r = hull_from(g, s->right);
         bool left = mw__orient2d(p[s->l], p[s->r], p[l]) > 0, right = mw__orient2d(p[s->l], p[s->r], p[r]) > 0;
         if (!left && !right) break;
-        if (left) l = clear_left(g, s);
-        if (right) r = clear_right(g, s);
+        if (left) l = seam_clear_left(g, s);
+        if (right) r = seam_clear_right(g, s);
         if (right && (!left || mw__incircle(p[s->l], p[s->r], p[l], p[r]) > 0))
-            rise_right(g, s, r);
+            seam_rise_right(g, s, r);
         else
-            rise_left(g, s, l);
+            seam_rise_left(g, s, l);
     }
-    close_above(g, s, spare + 1);
+    seam_close_above(g, s, spare + 1);
 }
 
 uint32_t mw__merge(mw_growth *g, uint32_t a, uint32_t b, uint32_t spare)
 {
-    hull_ends ea = find_ends(g, a), eb = find_ends(g, b);
+    hull_ends ea = hull_find_ends(g, a), eb = hull_find_ends(g, b);
     int axis = ghost_coordinate(g, ea.high[0], 0) < ghost_coordinate(g, eb.low[0], 0) ||
                        ghost_coordinate(g, eb.high[0], 0) < ghost_coordinate(g, ea.low[0], 0)
                    ? 0
@@ -230,6 +230,6 @@ uint32_t mw__merge(mw_growth *g, uint32_t a, uint32_t b, uint32_t spare)
      * lie on the left. */
     uint32_t left = a_first ? ea.high[axis] : eb.high[axis], right = a_first ? eb.low[axis] : ea.low[axis];
     seam s = {.l = hull_from(g, left), .r = hull_from(g, right), .left = left, .right = hull_back(g, right)};
-    close_seam(g, &s, spare);
+    seam_close(g, &s, spare);
     return spare + 1;
 }

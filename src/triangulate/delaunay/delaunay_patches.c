@@ -14,7 +14,7 @@
 
 /* --- divide --- */
 
-static bool add_halves(mw_patches *patches, uint32_t whole, uint32_t middle)
+static bool patches_add_halves(mw_patches *patches, uint32_t whole, uint32_t middle)
 {
     if (patches->count + 2 > patches->room) {
         uint32_t room = 2 * patches->room + 2;
@@ -42,7 +42,7 @@ static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *
 }
 
 /* The first of the patch's slots whose key has the highest bit in which its keys differ. */
-static uint32_t find_middle(const mw_patch *patch, const mw_key *keys)
+static uint32_t patch_find_middle(const mw_patch *patch, const mw_key *keys)
 {
     uint32_t first = keys[patch->from].key, last = keys[patch->to - 1].key;
     uint32_t bit = UINT32_C(1) << (31 - __builtin_clz(first ^ last)), low = patch->from, high = patch->to - 1;
@@ -65,7 +65,7 @@ bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, 
         const mw_patch *patch = &patches->patch[i];
         if (patch->to - patch->from <= most) continue;
         if (keys[patch->from].key == keys[patch->to - 1].key && !patch_refine(patch, points, keys)) continue;
-        if (!add_halves(patches, i, find_middle(patch, keys))) return false;
+        if (!patches_add_halves(patches, i, patch_find_middle(patch, keys))) return false;
     }
     for (uint32_t i = patches->count; i-- > 0;) {
         mw_patch *patch = &patches->patch[i];
@@ -79,7 +79,7 @@ bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, 
 /* --- grow --- */
 
 /* Bring three slots that do not lie on one line to the front of the sequence. */
-static bool choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
+static bool patch_choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
 {
     uint32_t second = 1;
     while (second < n && mw__points_equal(p[s[0]], p[s[second]])) second++;
@@ -94,7 +94,7 @@ static bool choose_first_three(const mw_point *p, uint32_t *s, uint32_t n)
 
 /* A point equal to another is no vertex. In its slot the coordinates give way to the slot of its
  * twin. */
-static void set_twin(mw_point *point, uint32_t twin)
+static void point_set_twin(mw_point *point, uint32_t twin)
 {
     *point = (mw_point){NAN, twin};
 }
@@ -106,13 +106,13 @@ static uint32_t patch_insert(const mw_patch_arrays *arrays, mw_growth *g, const 
         uint32_t slot = sequence[i], vertex = mw__grow(g, slot);
         if (MW_LIKELY(vertex == slot)) continue;
         if (arrays->order[slot] < arrays->order[vertex]) mw__swap(&arrays->order[slot], &arrays->order[vertex]);
-        set_twin(&arrays->point[slot], vertex);
+        point_set_twin(&arrays->point[slot], vertex);
         duplicates++;
     }
     return duplicates;
 }
 
-static mw_growth growth_of(const mw_patch_arrays *arrays, uint32_t last, uint32_t facets)
+static mw_growth patch_growth(const mw_patch_arrays *arrays, uint32_t last, uint32_t facets)
 {
     mw_growth g = {.point = arrays->point, .facet = arrays->facet, .facet_count = facets, .last = last};
     mw__grow_prepare(&g, arrays->n, arrays->width, arrays->height, arrays->unit);
@@ -121,13 +121,13 @@ static mw_growth growth_of(const mw_patch_arrays *arrays, uint32_t last, uint32_
 
 /* Make ghosts of nothing but infinity of the facets from the last that is used to those of slot
  * `to`. */
-static void clear_unused(const mw_growth *g, uint32_t to)
+static void growth_clear_unused(const mw_growth *g, uint32_t to)
 {
     uint32_t i = g->infinity;
     for (uint32_t f = g->facet_count; f < 2 * to; f++) g->facet[f] = (mw_facet){{i, i, i}, {MW_NONE, MW_NONE, MW_NONE}};
 }
 
-static uint32_t find_ghost(const mw_growth *g, uint32_t from)
+static uint32_t growth_find_ghost(const mw_growth *g, uint32_t from)
 {
     uint32_t f = 2 * from;
     while (!mw__is_ghost(g, &g->facet[f]) || g->facet[f].v[0] == g->facet[f].v[1]) f++;
@@ -138,28 +138,28 @@ static void patch_grow(const mw_patch_arrays *arrays, mw_patch *patch)
 {
     uint32_t n = patch->to - patch->from, *sequence = arrays->sequence + patch->from;
     mw__insertion_sequence(patch->from, n, sequence);
-    mw_growth g = growth_of(arrays, 0, 2 * patch->from);
-    if (choose_first_three(g.point, sequence, n)) {
+    mw_growth g = patch_growth(arrays, 0, 2 * patch->from);
+    if (patch_choose_first_three(g.point, sequence, n)) {
         mw__grow_begin(&g, sequence);
         patch->duplicates = patch_insert(arrays, &g, sequence + 3, n - 3);
-        patch->ghost = find_ghost(&g, patch->from);
+        patch->ghost = growth_find_ghost(&g, patch->from);
         patch->visited = g.visited;
         patch->spare = 2 * patch->to - 2;
     }
-    clear_unused(&g, patch->to);
+    growth_clear_unused(&g, patch->to);
 }
 
 /* --- merge --- */
 
 /* Of two halves one has grown, the slots of the other lie on a line: insert them. */
-static void take_in(const mw_patch_arrays *arrays, mw_patch *patch, const mw_patch *grown, const mw_patch *flat)
+static void patch_take_in(const mw_patch_arrays *arrays, mw_patch *patch, const mw_patch *grown, const mw_patch *flat)
 {
     uint32_t n = flat->to - flat->from, *sequence = arrays->sequence + flat->from;
     mw__insertion_sequence(flat->from, n, sequence);
-    mw_growth g = growth_of(arrays, grown->ghost, 2 * flat->from);
+    mw_growth g = patch_growth(arrays, grown->ghost, 2 * flat->from);
     patch->duplicates = grown->duplicates + patch_insert(arrays, &g, sequence, n);
-    clear_unused(&g, flat->to);
-    patch->ghost = find_ghost(&g, patch->from);
+    growth_clear_unused(&g, flat->to);
+    patch->ghost = growth_find_ghost(&g, patch->from);
     patch->visited = grown->visited + g.visited;
     patch->spare = grown->spare;
 }
@@ -169,11 +169,11 @@ static void patch_merge(const mw_patch_arrays *arrays, mw_patch *patch, const mw
     if (half[0].ghost == MW_NONE && half[1].ghost == MW_NONE) {
         patch_grow(arrays, patch);
     } else if (half[0].ghost == MW_NONE) {
-        take_in(arrays, patch, &half[1], &half[0]);
+        patch_take_in(arrays, patch, &half[1], &half[0]);
     } else if (half[1].ghost == MW_NONE) {
-        take_in(arrays, patch, &half[0], &half[1]);
+        patch_take_in(arrays, patch, &half[0], &half[1]);
     } else {
-        mw_growth g = growth_of(arrays, 0, 0);
+        mw_growth g = patch_growth(arrays, 0, 0);
         patch->ghost = mw__merge(&g, half[0].ghost, half[1].ghost, half[0].spare);
         patch->spare = half[1].spare;
         patch->visited = half[0].visited + half[1].visited;

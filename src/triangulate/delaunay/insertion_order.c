@@ -15,7 +15,7 @@
 enum { ROUNDS = 11, ROUND_BITS = 3 };
 
 /* Round of point i, 0 being the last and largest. */
-static uint32_t round_of(uint32_t i)
+static uint32_t insertion_round(uint32_t i)
 {
     uint64_t bits = mw__mix(i + UINT64_C(1)) | UINT64_C(1) << (ROUND_BITS * (ROUNDS - 1));
     return (uint32_t)__builtin_ctzll(bits) / ROUND_BITS;
@@ -24,7 +24,7 @@ static uint32_t round_of(uint32_t i)
 void mw__insertion_sequence(uint32_t first, uint32_t n, uint32_t *sequence)
 {
     uint32_t next[ROUNDS + 1] = {0};
-    for (uint32_t i = 0; i < n; i++) next[round_of(first + i)]++;
+    for (uint32_t i = 0; i < n; i++) next[insertion_round(first + i)]++;
     for (uint32_t r = ROUNDS; r-- > 0;) next[r] += next[r + 1]; /* the end of each round */
-    for (uint32_t i = n; i-- > 0;) sequence[--next[round_of(first + i)]] = first + i;
+    for (uint32_t i = n; i-- > 0;) sequence[--next[insertion_round(first + i)]] = first + i;
 }

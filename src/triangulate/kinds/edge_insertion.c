@@ -66,7 +66,7 @@ void mw__insertion_release(mw_insertion *in)
 }
 
 /* An array with room for n records: the old one, or a larger one that replaces it, or NULL. */
-static void *with_room(void *array, size_t *room, size_t n, size_t size)
+static void *insertion_array_with_room(void *array, size_t *room, size_t n, size_t size)
 {
     if (n <= *room) return array;
     size_t more = n + n / 2 + 64;
@@ -92,7 +92,7 @@ static mw_point vector_minus(mw_point a, mw_point b)
 #define LINE_WORK 16
 #define TRIANGLE_WORK 4
 
-static bool is_smaller(const insertion_search *s, mw_point a, mw_point b, mw_point c)
+static bool insertion_angle_is_smaller(const insertion_search *s, mw_point a, mw_point b, mw_point c)
 {
     mw_angle angle = mw__angle(a, b, c);
     double bound, difference = mw__angle_difference_rounded(&angle, &s->worst, &bound);
@@ -102,43 +102,44 @@ static bool is_smaller(const insertion_search *s, mw_point a, mw_point b, mw_poi
 }
 
 /* May b, between a and c on a chain away from q, be cut off? */
-static bool is_good_ear(const insertion_search *s, hand side, uint32_t va, uint32_t vb, uint32_t vc)
+static bool search_ear_is_good(const insertion_search *s, hand side, uint32_t va, uint32_t vb, uint32_t vc)
 {
     const mw_point *point = s->in->point;
     mw_point a = point[va], b = point[vb], c = point[vc];
     double turn = mw__orient2d(a, b, c);
     s->in->work += turn == 0 ? LINE_WORK : 1;
     if (side == LEFT ? turn >= 0 : turn <= 0) return false;
-    return is_smaller(s, a, b, c) && is_smaller(s, c, a, b) && is_smaller(s, b, c, a);
+    return insertion_angle_is_smaller(s, a, b, c) && insertion_angle_is_smaller(s, c, a, b) &&
+           insertion_angle_is_smaller(s, b, c, a);
 }
 
-static bool is_spent(const mw_insertion *in)
+static bool insertion_is_spent(const mw_insertion *in)
 {
     return in->work >= in->most_work;
 }
 
 /* Cut off one ear below vertex v, put on the chain: the new top; the old one if there is none. */
-static uint32_t cut_one(const insertion_search *s, hand side, uint32_t top, uint32_t v)
+static uint32_t search_cut_one(const insertion_search *s, hand side, uint32_t top, uint32_t v)
 {
     const mw_chain *chain = s->in->chain;
     uint32_t below = chain[top].below;
-    return below != NOWHERE && is_good_ear(s, side, chain[below].vertex, chain[top].vertex, v) ? below : top;
+    return below != NOWHERE && search_ear_is_good(s, side, chain[below].vertex, chain[top].vertex, v) ? below : top;
 }
 
 /* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. Less where the work
  * is spent. */
 static uint32_t search_cut(const insertion_search *s, hand side, uint32_t top, uint32_t v)
 {
-    for (uint32_t old = NOWHERE; old != top && !is_spent(s->in);) {
+    for (uint32_t old = NOWHERE; old != top && !insertion_is_spent(s->in);) {
         old = top;
-        top = cut_one(s, side, top, v);
+        top = search_cut_one(s, side, top, v);
     }
     return top;
 }
 
 static bool chain_push(mw_insertion *in, uint32_t vertex, uint32_t below, uint32_t *top)
 {
-    mw_chain *chain = with_room(in->chain, &in->chain_room, in->chain_count + 1, sizeof *chain);
+    mw_chain *chain = insertion_array_with_room(in->chain, &in->chain_room, in->chain_count + 1, sizeof *chain);
     if (!chain) return false;
     in->chain = chain;
     in->chain[in->chain_count] = (mw_chain){vertex, below};
@@ -153,7 +154,7 @@ static bool chain_push(mw_insertion *in, uint32_t vertex, uint32_t below, uint32
 
 /* Of the rest of pi beside the worst angle. Where the products are too small or too large for that,
  * 0: such rays leave everything. */
-static void set_turn(insertion_search *s)
+static void search_set_turn(insertion_search *s)
 {
     double length = hypot(s->worst.dot, s->worst.cross);
     bool usable = length >= RAY_SHORTEST && length <= DBL_MAX;
@@ -169,7 +170,7 @@ typedef struct ray {
 
 /* The angle qys is that at q where s is on the ray: y - q turned by the rest of pi, to the right
  * from a vertex of the left chain. */
-static ray ray_from(const insertion_search *s, hand side, uint32_t vertex)
+static ray search_ray_from(const insertion_search *s, hand side, uint32_t vertex)
 {
     mw_point y = s->in->point[vertex], d = vector_minus(y, s->in->point[s->q]);
     double cosine = s->cosine, sine = side == LEFT ? -s->sine : s->sine;
@@ -181,7 +182,7 @@ static ray ray_from(const insertion_search *s, hand side, uint32_t vertex)
 /* How far z lies on the side that the ray leaves, or more: an error of RAY_ERROR times the lengths
  * is far more than what a dozen operations can bring about, and MW_UNDERFLOW_ERROR more than what
  * underflows. */
-static double left_over(const ray *r, hand side, mw_point z)
+static double ray_left_over(const ray *r, hand side, mw_point z)
 {
     mw_point d = vector_minus(z, r->y);
     double value = vector_cross(r->direction, d);
@@ -193,9 +194,9 @@ static double left_over(const ray *r, hand side, mw_point z)
 static bool search_is_closed(const insertion_search *s, uint32_t left_vertex, uint32_t right_vertex, mw_point u,
                              mw_point v)
 {
-    ray left = ray_from(s, LEFT, left_vertex), right = ray_from(s, RIGHT, right_vertex);
-    double from_u = left_over(&left, LEFT, u), from_v = left_over(&left, LEFT, v);
-    double to_u = left_over(&right, RIGHT, u), to_v = left_over(&right, RIGHT, v);
+    ray left = search_ray_from(s, LEFT, left_vertex), right = search_ray_from(s, RIGHT, right_vertex);
+    double from_u = ray_left_over(&left, LEFT, u), from_v = ray_left_over(&left, LEFT, v);
+    double to_u = ray_left_over(&right, RIGHT, u), to_v = ray_left_over(&right, RIGHT, v);
     if (from_v < 0 && from_u < 0) return true;
     if (to_u < 0 && to_v < 0) return true;
     /* left over: from u + t (v - u) on with t = from, up to t = to */
@@ -207,8 +208,8 @@ static bool search_is_closed(const insertion_search *s, uint32_t left_vertex, ui
 /* Of two vertices of a chain, that whose ray leaves less near the new one, w. */
 static uint32_t hand_narrower(const insertion_search *s, hand side, uint32_t old, uint32_t w)
 {
-    ray r = ray_from(s, side, old);
-    return left_over(&r, side, s->in->point[w]) < 0 ? old : w;
+    ray r = search_ray_from(s, side, old);
+    return ray_left_over(&r, side, s->in->point[w]) < 0 ? old : w;
 }
 
 /* --- the search --- */
@@ -219,7 +220,7 @@ static uint32_t half_apex(const mw_insertion *in, uint32_t half)
 }
 
 /* Is there anything to see through a half-edge, from u on the left to v on the right? */
-static bool is_open(const insertion_search *s, const mw_visible_triangle *next, uint32_t u, uint32_t v)
+static bool search_is_open(const insertion_search *s, const mw_visible_triangle *next, uint32_t u, uint32_t v)
 {
     const mw_insertion *in = s->in;
     if (next->half == MW_NONE || in->tri[mw__link_triangle(next->half)].user == MW_INSERTION_FIXED) return false;
@@ -229,7 +230,7 @@ static bool is_open(const insertion_search *s, const mw_visible_triangle *next, 
 static mw_insertion_result insertion_look(mw_insertion *in, mw_visible_triangle next)
 {
     if (in->seen_count >= in->most_seen || in->seen_count >= MW_INSERTION_MOST_SEEN) return MW_INSERTION_SPENT;
-    mw_visible_triangle *sight = with_room(in->seen, &in->seen_room, in->seen_count + 1, sizeof *sight);
+    mw_visible_triangle *sight = insertion_array_with_room(in->seen, &in->seen_room, in->seen_count + 1, sizeof *sight);
     if (!sight) return MW_INSERTION_MEMORY;
     in->seen = sight;
     in->seen[in->seen_count++] = next;
@@ -249,13 +250,13 @@ static mw_insertion_result search_pass(insertion_search *s, uint32_t i, uint32_t
         next.left_ray = hand_narrower(s, LEFT, from.left_ray, w);
         if (mw__orient2d(in->point[s->q], in->point[from.left_bound], in->point[w]) < 0) next.left_bound = w;
         next.half = tri->link[mw__next(e)];
-        if (!is_open(s, &next, w, v)) return MW_INSERTION_NONE;
+        if (!search_is_open(s, &next, w, v)) return MW_INSERTION_NONE;
         if (!chain_push(in, w, search_cut(s, LEFT, from.left, w), &next.left)) return MW_INSERTION_MEMORY;
     } else {
         next.right_ray = hand_narrower(s, RIGHT, from.right_ray, w);
         if (mw__orient2d(in->point[s->q], in->point[from.right_bound], in->point[w]) > 0) next.right_bound = w;
         next.half = tri->link[mw__prev(e)];
-        if (!is_open(s, &next, u, w)) return MW_INSERTION_NONE;
+        if (!search_is_open(s, &next, u, w)) return MW_INSERTION_NONE;
         if (!chain_push(in, w, search_cut(s, RIGHT, from.right, w), &next.right)) return MW_INSERTION_MEMORY;
     }
     return insertion_look(in, next);
@@ -263,16 +264,16 @@ static mw_insertion_result search_pass(insertion_search *s, uint32_t i, uint32_t
 
 /* Are both polygons cut up to the edge to w? Ears are cut on both sides in turn, so that where one
  * side fails soon it does not matter how many there are on the other. */
-static bool is_better(const insertion_search *s, const mw_visible_triangle *from, uint32_t w)
+static bool search_is_better(const insertion_search *s, const mw_visible_triangle *from, uint32_t w)
 {
     const mw_chain *chain = s->in->chain;
     uint32_t left = from->left, right = from->right;
-    while (!is_spent(s->in)) {
+    while (!insertion_is_spent(s->in)) {
         bool left_done = chain[left].below == NOWHERE, right_done = chain[right].below == NOWHERE;
         if (left_done && right_done) return true;
-        uint32_t next_left = cut_one(s, LEFT, left, w);
+        uint32_t next_left = search_cut_one(s, LEFT, left, w);
         if (!left_done && next_left == left) return false;
-        uint32_t next_right = cut_one(s, RIGHT, right, w);
+        uint32_t next_right = search_cut_one(s, RIGHT, right, w);
         if (!right_done && next_right == right) return false;
         left = next_left;
         right = next_right;
@@ -291,7 +292,7 @@ static mw_insertion_result search_begin(insertion_search *s, uint32_t half)
         return MW_INSERTION_MEMORY;
     first.left_ray = s->r;
     first.right_ray = s->p;
-    return is_open(s, &first, s->r, s->p) ? insertion_look(in, first) : MW_INSERTION_NONE;
+    return search_is_open(s, &first, s->r, s->p) ? insertion_look(in, first) : MW_INSERTION_NONE;
 }
 
 /* The sight beyond which lies an s that makes things better. Chains are cut in full as long as the
@@ -302,13 +303,13 @@ static mw_insertion_result search_find(insertion_search *s, uint32_t half, uint3
     const mw_point *point = in->point;
     mw_insertion_result result = search_begin(s, half);
     for (uint32_t i = 0; result == MW_INSERTION_NONE && i < in->seen_count; i++) {
-        if (is_spent(in)) return MW_INSERTION_SPENT;
+        if (insertion_is_spent(in)) return MW_INSERTION_SPENT;
         mw_visible_triangle from = in->seen[i];
         uint32_t w = half_apex(in, from.half);
         bool right_of_left = mw__orient2d(point[s->q], point[from.left_bound], point[w]) < 0;
         bool left_of_right = mw__orient2d(point[s->q], point[from.right_bound], point[w]) > 0;
         in->work += TRIANGLE_WORK;
-        if (right_of_left && left_of_right && is_better(s, &from, w)) {
+        if (right_of_left && left_of_right && search_is_better(s, &from, w)) {
             *found = i;
             return MW_INSERTION_DONE;
         }
@@ -316,7 +317,7 @@ static mw_insertion_result search_find(insertion_search *s, uint32_t half, uint3
         if (left_of_right) result = search_pass(s, i, w, LEFT);
         if (right_of_left && result == MW_INSERTION_NONE) result = search_pass(s, i, w, RIGHT);
     }
-    return result == MW_INSERTION_NONE && is_spent(in) ? MW_INSERTION_SPENT : result;
+    return result == MW_INSERTION_NONE && insertion_is_spent(in) ? MW_INSERTION_SPENT : result;
 }
 
 /* --- the exchange --- */
@@ -332,17 +333,18 @@ struct mw_chain_edge {
 
 static bool path_room(mw_insertion *in, uint32_t n)
 {
-    uint32_t *made = with_room(in->made, &in->made_room, n, sizeof *made);
+    uint32_t *made = insertion_array_with_room(in->made, &in->made_room, n, sizeof *made);
     if (made) in->made = made;
-    uint32_t *placed = with_room(in->placed, &in->placed_room, n, sizeof *placed);
+    uint32_t *placed = insertion_array_with_room(in->placed, &in->placed_room, n, sizeof *placed);
     if (placed) in->placed = placed;
-    mw_chain_edge *edge_list = with_room(in->edge_list, &in->edge_room, 2 * (size_t)n + 4, sizeof *edge_list);
+    mw_chain_edge *edge_list =
+        insertion_array_with_room(in->edge_list, &in->edge_room, 2 * (size_t)n + 4, sizeof *edge_list);
     if (edge_list) in->edge_list = edge_list;
     return made && placed && edge_list;
 }
 
 /* made[] = the triangles to be removed, from t to that beyond sight `found`. */
-static bool list_path(mw_insertion *in, uint32_t t, uint32_t found)
+static bool path_list(mw_insertion *in, uint32_t t, uint32_t found)
 {
     uint32_t n = 1;
     for (uint32_t i = found; i != NOWHERE; i = in->seen[i].parent) n++;
@@ -358,12 +360,12 @@ static bool list_path(mw_insertion *in, uint32_t t, uint32_t found)
 }
 
 /* The step over edge e of the triangle at an index of the path, to the given vertex. */
-static mw_chain_edge step_over(const mw_insertion *in, uint32_t path_index, uint32_t e, uint32_t vertex)
+static mw_chain_edge path_step_over(const mw_insertion *in, uint32_t path_index, uint32_t e, uint32_t vertex)
 {
     return (mw_chain_edge){vertex, in->tri[in->made[path_index]].link[e], path_index};
 }
 
-static bool leads_to(const mw_insertion *in, uint32_t path_index, uint32_t e, uint32_t other)
+static bool path_leads_to(const mw_insertion *in, uint32_t path_index, uint32_t e, uint32_t other)
 {
     uint32_t half = in->tri[in->made[path_index]].link[e];
     return half != MW_NONE && mw__link_triangle(half) == in->made[other];
@@ -371,19 +373,19 @@ static bool leads_to(const mw_insertion *in, uint32_t path_index, uint32_t e, ui
 
 /* Write both chains, from q to w, uncut. Each triangle between the first and the last has one edge
  * on them. */
-static void list_chains(const insertion_search *s, uint32_t k, mw_chain_edge *chain[2], uint32_t count[2])
+static void path_list_chains(const insertion_search *s, uint32_t k, mw_chain_edge *chain[2], uint32_t count[2])
 {
     mw_insertion *in = s->in;
     uint32_t last = in->made_count - 1, left = 0, right = 0;
     chain[LEFT][left++] = chain[RIGHT][right++] = (mw_chain_edge){s->q, MW_NONE, NOWHERE};
-    chain[LEFT][left++] = step_over(in, 0, mw__prev(k), s->r);
-    chain[RIGHT][right++] = step_over(in, 0, k, s->p);
+    chain[LEFT][left++] = path_step_over(in, 0, mw__prev(k), s->r);
+    chain[RIGHT][right++] = path_step_over(in, 0, k, s->p);
     uint32_t half = in->tri[in->made[0]].link[mw__next(k)];
     for (uint32_t i = 1; i <= last; i++) {
         uint32_t e = mw__link_edge(half), w = half_apex(in, half);
-        bool out_right = i < last && leads_to(in, i, mw__next(e), i + 1), out_left = i < last && !out_right;
-        if (!out_left) chain[LEFT][left++] = step_over(in, i, mw__prev(e), w);
-        if (!out_right) chain[RIGHT][right++] = step_over(in, i, mw__next(e), w);
+        bool out_right = i < last && path_leads_to(in, i, mw__next(e), i + 1), out_left = i < last && !out_right;
+        if (!out_left) chain[LEFT][left++] = path_step_over(in, i, mw__prev(e), w);
+        if (!out_right) chain[RIGHT][right++] = path_step_over(in, i, mw__next(e), w);
         half = in->tri[in->made[i]].link[out_left ? mw__prev(e) : mw__next(e)];
     }
     count[LEFT] = left;
@@ -404,8 +406,8 @@ static void insertion_place(mw_insertion *in, uint32_t half, const mw_chain_edge
 }
 
 /* The ear of a, b, c, which follow each other away from q, becomes triangle t. */
-static void write_ear(mw_insertion *in, hand side, uint32_t t, const mw_chain_edge *a, const mw_chain_edge *b,
-                      mw_chain_edge *c)
+static void search_write_ear(mw_insertion *in, hand side, uint32_t t, const mw_chain_edge *a, const mw_chain_edge *b,
+                             mw_chain_edge *c)
 {
     mw_triangle *tri = &in->tri[t];
     tri->v[0] = tri->v[3] = b->vertex;
@@ -418,14 +420,15 @@ static void write_ear(mw_insertion *in, hand side, uint32_t t, const mw_chain_ed
 }
 
 /* Cut a chain as the search has done, into triangles made[*next], ...: what lies beside qs. */
-static uint32_t write_side(const insertion_search *s, hand side, mw_chain_edge *chain, uint32_t count, uint32_t *next)
+static uint32_t search_write_side(const insertion_search *s, hand side, mw_chain_edge *chain, uint32_t count,
+                                  uint32_t *next)
 {
     mw_insertion *in = s->in;
     uint32_t n = 1;
     for (uint32_t i = 1; i < count; i++) {
         mw_chain_edge c = chain[i];
-        for (; n > 1 && is_good_ear(s, side, chain[n - 2].vertex, chain[n - 1].vertex, c.vertex); n--)
-            write_ear(in, side, in->made[(*next)++], &chain[n - 2], &chain[n - 1], &c);
+        for (; n > 1 && search_ear_is_good(s, side, chain[n - 2].vertex, chain[n - 1].vertex, c.vertex); n--)
+            search_write_ear(in, side, in->made[(*next)++], &chain[n - 2], &chain[n - 1], &c);
         chain[n++] = c;
     }
     return chain[1].beyond;
@@ -434,12 +437,12 @@ static uint32_t write_side(const insertion_search *s, hand side, mw_chain_edge *
 static mw_insertion_result search_exchange(const insertion_search *s, uint32_t t, uint32_t k, uint32_t found)
 {
     mw_insertion *in = s->in;
-    if (!list_path(in, t, found)) return MW_INSERTION_MEMORY;
+    if (!path_list(in, t, found)) return MW_INSERTION_MEMORY;
     mw_chain_edge *chain[2] = {in->edge_list, in->edge_list + in->made_count + 2};
     uint32_t count[2], next = 0;
-    list_chains(s, k, chain, count);
-    uint32_t left = write_side(s, LEFT, chain[LEFT], count[LEFT], &next);
-    uint32_t right = write_side(s, RIGHT, chain[RIGHT], count[RIGHT], &next);
+    path_list_chains(s, k, chain, count);
+    uint32_t left = search_write_side(s, LEFT, chain[LEFT], count[LEFT], &next);
+    uint32_t right = search_write_side(s, RIGHT, chain[RIGHT], count[RIGHT], &next);
     in->tri[mw__link_triangle(left)].link[mw__link_edge(left)] = right;
     in->tri[mw__link_triangle(right)].link[mw__link_edge(right)] = left;
     for (uint32_t i = 0; i < in->made_count; i++) in->tri[in->made[i]].user = MW_INSERTION_FREE;
@@ -453,7 +456,7 @@ mw_insertion_result mw__insert_edge(mw_insertion *in, uint32_t t, uint32_t k)
     uint32_t q = tri->v[k], p = tri->v[mw__next(k)], r = tri->v[mw__prev(k)], found = 0;
     insertion_search s = {
         .in = in, .q = q, .p = p, .r = r, .worst = mw__angle(in->point[p], in->point[q], in->point[r])};
-    set_turn(&s);
+    search_set_turn(&s);
     mw_insertion_result result = search_find(&s, tri->link[mw__next(k)], &found);
     return result == MW_INSERTION_DONE ? search_exchange(&s, t, k, found) : result;
 }

@@ -37,7 +37,7 @@ typedef struct greedy {
 
 /* --- half-edges, named by links --- */
 
-static bool is_taken(const greedy *g, uint32_t half)
+static bool greedy_is_taken(const greedy *g, uint32_t half)
 {
     return g->net.subsegment[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)] != MW_NONE;
 }
@@ -74,7 +74,7 @@ static uint32_t greedy_rotor_turn(const greedy *g, greedy_fan *r, uint32_t other
 
 /* A half-edge of the edge between a and b. Turns round both at once, for one of them may have a
  * high degree. */
-static uint32_t half_between(const greedy *g, uint32_t a, uint32_t b)
+static uint32_t greedy_half_between(const greedy *g, uint32_t a, uint32_t b)
 {
     greedy_fan at_a = greedy_rotor(g, a), at_b = greedy_rotor(g, b);
     for (;;) {
@@ -88,7 +88,7 @@ static uint32_t half_between(const greedy *g, uint32_t a, uint32_t b)
 
 /* Edges a, z and z, b are taken and follow each other round z, the corner on the left of a, z,
  * b. */
-static bool add_corner(greedy *g, uint32_t a, uint32_t z, uint32_t b)
+static bool greedy_add_corner(greedy *g, uint32_t a, uint32_t z, uint32_t b)
 {
     const mw_point *p = g->net.point;
     if (mw__orient2d(p[a], p[z], p[b]) <= 0 || mw__dot2d(p[z], p[a], p[b]) > 0) return true;
@@ -96,26 +96,28 @@ static bool add_corner(greedy *g, uint32_t a, uint32_t z, uint32_t b)
 }
 
 /* Add the corners on the left of a taken edge, at its end and at its start. */
-static bool add_corners(greedy *g, uint32_t half)
+static bool greedy_add_corners(greedy *g, uint32_t half)
 {
     uint32_t after = mw__half_next(half), before = mw__half_prev(half);
-    while (!is_taken(g, after) && mw__half_link(g->net.tri, after) != MW_NONE)
+    while (!greedy_is_taken(g, after) && mw__half_link(g->net.tri, after) != MW_NONE)
         after = mw__half_next(mw__half_link(g->net.tri, after));
-    while (!is_taken(g, before) && mw__half_link(g->net.tri, before) != MW_NONE)
+    while (!greedy_is_taken(g, before) && mw__half_link(g->net.tri, before) != MW_NONE)
         before = mw__half_prev(mw__half_link(g->net.tri, before));
-    if (is_taken(g, after) && !add_corner(g, mw__half_start(g->net.tri, half), mw__half_end(g->net.tri, half),
-                                          mw__half_end(g->net.tri, after)))
+    if (greedy_is_taken(g, after) &&
+        !greedy_add_corner(g, mw__half_start(g->net.tri, half), mw__half_end(g->net.tri, half),
+                           mw__half_end(g->net.tri, after)))
         return false;
-    return !is_taken(g, before) || add_corner(g, mw__half_start(g->net.tri, before), mw__half_start(g->net.tri, half),
-                                              mw__half_end(g->net.tri, half));
+    return !greedy_is_taken(g, before) ||
+           greedy_add_corner(g, mw__half_start(g->net.tri, before), mw__half_start(g->net.tri, half),
+                             mw__half_end(g->net.tri, half));
 }
 
 /* Add the open edges of a triangle: each from one of its two triangles only. */
-static bool add_edges(greedy *g, uint32_t t)
+static bool greedy_add_edges(greedy *g, uint32_t t)
 {
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t half = mw__link(t, k);
-        if (half > mw__half_link(g->net.tri, half) || is_taken(g, half)) continue;
+        if (half > mw__half_link(g->net.tri, half) || greedy_is_taken(g, half)) continue;
         if (!mw__greedy_push(&g->heap, mw__half_start(g->net.tri, half), mw__half_end(g->net.tri, half))) return false;
     }
     return true;
@@ -128,9 +130,9 @@ static bool greedy_gather(greedy *g)
     g->heap.count = 0;
     for (uint32_t t = 0; t < g->net.tri_count; t++) {
         memcpy(g->seen[t], g->net.tri[t].v, sizeof g->seen[t]);
-        if (!add_edges(g, t)) return false;
+        if (!greedy_add_edges(g, t)) return false;
         for (uint32_t k = 0; k < 3; k++)
-            if (is_taken(g, mw__link(t, k)) && !add_corners(g, mw__link(t, k))) return false;
+            if (greedy_is_taken(g, mw__link(t, k)) && !greedy_add_corners(g, mw__link(t, k))) return false;
     }
     g->limit = g->heap.count + g->net.tri_count / 2;
     return true;
@@ -150,12 +152,12 @@ static void greedy_visit(greedy *g, uint32_t half, uint32_t *count)
 
 /* An edge was forced in: add the edges of the triangles that this has changed. They hang together,
  * along the edge and on either side of it, and each has other vertices than the one it replaces. */
-static bool add_changes(greedy *g, uint32_t half)
+static bool greedy_add_changes(greedy *g, uint32_t half)
 {
     uint32_t count = 0;
     greedy_visit(g, half, &count);
     for (uint32_t i = 0; i < count; i++) {
-        if (!add_edges(g, g->changed[i])) return false;
+        if (!greedy_add_edges(g, g->changed[i])) return false;
         for (uint32_t k = 0; k < 3; k++) greedy_visit(g, mw__half_link(g->net.tri, mw__link(g->changed[i], k)), &count);
     }
     return true;
@@ -170,8 +172,9 @@ static bool greedy_take(greedy *g, mw_greedy_edge edge)
     mw_subsegment subsegment;
     if (mw__insert_subsegment(&g->net, &from, &to, &subsegment) == MW_SUBSEGMENT_MEMORY) return false;
     if (g->net.subsegment_count == taken) return true;
-    uint32_t half = half_between(g, subsegment.from, subsegment.to), twin = mw__half_link(g->net.tri, half);
-    return add_corners(g, half) && (twin == MW_NONE || add_corners(g, twin)) && add_changes(g, half);
+    uint32_t half = greedy_half_between(g, subsegment.from, subsegment.to), twin = mw__half_link(g->net.tri, half);
+    return greedy_add_corners(g, half) && (twin == MW_NONE || greedy_add_corners(g, twin)) &&
+           greedy_add_changes(g, half);
 }
 
 static bool greedy_create(greedy *g, mw_triangulation *t)

@@ -98,7 +98,7 @@ static double seeker_coordinate(const seeker *s, uint32_t i, int axis)
 
 /* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare
  * 1961]. */
-static void select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_t middle, int axis)
+static void seeker_select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_t middle, int axis)
 {
     int64_t low = begin, high = (int64_t)end - 1;
     while (low < high) {
@@ -140,7 +140,7 @@ static void seeker_build(seeker *s, uint32_t vertex_count)
         box_bound(s, b);
         if (i >= s->first_leaf) continue;
         uint32_t middle = b->begin + (b->end - b->begin) / 2;
-        select_middle(s, b->begin, b->end, middle, b->high[0] - b->low[0] < b->high[1] - b->low[1]);
+        seeker_select_middle(s, b->begin, b->end, middle, b->high[0] - b->low[0] < b->high[1] - b->low[1]);
         s->node[2 * i + 1].reach = s->node[2 * i + 2].reach = INFINITY;
         s->node[2 * i + 1].begin = b->begin;
         s->node[2 * i + 1].end = s->node[2 * i + 2].begin = middle;
@@ -196,7 +196,7 @@ static seek_item seeker_pop(seeker *s)
 
 /* --- dead directions: arcs within -pi..pi; one that goes beyond is cut there; 4 and -4 stand for no end --- */
 
-static void add_arc(dead_arcs *a, double from, double to)
+static void arcs_add(dead_arcs *a, double from, double to)
 {
     for (uint32_t i = 0; i < a->count;)
         if (a->arc[i].from < to && from < a->arc[i].to) {
@@ -211,18 +211,18 @@ static void add_arc(dead_arcs *a, double from, double to)
     a->arc[a->count++].to = to;
 }
 
-static void make_dead(dead_arcs *a, double from, double to)
+static void arcs_make_dead(dead_arcs *a, double from, double to)
 {
     from += ANGLE_MARGIN;
     to -= ANGLE_MARGIN;
     if (from < -PI) {
-        add_arc(a, from + 2 * PI, 4);
-        add_arc(a, -4, to);
+        arcs_add(a, from + 2 * PI, 4);
+        arcs_add(a, -4, to);
     } else if (to > PI) {
-        add_arc(a, from, 4);
-        add_arc(a, -4, to - 2 * PI);
+        arcs_add(a, from, 4);
+        arcs_add(a, -4, to - 2 * PI);
     } else {
-        add_arc(a, from, to);
+        arcs_add(a, from, to);
     }
 }
 
@@ -234,10 +234,10 @@ static bool arcs_cover(const dead_arcs *a, double from, double to)
 }
 
 /* Are all directions dead from `from` counter-clockwise to `to`? */
-static bool all_dead(const seeker *s, double from, double to)
+static bool seeker_is_all_dead(const seeker *s, double from, double to)
 {
     if (from <= to) return arcs_cover(&s->left, from, to) && arcs_cover(&s->right, from, to);
-    return all_dead(s, from, PI) && all_dead(s, -PI, to);
+    return seeker_is_all_dead(s, from, PI) && seeker_is_all_dead(s, -PI, to);
 }
 
 /* The points at less than the square of a distance, divided by 2 cos a, make their directions dead
@@ -246,14 +246,14 @@ static void seeker_activate(seeker *s, double square)
 {
     for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch + TINY < square; s->active++) {
         double angle = s->seen[s->active].angle;
-        make_dead(&s->left, angle - BASE_ANGLE, angle);
-        make_dead(&s->right, angle, angle + BASE_ANGLE);
+        arcs_make_dead(&s->left, angle - BASE_ANGLE, angle);
+        arcs_make_dead(&s->right, angle, angle + BASE_ANGLE);
     }
 }
 
 /* Do all directions from p to the box lie between dead ones? Its outermost corners, seen from p,
  * tell. */
-static bool is_hidden(const seeker *s, mw_point p, const seek_box *b)
+static bool box_is_hidden(const seeker *s, mw_point p, const seek_box *b)
 {
     double x0 = b->low[0] - p.x, x1 = b->high[0] - p.x, y0 = b->low[1] - p.y, y1 = b->high[1] - p.y;
     mw_point right, left;
@@ -272,7 +272,7 @@ static bool is_hidden(const seeker *s, mw_point p, const seek_box *b)
     } else {
         return false; /* p is in the box */
     }
-    return all_dead(s, atan2(right.y, right.x), atan2(left.y, left.x));
+    return seeker_is_all_dead(s, atan2(right.y, right.x), atan2(left.y, left.x));
 }
 
 /* --- from one vertex --- */
@@ -284,11 +284,11 @@ static double box_square(const seek_box *b, mw_point p)
     return dx * dx + dy * dy;
 }
 
-static void open_box(seeker *s, uint32_t p, uint32_t number)
+static void seeker_open_box(seeker *s, uint32_t p, uint32_t number)
 {
     mw_point at = s->points->scaled[p];
     const seek_box *b = &s->node[number];
-    if (is_hidden(s, at, b)) return;
+    if (box_is_hidden(s, at, b)) return;
     for (uint32_t child = 2 * number + 1; number < s->first_leaf && child <= 2 * number + 2; child++) {
         double square = box_square(&s->node[child], at);
         if (square <= s->node[child].reach) seeker_push(s, (seek_item){square, child, true});
@@ -330,7 +330,7 @@ static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, d
 /* Is u the way from p to q, but for what rounding did to its last bits? Where the coordinates of
  * all points span more than doubles can once they are scaled, it need not be: points that differ
  * may even become equal. */
-static bool is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u)
+static bool diamond_is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u)
 {
     mw_point from = s->points->point[p], to = s->points->point[q];
     return (fabs(u.x) >= SHARP || from.x == to.x) && (fabs(u.y) >= SHARP || from.y == to.y);
@@ -342,8 +342,8 @@ static bool seeker_visit(seeker *s, uint32_t p, seek_item it)
 {
     mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};
     double angle = atan2(u.y, u.x);
-    bool sharp = is_sharp(s, p, it.number, u);
-    bool candidate = !all_dead(s, angle, angle) && !(sharp && diamond_fails(s, p, it.number, u, it.square));
+    bool sharp = diamond_is_sharp(s, p, it.number, u);
+    bool candidate = !seeker_is_all_dead(s, angle, angle) && !(sharp && diamond_fails(s, p, it.number, u, it.square));
     if (!sharp) return candidate;
     s->seen[s->seen_count++] = (seen_point){it.square, angle};
     if (s->nearest_count < NEAREST) {
@@ -365,12 +365,12 @@ static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort
         effort->steps -= STEPS_PER_VISIT;
         seek_item it = seeker_pop(s);
         seeker_activate(s, it.square);
-        if (all_dead(s, -PI, PI)) {
+        if (seeker_is_all_dead(s, -PI, PI)) {
             s->reach[p] = it.square;
             return MW_LMT_DONE;
         }
         if (it.is_box) {
-            open_box(s, p, it.number);
+            seeker_open_box(s, p, it.number);
         } else if (s->seen_count == most) {
             list->count = before;
             return MW_LMT_DONE;
@@ -383,7 +383,7 @@ static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort
     return MW_LMT_DONE;
 }
 
-static void spread_reach(seeker *s)
+static void seeker_spread_reach(seeker *s)
 {
     for (uint32_t i = s->node_count; i-- > 0;) {
         seek_box *b = &s->node[i];
@@ -404,7 +404,7 @@ mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint3
         result = mw__job_step(effort->job, i, 2 * (uint64_t)vertex_count)
                      ? seeker_seek(&s, s.order[i], FEW, effort, list)
                      : MW_LMT_MEMORY;
-    if (result == MW_LMT_DONE) spread_reach(&s);
+    if (result == MW_LMT_DONE) seeker_spread_reach(&s);
     for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
         if (s.reach[s.order[i]] == INFINITY)
             result = mw__job_step(effort->job, (uint64_t)vertex_count + i, 2 * (uint64_t)vertex_count)

@@ -40,14 +40,14 @@ static void table_release(chord_table *t)
     free(t->row);
 }
 
-static void prefix_sums(size_t *first, uint32_t n)
+static void table_prefix_sums(size_t *first, uint32_t n)
 {
     size_t sum = 0;
     for (uint32_t i = 0; i <= n; i++) first[i] = sum += first[i];
 }
 
 /* Chords in two rounds of counting sort: by j, then by i. */
-static bool sort_chords(chord_table *t, const mw_polygon *p)
+static bool table_sort_chords(chord_table *t, const mw_polygon *p)
 {
     uint32_t n = t->corner_count;
     uint32_t *by_high = mw__alloc(p->chord_count, sizeof *by_high);
@@ -55,10 +55,10 @@ static bool sort_chords(chord_table *t, const mw_polygon *p)
     bool done = by_high && first;
     if (done) {
         for (size_t c = 0; c < p->chord_count; c++) first[p->chord[c].high]++;
-        prefix_sums(first, n);
+        table_prefix_sums(first, n);
         for (size_t c = p->chord_count; c-- > 0;) by_high[--first[p->chord[c].high]] = (uint32_t)c;
         for (size_t c = 0; c < p->chord_count; c++) t->first_up[p->chord[c].low]++;
-        prefix_sums(t->first_up, n);
+        table_prefix_sums(t->first_up, n);
         for (size_t c = p->chord_count; c-- > 0;) t->up[--t->first_up[p->chord[by_high[c]].low]] = by_high[c];
     }
     free(by_high);
@@ -77,7 +77,7 @@ static bool table_create(chord_table *t, const mw_polygon *p)
     t->down = mw__alloc(p->chord_count + n + 1, sizeof *t->down);
     t->row = mw__alloc(n, sizeof *t->row);
     if (!t->first_up || !t->first_down || !t->down_count || !t->up || !t->down || !t->row) return false;
-    if (!sort_chords(t, p)) return false;
+    if (!table_sort_chords(t, p)) return false;
     /* to each corner: its chords, the border before it, and the border that closes the polygon */
     for (size_t c = 0; c < p->chord_count; c++) t->first_down[p->chord[c].high + 1]++;
     for (uint32_t j = 0; j < n; j++) t->first_down[j + 1] += t->first_down[j] + (j > 0) + (j == n - 1);
@@ -85,7 +85,7 @@ static bool table_create(chord_table *t, const mw_polygon *p)
     return true;
 }
 
-static void close_chord(chord_table *t, uint32_t i, uint32_t j, double length)
+static void chord_close(chord_table *t, uint32_t i, uint32_t j, double length)
 {
     const end *list = &t->down[t->first_down[j]];
     end best = {i, MW_NONE, INFINITY};
@@ -111,8 +111,8 @@ static bool table_fill(chord_table *t, const mw_polygon *p, mw_job *job)
         t->row[i + 1] = 0;
         t->down[t->first_down[i + 1] + t->down_count[i + 1]++] = (end){i, MW_NONE, 0};
         for (size_t k = t->first_up[i]; k < t->first_up[i + 1]; k++)
-            close_chord(t, i, p->chord[t->up[k]].high, p->chord[t->up[k]].length);
-        if (i == 0) close_chord(t, 0, n - 1, 0);
+            chord_close(t, i, p->chord[t->up[k]].high, p->chord[t->up[k]].length);
+        if (i == 0) chord_close(t, 0, n - 1, 0);
         t->row[i + 1] = INFINITY;
         for (size_t k = t->first_up[i]; k < t->first_up[i + 1]; k++) t->row[p->chord[t->up[k]].high] = INFINITY;
     }

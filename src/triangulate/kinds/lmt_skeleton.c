@@ -43,7 +43,7 @@ static double skeleton_side(const mw_lmt *lmt, uint32_t a, uint32_t b, uint32_t 
     return mw__orient2d(point[a], point[b], point[c]);
 }
 
-static bool is_alive(const mw_lmt *lmt, uint32_t half)
+static bool half_is_alive(const mw_lmt *lmt, uint32_t half)
 {
     return lmt->state[half / 2] & MW_LMT_ALIVE;
 }
@@ -55,7 +55,7 @@ typedef struct spoke {
     uint32_t half;
 } spoke;
 
-static int by_angle(const void *a, const void *b)
+static int spokes_compare(const void *a, const void *b)
 {
     double x = ((const spoke *)a)->angle, y = ((const spoke *)b)->angle;
     return (x > y) - (x < y);
@@ -73,7 +73,7 @@ static bool neighbour_is_before(const mw_lmt *lmt, uint32_t v, uint32_t p, uint3
 }
 
 /* Sorted by rounded angles first, so that the exact sort has little to do. */
-static void sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
+static void skeleton_sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
 {
     uint32_t begin = lmt->first[v], n = vertex_degree(lmt, v);
     const mw_point *at = lmt->points->scaled;
@@ -81,7 +81,7 @@ static void sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
         uint32_t half = lmt->ring[begin + i], w = half_target(lmt, half);
         spokes[i] = (spoke){atan2(at[w].y - at[v].y, at[w].x - at[v].x), half};
     }
-    qsort(spokes, n, sizeof *spokes, by_angle);
+    qsort(spokes, n, sizeof *spokes, spokes_compare);
     for (uint32_t i = 0; i < n; i++) {
         uint32_t half = spokes[i].half, j = i;
         for (; j > 0 && neighbour_is_before(lmt, v, half_target(lmt, half), half_target(lmt, lmt->ring[begin + j - 1]));
@@ -92,14 +92,14 @@ static void sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
     for (uint32_t i = begin; i < begin + n; i++) lmt->ring_index[lmt->ring[i]] = i;
 }
 
-static bool sort_rings(mw_lmt *lmt)
+static bool skeleton_sort_rings(mw_lmt *lmt)
 {
     uint32_t most = 0;
     for (uint32_t v = 0; v < lmt->points->count; v++)
         most = vertex_degree(lmt, v) > most ? vertex_degree(lmt, v) : most;
     spoke *spokes = mw__alloc(most, sizeof *spokes);
     if (!spokes) return false;
-    for (uint32_t v = 0; v < lmt->points->count; v++) sort_ring(lmt, v, spokes);
+    for (uint32_t v = 0; v < lmt->points->count; v++) skeleton_sort_ring(lmt, v, spokes);
     free(spokes);
     return true;
 }
@@ -125,7 +125,7 @@ mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge
     for (uint32_t h = 0; h < 2 * lmt->edge_count; h++) lmt->first[lmt->from[h]]++;
     for (uint32_t v = 0, sum = 0; v <= n; v++) lmt->first[v] = sum += lmt->first[v];
     for (uint32_t h = 2 * lmt->edge_count; h-- > 0;) lmt->ring[--lmt->first[lmt->from[h]]] = h;
-    return sort_rings(lmt) ? MW_LMT_DONE : MW_LMT_MEMORY;
+    return skeleton_sort_rings(lmt) ? MW_LMT_DONE : MW_LMT_MEMORY;
 }
 
 void mw__lmt_release(mw_lmt *lmt)
@@ -151,7 +151,7 @@ static uint32_t edge_find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *s
     }
     for (uint32_t i = lmt->first[a]; i < lmt->first[a + 1]; i++) {
         ++*steps;
-        if (half_target(lmt, lmt->ring[i]) == b) return is_alive(lmt, lmt->ring[i]) ? lmt->ring[i] / 2 : MW_NONE;
+        if (half_target(lmt, lmt->ring[i]) == b) return half_is_alive(lmt, lmt->ring[i]) ? lmt->ring[i] / 2 : MW_NONE;
     }
     return MW_NONE;
 }
@@ -159,7 +159,7 @@ static uint32_t edge_find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *s
 /* The triangles on the left of a half-edge a->b: turn round a, away from b. Of the ends of edges
  * met so, one lies in the triangle abl just if, seen from b, it is nearer to a than l is. So l is
  * the nearest to a of all before it. */
-static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_t *steps)
+static void half_find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_t *steps)
 {
     bool left = true;
     if (vertex_degree(lmt, lmt->from[half]) > vertex_degree(lmt, half_target(lmt, half))) {
@@ -181,7 +181,7 @@ static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_
             if (left ? nearer <= 0 : nearer >= 0) continue;
         }
         nearest = l;
-        if (!is_alive(lmt, lmt->ring[i])) continue;
+        if (!half_is_alive(lmt, lmt->ring[i])) continue;
         uint32_t other = edge_find(lmt, b, l, steps);
         if (other == MW_NONE) continue;
         if (found->count == APEXES) {
@@ -194,7 +194,7 @@ static void find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, uint64_
     }
 }
 
-static bool is_minimal(const mw_lmt *lmt, uint32_t e, const apexes *left, const apexes *right, uint64_t *steps)
+static bool edge_is_minimal(const mw_lmt *lmt, uint32_t e, const apexes *left, const apexes *right, uint64_t *steps)
 {
     if (left->overflow || right->overflow) return true;
     uint32_t a = lmt->from[2 * e], b = lmt->from[2 * e + 1];
@@ -222,7 +222,7 @@ static void edge_enqueue(mw_lmt *lmt, skeleton_work *w, uint32_t e)
     lmt->queue[((uint64_t)w->head + w->count++) % lmt->edge_count] = e;
 }
 
-static void enqueue_sides(mw_lmt *lmt, skeleton_work *w, const apexes *found)
+static void edge_enqueue_sides(mw_lmt *lmt, skeleton_work *w, const apexes *found)
 {
     for (uint32_t i = 0; i < found->count; i++) {
         edge_enqueue(lmt, w, found->apex[i].side[0]);
@@ -243,12 +243,12 @@ void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort)
         lmt->state[e] &= (uint8_t)~MW_LMT_QUEUED;
         apexes left, right;
         uint64_t steps = 0;
-        find_apexes(lmt, 2 * e, &left, &steps);
-        find_apexes(lmt, 2 * e + 1, &right, &steps);
-        if (!is_minimal(lmt, e, &left, &right, &steps)) {
+        half_find_apexes(lmt, 2 * e, &left, &steps);
+        half_find_apexes(lmt, 2 * e + 1, &right, &steps);
+        if (!edge_is_minimal(lmt, e, &left, &right, &steps)) {
             lmt->state[e] &= (uint8_t)~MW_LMT_ALIVE;
-            enqueue_sides(lmt, &w, &left);
-            enqueue_sides(lmt, &w, &right);
+            edge_enqueue_sides(lmt, &w, &left);
+            edge_enqueue_sides(lmt, &w, &right);
         }
         if (effort->steps <= steps) return;
         effort->steps -= steps;

@@ -41,22 +41,22 @@ typedef struct heap {
     size_t count, room;
 } heap;
 
-static mw_angle angle_of(const heap *h, const entry *e)
+static mw_angle entry_angle(const heap *h, const entry *e)
 {
     return mw__angle(h->point[e->p], h->point[e->q], h->point[e->r]);
 }
 
 /* Equal angles: the lower-numbered triangle first. */
-static bool comes_before(const heap *h, const entry *e, const entry *f)
+static bool entry_comes_before(const heap *h, const entry *e, const entry *f)
 {
-    mw_angle s = angle_of(h, e), t = angle_of(h, f);
+    mw_angle s = entry_angle(h, e), t = entry_angle(h, f);
     int order = mw__compare_angles(&s, &t);
     return order > 0 || (order == 0 && e->triangle < f->triangle);
 }
 
-static void sift_up(heap *h, size_t i, entry e)
+static void heap_sift_up(heap *h, size_t i, entry e)
 {
-    for (; i > 0 && comes_before(h, &e, &h->at[(i - 1) / 2]); i = (i - 1) / 2) h->at[i] = h->at[(i - 1) / 2];
+    for (; i > 0 && entry_comes_before(h, &e, &h->at[(i - 1) / 2]); i = (i - 1) / 2) h->at[i] = h->at[(i - 1) / 2];
     h->at[i] = e;
 }
 
@@ -65,8 +65,8 @@ static entry heap_pop(heap *h)
     entry top = h->at[0], last = h->at[--h->count];
     size_t i = 0, child;
     for (; (child = 2 * i + 1) < h->count; i = child) {
-        if (child + 1 < h->count && comes_before(h, &h->at[child + 1], &h->at[child])) child++;
-        if (!comes_before(h, &h->at[child], &last)) break;
+        if (child + 1 < h->count && entry_comes_before(h, &h->at[child + 1], &h->at[child])) child++;
+        if (!entry_comes_before(h, &h->at[child], &last)) break;
         h->at[i] = h->at[child];
     }
     h->at[i] = last;
@@ -74,13 +74,13 @@ static entry heap_pop(heap *h)
 }
 
 /* The triangle by its largest angle, the first one of equals. */
-static entry entry_of(const heap *h, const mw_triangle *tri, uint32_t t)
+static entry entry_make(const heap *h, const mw_triangle *tri, uint32_t t)
 {
     mw_angle largest;
     entry best = {0};
     for (uint32_t k = 0; k < 3; k++) {
         entry e = {tri->v[mw__prev(k)], tri->v[k], tri->v[mw__next(k)], t};
-        mw_angle angle = angle_of(h, &e);
+        mw_angle angle = entry_angle(h, &e);
         if (k > 0 && mw__compare_angles(&angle, &largest) <= 0) continue;
         largest = angle;
         best = e;
@@ -97,12 +97,12 @@ static bool heap_push(heap *h, const mw_triangle *tri, uint32_t t)
         h->at = at;
         h->room = room;
     }
-    sift_up(h, h->count++, entry_of(h, &tri[t], t));
+    heap_sift_up(h, h->count++, entry_make(h, &tri[t], t));
     return true;
 }
 
 /* The corner of the triangle where its largest angle is; 3 if it is another triangle now. */
-static uint32_t corner_of(const entry *e, const mw_triangle *tri)
+static uint32_t entry_corner(const entry *e, const mw_triangle *tri)
 {
     uint32_t k = 0;
     while (k < 3 && tri->v[k] != e->q) k++;
@@ -118,7 +118,7 @@ typedef struct improvement {
 
 /* Triangles whose neighbour has changed may be worth another try: where only one edge is
  * exchanged. */
-static bool push_again(improvement *m, uint32_t t)
+static bool improvement_push_again(improvement *m, uint32_t t)
 {
     mw_triangle *tri = m->t->tri;
     for (uint32_t k = 0; k < 3; k++) {
@@ -130,12 +130,12 @@ static bool push_again(improvement *m, uint32_t t)
     return true;
 }
 
-static bool push_made(improvement *m)
+static bool improvement_push_made(improvement *m)
 {
     const mw_insertion *in = &m->insertion;
     for (uint32_t i = 0; i < in->made_count; i++) {
         if (!heap_push(&m->heap, m->t->tri, in->made[i])) return false;
-        if (!push_again(m, in->made[i])) return false;
+        if (!improvement_push_again(m, in->made[i])) return false;
     }
     return true;
 }
@@ -150,9 +150,9 @@ static bool improvement_fill(improvement *m)
     return true;
 }
 
-static bool add_made(improvement *m)
+static bool improvement_add_made(improvement *m)
 {
-    if (!push_made(m)) return false;
+    if (!improvement_push_made(m)) return false;
     return m->heap.count / (ENTRIES_PER_TRIANGLE + 1) < m->t->tri_count || improvement_fill(m);
 }
 
@@ -173,11 +173,11 @@ static mw_status improvement_run(improvement *m, uint32_t reach, mw_angle_limits
         if (!mw__job_step(m->t->job, tried, tried + m->heap.count)) return MW_ERROR_MEMORY;
         tried++;
         entry e = heap_pop(&m->heap);
-        uint32_t k = corner_of(&e, &tri[e.triangle]);
+        uint32_t k = entry_corner(&e, &tri[e.triangle]);
         if (k == 3 || tri[e.triangle].user != MW_INSERTION_FREE) continue;
         result = mw__insert_edge(&m->insertion, e.triangle, k);
         if (result == MW_INSERTION_MEMORY) return MW_ERROR_MEMORY;
-        if (result == MW_INSERTION_DONE && !add_made(m)) return MW_ERROR_MEMORY;
+        if (result == MW_INSERTION_DONE && !improvement_add_made(m)) return MW_ERROR_MEMORY;
         if (result != MW_INSERTION_NONE) continue;
         tri[e.triangle].user = reach > 1 ? MW_INSERTION_FIXED : MW_INSERTION_TRIED;
         *proved = true;
@@ -200,7 +200,7 @@ mw_status mw__min_max_angle_within(mw_triangulation *t, mw_angle_limits limits, 
 }
 
 /* A limit of the caller's is one on points only. */
-static mw_angle_limits limits_of(const mw_triangulation *t, uint32_t most_points)
+static mw_angle_limits triangulation_angle_limits(const mw_triangulation *t, uint32_t most_points)
 {
     if (most_points == 0) return (mw_angle_limits){MOST_WORK, SIGHTS_PER_TRIANGLE * (size_t)t->tri_count + MORE_SIGHTS};
     return (mw_angle_limits){t->point_count <= most_points ? UINT64_MAX : 0, SIZE_MAX};
@@ -210,7 +210,7 @@ mw_status mw__make_min_max_angle(mw_triangulation *t, const mw_kind_options *opt
                                  mw_error *error)
 {
     bool proved;
-    mw_status status = mw__min_max_angle_within(t, limits_of(t, options->limit), &proved);
+    mw_status status = mw__min_max_angle_within(t, triangulation_angle_limits(t, options->limit), &proved);
     report->optimal = proved;
     return status == MW_OK ? MW_OK : mw__fail_memory(error);
 }

@@ -57,7 +57,7 @@ typedef struct weigher {
     uint64_t face_steps;
 } weigher;
 
-static mw_triangle *triangle_of(const weigher *w, uint32_t link)
+static mw_triangle *weigher_triangle(const weigher *w, uint32_t link)
 {
     return &w->t->tri[mw__link_triangle(link)];
 }
@@ -67,17 +67,17 @@ static double weigher_vertex_side(const weigher *w, uint32_t a, uint32_t b, uint
     return mw__orient2d(w->t->point[a], w->t->point[b], w->t->point[c]);
 }
 
-static bool is_marked(const weigher *w, uint32_t t, uint32_t k)
+static bool weigher_edge_is_marked(const weigher *w, uint32_t t, uint32_t k)
 {
     return w->mark[t] >> k & 1;
 }
 
-static bool has_mark(const weigher *w, uint32_t half)
+static bool half_has_mark(const weigher *w, uint32_t half)
 {
-    return is_marked(w, mw__link_triangle(half), mw__link_edge(half));
+    return weigher_edge_is_marked(w, mw__link_triangle(half), mw__link_edge(half));
 }
 
-static void set_mark(const weigher *w, uint32_t half)
+static void half_set_mark(const weigher *w, uint32_t half)
 {
     w->mark[mw__link_triangle(half)] |= (uint8_t)(1u << mw__link_edge(half));
 }
@@ -99,10 +99,10 @@ static void half_exchange(const weigher *w, uint32_t half)
     w->t->tri[t] = (mw_triangle){{p, q, b, p}, {mw__link(s, 0), around[2], around[3]}, 0};
     for (uint32_t i = 0; i < 4; i++)
         if (around[i] != MW_NONE)
-            triangle_of(w, around[i])->link[mw__link_edge(around[i])] = mw__link(i < 2 ? s : t, 1 + i % 2);
+            weigher_triangle(w, around[i])->link[mw__link_edge(around[i])] = mw__link(i < 2 ? s : t, 1 + i % 2);
 }
 
-static bool is_too_long(const weigher *w, uint32_t half)
+static bool half_is_too_long(const weigher *w, uint32_t half)
 {
     uint32_t twin = mw__half_link(w->t->tri, half);
     if (twin == MW_NONE) return false;
@@ -127,7 +127,7 @@ static bool weigher_shorten(weigher *w)
     while (count > 0) {
         if (!mw__job_step(w->t->job, tried, tried + count)) return false;
         uint32_t t = w->list[count - 1], k = 0;
-        while (k < 3 && !is_marked(w, t, k)) k++;
+        while (k < 3 && !weigher_edge_is_marked(w, t, k)) k++;
         if (k == 3) {
             w->mark[t] = 0;
             count--;
@@ -136,7 +136,7 @@ static bool weigher_shorten(weigher *w)
         }
         uint32_t half = mw__link(t, k), other = mw__link_triangle(mw__half_link(w->t->tri, half));
         w->mark[t] &= (uint8_t) ~(1u << k);
-        if (!is_too_long(w, half)) continue;
+        if (!half_is_too_long(w, half)) continue;
         half_exchange(w, half);
         if (!(w->mark[other] & ON_STACK)) w->list[count++] = other;
         w->mark[t] |= OUTER_EDGES;
@@ -145,7 +145,7 @@ static bool weigher_shorten(weigher *w)
     return true;
 }
 
-static void index_vertices(weigher *w)
+static void weigher_index_vertices(weigher *w)
 {
     for (uint32_t v = 0; v < w->t->point_count; v++) w->at[v] = MW_NONE;
     for (uint32_t t = 0; t < w->t->tri_count; t++)
@@ -156,7 +156,7 @@ static void index_vertices(weigher *w)
 
 /* The half-edge from u in the triangle that the way to v leaves through; MW_NONE if it leaves along
  * an edge. */
-static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *steps)
+static uint32_t weigher_way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *steps)
 {
     uint32_t t = w->at[u], k = 0;
     while (w->t->tri[t].v[k] != u) k++;
@@ -182,14 +182,14 @@ static uint32_t way_out(const weigher *w, uint32_t u, uint32_t v, uint64_t *step
 /* Walk through T from u to v, no neighbour of it; false if there is a point on the way. */
 static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking, weigher_crossing *way, uint64_t *steps)
 {
-    uint32_t half = way_out(w, u, v, steps);
+    uint32_t half = weigher_way_out(w, u, v, steps);
     if (half == MW_NONE) return false;
     way->from = half;
     for (half = mw__half_next(half);; ++*steps) {
         uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (marking) {
-            set_mark(w, half);
-            set_mark(w, twin);
+            half_set_mark(w, half);
+            half_set_mark(w, twin);
         }
         if (apex == v) {
             way->to = mw__half_prev(twin);
@@ -201,13 +201,13 @@ static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking,
     }
 }
 
-static int by_key(const void *a, const void *b)
+static int weigher_keys_compare(const void *a, const void *b)
 {
     uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
     return (x > y) - (x < y);
 }
 
-static bool push_known(weigher *w)
+static bool weigher_push_known(weigher *w)
 {
     for (uint32_t t = 0; t < w->t->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
@@ -223,7 +223,7 @@ static bool weigher_sift(weigher *w, mw_effort *effort)
 {
     mw_edge_list *list = &w->edges;
     size_t kept = 0;
-    qsort(list->key, list->count, sizeof *list->key, by_key);
+    qsort(list->key, list->count, sizeof *list->key, weigher_keys_compare);
     for (size_t i = 0, next; i < list->count; i = next) {
         uint64_t last = list->key[i], edge = last | MW_EDGE_KNOWN, steps = 0;
         for (next = i + 1; next < list->count && (list->key[next] | MW_EDGE_KNOWN) == edge; next++)
@@ -239,7 +239,7 @@ static bool weigher_sift(weigher *w, mw_effort *effort)
     return true;
 }
 
-static mw_lmt_result find_candidates(weigher *w, mw_effort effort)
+static mw_lmt_result weigher_find_candidates(weigher *w, mw_effort effort)
 {
     uint32_t count = 0, *used = mw__alloc(w->t->point_count, sizeof *used);
     if (!used) return MW_LMT_MEMORY;
@@ -249,13 +249,13 @@ static mw_lmt_result find_candidates(weigher *w, mw_effort effort)
     mw_lmt_result result = mw__diamond(&w->points, used, count, &effort, &w->edges);
     mw__job_stage(w->t->job, "sifting candidates", 0.05);
     free(used);
-    if (result == MW_LMT_DONE && !push_known(w)) result = MW_LMT_MEMORY;
+    if (result == MW_LMT_DONE && !weigher_push_known(w)) result = MW_LMT_MEMORY;
     if (result == MW_LMT_DONE && !weigher_sift(w, &effort)) result = MW_LMT_SPENT;
     return result;
 }
 
 /* What remains of the candidates and is not in T crosses T. */
-static mw_lmt_result mark_crossed(weigher *w, mw_effort effort)
+static mw_lmt_result weigher_mark_crossed(weigher *w, mw_effort effort)
 {
     size_t count = 0;
     for (uint32_t e = 0; e < w->lmt.edge_count; e++) count += w->lmt.state[e] == MW_LMT_ALIVE;
@@ -278,14 +278,14 @@ static mw_lmt_result mark_crossed(weigher *w, mw_effort effort)
     return MW_LMT_DONE;
 }
 
-static mw_lmt_result make_skeleton(weigher *w, uint32_t limit)
+static mw_lmt_result weigher_make_skeleton(weigher *w, uint32_t limit)
 {
     uint64_t n = w->t->point_count, most = limit < n ? limit : n;
     if (most > LIMIT_THAT_COUNTS) most = LIMIT_THAT_COUNTS;
     mw_effort effort = {STEPS_AT_LEAST + STEPS_PER_POINT * n, CANDIDATES_AT_LEAST + CANDIDATES_PER_POINT * n,
                         w->t->job};
     mw_effort extended = {effort.steps + most * most * most, effort.candidates + most * most, w->t->job};
-    mw_lmt_result result = find_candidates(w, extended);
+    mw_lmt_result result = weigher_find_candidates(w, extended);
     if (result == MW_LMT_DONE) {
         result = mw__lmt_create(&w->lmt, &w->points, &w->edges);
         free(w->edges.key);
@@ -295,7 +295,7 @@ static mw_lmt_result make_skeleton(weigher *w, uint32_t limit)
         mw__job_stage(w->t->job, "reducing candidates", 0.2);
         mw__lmt_reduce(&w->lmt, &effort);
         mw__job_stage(w->t->job, "following candidates", 0.05);
-        result = mark_crossed(w, extended);
+        result = weigher_mark_crossed(w, extended);
     }
     mw__lmt_release(&w->lmt);
     return result;
@@ -322,7 +322,7 @@ static skeleton_face weigher_find_face(weigher *w, uint32_t first)
     for (uint32_t i = 0; i < f.triangles; i++) {
         uint32_t t = w->list[i];
         for (uint32_t k = 0; k < 3; k++) {
-            if (!is_marked(w, t, k)) continue;
+            if (!weigher_edge_is_marked(w, t, k)) continue;
             uint32_t other = mw__link_triangle(w->t->tri[t].link[k]);
             joints++;
             if (w->seen[other]) continue;
@@ -338,17 +338,17 @@ static skeleton_face weigher_find_face(weigher *w, uint32_t first)
 }
 
 /* Cut each ring: the marked edges that are not in the tree become border. */
-static void cut_open(const weigher *w, skeleton_face *f)
+static void face_cut_open(const weigher *w, skeleton_face *f)
 {
     for (uint32_t i = 0; i < f->triangles; i++) w->mark[w->list[i]] >>= TREE_SHIFT;
     f->border = f->triangles + 2;
 }
 
 /* Does a candidate cross none of the edges along which its face was cut? */
-static bool stays_inside(const weigher *w, const weigher_crossing *way)
+static bool crossing_stays_inside(const weigher *w, const weigher_crossing *way)
 {
     uint32_t u = mw__half_start(w->t->tri, way->from), v = mw__half_start(w->t->tri, way->to);
-    for (uint32_t half = mw__half_next(way->from); has_mark(w, half);) {
+    for (uint32_t half = mw__half_next(way->from); half_has_mark(w, half);) {
         uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (apex == v) return true;
         half = weigher_vertex_side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
@@ -358,33 +358,33 @@ static bool stays_inside(const weigher *w, const weigher_crossing *way)
 
 /* Number the corners along the border: at each vertex, turn through the face from edge to edge of
  * the border. */
-static void number_corners(weigher *w, const skeleton_face *f)
+static void face_number_corners(weigher *w, const skeleton_face *f)
 {
     uint32_t half = MW_NONE, number = 0;
     for (uint32_t k = 0; k < 3; k++) /* the last triangle found is a leaf of the tree */
-        if (!is_marked(w, w->list[f->triangles - 1], k)) half = mw__link(w->list[f->triangles - 1], k);
+        if (!weigher_edge_is_marked(w, w->list[f->triangles - 1], k)) half = mw__link(w->list[f->triangles - 1], k);
     for (uint32_t i = 0; i < f->border; i++) {
         number = number + 1 == f->border ? 0 : number + 1;
         w->vertex[number] = mw__half_start(w->t->tri, mw__half_next(half));
         for (half = mw__half_next(half);; half = mw__half_next(mw__half_link(w->t->tri, half))) {
             w->corner[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)] = number;
-            if (!has_mark(w, half)) break;
+            if (!half_has_mark(w, half)) break;
         }
     }
 }
 
-static mw_chord make_chord(const weigher *w, uint32_t a, uint32_t b)
+static mw_chord weigher_make_chord(const weigher *w, uint32_t a, uint32_t b)
 {
     double length = sqrt(mw__square(&w->points, w->vertex[a], w->vertex[b]));
     return a < b ? (mw_chord){a, b, length} : (mw_chord){b, a, length};
 }
 
-static uint32_t corner_at(const weigher *w, uint32_t half)
+static uint32_t weigher_corner_at(const weigher *w, uint32_t half)
 {
     return w->corner[3 * (size_t)mw__link_triangle(half) + mw__link_edge(half)];
 }
 
-static size_t count_chords(const weigher *w, const skeleton_face *f)
+static size_t face_count_chords(const weigher *w, const skeleton_face *f)
 {
     size_t count = f->triangles - 1;
     for (uint32_t i = 0; i < f->triangles; i++)
@@ -392,20 +392,21 @@ static size_t count_chords(const weigher *w, const skeleton_face *f)
     return count;
 }
 
-static size_t gather_chords(const weigher *w, const skeleton_face *f, mw_chord *chord)
+static size_t face_gather_chords(const weigher *w, const skeleton_face *f, mw_chord *chord)
 {
     size_t count = 0;
     for (uint32_t i = 0; i < f->triangles; i++) {
         uint32_t t = w->list[i];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t half = mw__link(t, k);
-            if (has_mark(w, half) && mw__link_triangle(mw__half_link(w->t->tri, half)) > t)
-                chord[count++] = make_chord(w, corner_at(w, half), corner_at(w, mw__half_next(half)));
+            if (half_has_mark(w, half) && mw__link_triangle(mw__half_link(w->t->tri, half)) > t)
+                chord[count++] =
+                    weigher_make_chord(w, weigher_corner_at(w, half), weigher_corner_at(w, mw__half_next(half)));
         }
         for (uint32_t c = w->chain[t]; c != MW_NONE; c = w->crossing[c].next) {
             const weigher_crossing *way = &w->crossing[c];
-            if (!f->is_cut || stays_inside(w, way))
-                chord[count++] = make_chord(w, corner_at(w, way->from), corner_at(w, way->to));
+            if (!f->is_cut || crossing_stays_inside(w, way))
+                chord[count++] = weigher_make_chord(w, weigher_corner_at(w, way->from), weigher_corner_at(w, way->to));
         }
     }
     return count;
@@ -423,7 +424,7 @@ static bool weigher_afford(weigher *w, uint32_t limit, const mw_polygon *p, bool
     return true;
 }
 
-static bool write_triangles(weigher *w, const skeleton_face *f, const mw_polygon *p)
+static bool face_write_triangles(weigher *w, const skeleton_face *f, const mw_polygon *p)
 {
     uint32_t *corners = mw__alloc(f->triangles, 3 * sizeof *corners);
     bool done = corners && mw__polygon_fill(p, w->t->job, corners);
@@ -436,25 +437,25 @@ static bool write_triangles(weigher *w, const skeleton_face *f, const mw_polygon
 }
 
 /* A face of more than two triangles. *filled tells whether it has its least weight. */
-static bool fill_face(weigher *w, skeleton_face *f, uint32_t limit, bool *filled)
+static bool face_fill(weigher *w, skeleton_face *f, uint32_t limit, bool *filled)
 {
     *filled = false;
-    if (f->is_cut) cut_open(w, f);
+    if (f->is_cut) face_cut_open(w, f);
     if (w->whole || (limit > 0 && f->border > limit)) return true;
-    size_t most = count_chords(w, f);
+    size_t most = face_count_chords(w, f);
     if (most > UINT32_MAX) return true;
     mw_chord *chord = mw__alloc(most, sizeof *chord);
     if (!chord) return false;
-    number_corners(w, f);
-    mw_polygon p = {f->border, chord, gather_chords(w, f, chord)};
+    face_number_corners(w, f);
+    mw_polygon p = {f->border, chord, face_gather_chords(w, f, chord)};
     bool done = weigher_afford(w, limit, &p, filled);
-    if (done && *filled) done = write_triangles(w, f, &p);
+    if (done && *filled) done = face_write_triangles(w, f, &p);
     if (f->is_cut) *filled = false;
     free(chord);
     return done;
 }
 
-static bool fill_faces(weigher *w, uint32_t limit, mw_kind_report *report)
+static bool weigher_fill_faces(weigher *w, uint32_t limit, mw_kind_report *report)
 {
     uint32_t met = 0;
     mw__job_stage(w->t->job, "filling faces", 0.1);
@@ -466,7 +467,7 @@ static bool fill_faces(weigher *w, uint32_t limit, mw_kind_report *report)
         if (f.border > report->largest_face) report->largest_face = f.border;
         bool filled = true; /* two triangles of T make a quadrilateral of least weight */
         mw_job_span outer = mw__job_steps_of(w->t->job, met, f.triangles, w->t->tri_count);
-        bool done = f.triangles <= 2 || fill_face(w, &f, limit, &filled);
+        bool done = f.triangles <= 2 || face_fill(w, &f, limit, &filled);
         mw__job_steps_end(w->t->job, outer);
         met += f.triangles;
         if (!done || !mw__job_step(w->t->job, met, w->t->tri_count)) return false;
@@ -476,7 +477,7 @@ static bool fill_faces(weigher *w, uint32_t limit, mw_kind_report *report)
 }
 
 /* The records have their vertices, but not their links. */
-static bool shorten_again(weigher *w)
+static bool weigher_shorten_again(weigher *w)
 {
     for (uint32_t t = 0; t < w->t->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) w->t->tri[t].link[k] = MW_NONE;
@@ -488,15 +489,15 @@ static bool shorten_again(weigher *w)
 }
 
 /* Without a skeleton all is one face. */
-static void mark_all(weigher *w)
+static void weigher_mark_all(weigher *w)
 {
     w->whole = true;
     for (uint32_t t = 0; t < w->t->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++)
-            if (w->t->tri[t].link[k] != MW_NONE) set_mark(w, mw__link(t, k));
+            if (w->t->tri[t].link[k] != MW_NONE) half_set_mark(w, mw__link(t, k));
 }
 
-static bool make_faces(weigher *w, uint32_t limit, mw_kind_report *report)
+static bool weigher_make_faces(weigher *w, uint32_t limit, mw_kind_report *report)
 {
     size_t n = w->t->tri_count;
     w->seen = mw__calloc(n, sizeof *w->seen);
@@ -504,9 +505,9 @@ static bool make_faces(weigher *w, uint32_t limit, mw_kind_report *report)
     w->vertex = mw__alloc(n + 2, sizeof *w->vertex);
     if (!w->seen || !w->corner || !w->vertex) return false;
     w->face_steps = FACE_STEPS;
-    if (!fill_faces(w, limit, report)) return false;
+    if (!weigher_fill_faces(w, limit, report)) return false;
     report->optimal = report->local_faces == 0;
-    return report->optimal || shorten_again(w);
+    return report->optimal || weigher_shorten_again(w);
 }
 
 static bool weigher_prepare(weigher *w)
@@ -555,11 +556,11 @@ mw_status mw__make_min_weight(mw_triangulation *t, const mw_kind_options *option
     if (result == MW_LMT_DONE) {
         mw__job_stage(t->job, "exchanging long edges", 0.05);
         if (!weigher_shorten(&w)) result = MW_LMT_MEMORY;
-        index_vertices(&w);
-        if (result == MW_LMT_DONE) result = make_skeleton(&w, options->limit);
+        weigher_index_vertices(&w);
+        if (result == MW_LMT_DONE) result = weigher_make_skeleton(&w, options->limit);
     }
-    if (result == MW_LMT_SPENT) mark_all(&w);
-    if (result != MW_LMT_MEMORY && !make_faces(&w, options->limit, report)) result = MW_LMT_MEMORY;
+    if (result == MW_LMT_SPENT) weigher_mark_all(&w);
+    if (result != MW_LMT_MEMORY && !weigher_make_faces(&w, options->limit, report)) result = MW_LMT_MEMORY;
     weigher_release(&w);
     return result == MW_LMT_MEMORY ? mw__fail_memory(error) : MW_OK;
 }

@@ -1,0 +1,162 @@
+/* star_batch.c - many queries. A thread has many walks of its chunk in flight. */
+#include "batch/batch.h"
+#include "base/random.h"
+#include "star/query/star_locate.h"
+#include "star/star_location.h"
+
+typedef struct star_batch {
+    mw_batch queries;
+    const mw_star *star;
+    mw_star_cursor cursor; /* resolved options */
+    bool chained;          /* each query starts where the previous one of its part ended */
+    bool guided;           /* or where its key on the curve leads, as that is nearer */
+} star_batch;
+
+/* --- one after the other --- */
+
+static const double *batch_point(const mw_batch *queries, uint32_t item)
+{
+    return queries->points + item * queries->stride;
+}
+
+static uint32_t batch_item(const mw_batch *queries, uint32_t i)
+{
+    return queries->order ? queries->order[i].item : i;
+}
+
+/* The first facet of the i-th query. `last`: where the previous query ended. */
+static uint32_t star_batch_first_facet(const star_batch *b, uint32_t i, uint32_t last)
+{
+    return b->guided ? mw__star_guide_facet(b->star, b->queries.order[i].key) : last;
+}
+
+static void star_batch_in_turn(const star_batch *b, uint32_t first, uint32_t end, mw_counters *counters)
+{
+    uint32_t last = MW_NONE;
+    for (uint32_t i = first; i < end; i++) {
+        uint32_t item = batch_item(&b->queries, i);
+        uint64_t random = mw__random_seed(b->queries.seed, item);
+        mw__surface_read_lock(b->star->surface);
+        uint32_t begin = star_batch_first_facet(b, i, last);
+        b->queries.locations[item] =
+            mw__star_query_answer(b->star, &b->cursor, batch_point(&b->queries, item), &begin, &random, counters, NULL);
+        mw__surface_read_unlock(b->star->surface);
+        if (b->chained) last = begin;
+    }
+}
+
+/* --- many in flight --- */
+
+/* Each lane answers a part of the chunk, one query after the other. */
+typedef struct star_batch_feed {
+    mw_star_feed base;
+    const star_batch *b;
+    uint32_t next[MW_STAR_LANES], end[MW_STAR_LANES], item[MW_STAR_LANES], last[MW_STAR_LANES];
+} star_batch_feed;
+
+static void star_batch_prefetch(const mw_batch *queries, uint32_t item)
+{
+    const char *point = (const char *)batch_point(queries, item), *location = (const char *)&queries->locations[item];
+    __builtin_prefetch(point);
+    __builtin_prefetch(point + 2 * sizeof(double));
+    __builtin_prefetch(location, 1);
+    __builtin_prefetch(location + sizeof(mw_location) - 1, 1);
+}
+
+static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *walk, mw_star_verdict verdict)
+{
+    star_batch_feed *f = (star_batch_feed *)base; /* its first member */
+    const star_batch *b = f->b;
+    if (verdict != MW_STAR_GO) {
+        mw__star_query_end(&b->cursor, walk, verdict, &b->queries.locations[f->item[lane]]);
+        if (b->chained) f->last[lane] = walk->t;
+    }
+    while (f->next[lane] < f->end[lane]) {
+        uint32_t i = f->next[lane]++, item = f->item[lane] = batch_item(&b->queries, i);
+        if (f->next[lane] < f->end[lane]) star_batch_prefetch(&b->queries, batch_item(&b->queries, f->next[lane]));
+        const double *point = batch_point(&b->queries, item);
+        if (MW_LIKELY(mw__star_answerable(b->star, point))) {
+            uint64_t random = mw__random_seed(b->queries.seed, item);
+            mw__star_query_begin(walk, b->star, &b->cursor, point, star_batch_first_facet(b, i, f->last[lane]), random,
+                                 NULL);
+            return true;
+        }
+        b->queries.locations[item] = mw__star_location_none();
+    }
+    return false;
+}
+
+static void star_batch_in_flight(const star_batch *b, uint32_t first, uint32_t count, uint32_t lanes)
+{
+    star_batch_feed f = {.base = {star_batch_deliver}, .b = b};
+    for (uint32_t i = 0; i < lanes; i++) {
+        f.next[i] = first + (uint32_t)((uint64_t)count * i / lanes);
+        f.end[i] = first + (uint32_t)((uint64_t)count * (i + 1) / lanes);
+        f.last[i] = MW_NONE;
+    }
+    mw__star_kernels_of(&b->cursor)->ring(&f.base, lanes);
+}
+
+/* --- a chunk --- */
+
+/* Shorter parts would not pay for the search of their first facets. */
+#define LEAST_PART 128
+
+/* Answer a chunk in parts. The parts are the same if queries are counted, or take a lock, and so
+ * run one after the other. */
+static mw_counters star_batch_answer(const mw_batch *queries, uint32_t first, uint32_t count)
+{
+    const star_batch *b = (const star_batch *)queries; /* its first member */
+    mw_counters counters = {0};
+    uint32_t parts = count / LEAST_PART < MW_STAR_LANES ? count / LEAST_PART : MW_STAR_LANES;
+    if (parts > 1 && !b->cursor.count && !b->star->surface->rwlock) {
+        star_batch_in_flight(b, first, count, parts);
+        return counters;
+    }
+    if (parts == 0) parts = 1;
+    for (uint64_t i = 0; i < parts; i++)
+        star_batch_in_turn(b, first + (uint32_t)(count * i / parts), first + (uint32_t)(count * (i + 1) / parts),
+                           &counters);
+    return counters;
+}
+
+/* --- order --- */
+
+/* Sort queries along a Hilbert curve over the sphere, the same as that of the facets. */
+static void star_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
+{
+    static const double low[2] = {-1, -1}, high[2] = {1, 1};
+    const mw_star *star = ((const star_batch *)queries)->star;
+    mw_hilbert hilbert = mw__hilbert(low, high);
+    for (size_t i = 0; i < n; i++) {
+        double d[3], x, y;
+        for (int k = 0; k < 3; k++) d[k] = queries->points[i * queries->stride + (size_t)k] / 2 - star->centre[k] / 2;
+        mw__star_unfold(d, &x, &y);
+        keys[i] = (mw_key){mw__hilbert_key(&hilbert, x, y), (uint32_t)i};
+    }
+    mw__sort_keys(keys, scratch, n);
+}
+
+mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n, size_t stride,
+                               const mw_star_query_options *options, mw_location *locations, mw_counters *counters,
+                               mw_error *error)
+{
+    static const mw_star_query_options defaults;
+    if (!options) options = &defaults;
+    star_batch b = {.queries = {.points = points,
+                                .locations = locations,
+                                .stride = stride ? stride : 3,
+                                .seed = options->seed,
+                                .answer = star_batch_answer},
+                    .star = star};
+    mw_status status = mw_star_cursor_init(star, options, &b.cursor, error);
+    if (status) return status;
+    if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
+    if (b.queries.stride < 3) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu holds no x, y, z", stride);
+    if (b.cursor.start == MW_STAR_START_AUTO && n >= MW_SORT_WORTHWHILE) b.cursor.start = MW_STAR_START_SORTED;
+    bool sorted = b.cursor.start == MW_STAR_START_SORTED;
+    b.chained = sorted || b.cursor.start == MW_STAR_START_LAST || b.cursor.start == MW_STAR_START_AUTO;
+    b.guided = sorted && n < star->tri_count;
+    b.queries.sort = sorted ? star_batch_sort : NULL;
+    return mw__batch_run(&b.queries, n, options->threads, options->progress, counters, error);
+}

@@ -1,0 +1,110 @@
+/* star_locate.c - one query: first facet, walk, exact conclusion. This file decides ties: the
+ * lowest-numbered of the facets that the ray meets is the answer (lowest_facet). */
+#include "star/query/star_locate.h"
+
+#include "star/star_location.h"
+#include "star/star_walk_run.h"
+
+static const mw_star_kernels *const kernels[MW_STAR_WALK_COUNT] = {
+    [MW_STAR_WALK_AUTO] = &mw__star_stochastic,
+#define MW_STAR_WALK_ENTRY(id, symbol, name, source, help) [MW_STAR_WALK_##id] = &mw__star_##symbol,
+#include <meshwalk/star_walks.def>
+};
+
+/* --- conclusion --- */
+
+/* The lowest-numbered of all facets that the ray meets. It meets facet t. */
+static uint32_t lowest_facet(const mw_star *star, uint32_t t, const double area[3])
+{
+    const mw_star_facet *facet = &star->facet[t];
+    uint32_t zeros = 0, on = 0, at = 0, own = facet->user & MW_USER_MASK;
+    for (uint32_t k = 0; k < 3; k++)
+        if (area[k] == 0) {
+            zeros++;
+            on = mw__next(k); /* the edge opposite to vertex k */
+        } else {
+            at = k;
+        }
+    if (MW_LIKELY(zeros == 0)) return own;
+    if (zeros == 2) return star->owner[facet->v[at]];
+    uint32_t across = star->facet[mw__link_triangle(facet->link[on])].user & MW_USER_MASK;
+    return across < own ? across : own;
+}
+
+/* Set the location of a ray that meets stored facet t. */
+static void star_settle(const mw_star *star, uint32_t t, const double q[3], mw_location *location)
+{
+    double area[3];
+    mw__star_areas(star, star->facet[t].v, q, area);
+    uint32_t number = lowest_facet(star, t, area);
+    if (MW_UNLIKELY(number != star->facet[t].user)) /* another facet, or a mark */
+        mw__star_areas(star, star->surface->tri[number].v, q, area);
+    mw__star_location_in_facet(star, number, q, area, location);
+}
+
+/* --- the query --- */
+
+static void star_count(mw_counters *counters, const mw_star_work *work, bool handed_over)
+{
+    mw_counters_add(counters, &(mw_counters){
+                                  .queries = 1,
+                                  .triangles_visited = work->visited,
+                                  .triangles_max = work->visited,
+                                  .triangles_init = work->triangles[MW_STAR_STAGE_INIT],
+                                  .triangles = work->triangles[MW_STAR_STAGE_WALK],
+                                  .triangles_walk_max = work->triangles[MW_STAR_STAGE_WALK],
+                                  .triangles_final = work->triangles[MW_STAR_STAGE_FINAL],
+                                  .triangles_final_max = work->triangles[MW_STAR_STAGE_FINAL],
+                                  .orient_init = work->orient[MW_STAR_STAGE_INIT],
+                                  .orient = work->orient[MW_STAR_STAGE_WALK],
+                                  .orient_final = work->orient[MW_STAR_STAGE_FINAL],
+                                  .comparisons = work->comparisons,
+                                  .cycles = handed_over,
+                                  .handovers = handed_over,
+                              });
+}
+
+bool mw__star_answerable(const mw_star *star, const double q[3])
+{
+    return star->ready && star->version == star->surface->version && mw__is_finite3(q) &&
+           !mw__star_point_is_centre(star, q);
+}
+
+const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor)
+{
+    return kernels[cursor->walk];
+}
+
+void mw__star_query_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor, const double q[3],
+                          uint32_t last, uint64_t random, mw_star_work *work)
+{
+    mw__star_walk_begin(walk, star, q, random, work);
+    uint32_t t = mw__star_start(star, cursor, last, walk);
+    mw__star_walk_enter(walk, t, MW_STAR_STAGE_WALK, cursor->walk == MW_STAR_WALK_STRAIGHT ? UINT32_MAX : star->fuel);
+    if (work) work->visited++;
+}
+
+void mw__star_query_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict,
+                        mw_location *location)
+{
+    mw__star_walk_go_on(walk, verdict, kernels[cursor->finish], NULL);
+    star_settle(walk->star, walk->t, walk->q, location);
+}
+
+mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3],
+                                  uint32_t *last, uint64_t *random, mw_counters *counters, mw_star_trace *trace)
+{
+    if (MW_UNLIKELY(!mw__star_answerable(star, point))) return mw__star_location_none();
+    mw_star_work work = {0};
+    mw_star_walk walk;
+    mw__star_query_begin(&walk, star, cursor, point, *last, *random, cursor->count || trace ? &work : NULL);
+    if (trace) mw__star_trace_add(trace, &walk);
+    mw_star_verdict verdict = mw__star_walk_run(&walk, kernels[cursor->walk], trace);
+    bool handed_over = mw__star_walk_go_on(&walk, verdict, kernels[cursor->finish], trace);
+    mw_location location;
+    star_settle(star, walk.t, point, &location);
+    if (cursor->count) star_count(counters, &work, handed_over);
+    *last = walk.t;
+    *random = walk.random;
+    return location;
+}

@@ -1,0 +1,29 @@
+/* star_locate.h - the steps of a query that the single and the batch query share. Private. */
+#ifndef MW_SRC_STAR_QUERY_STAR_LOCATE_H
+#define MW_SRC_STAR_QUERY_STAR_LOCATE_H
+
+#include "star/star_walk_run.h"
+
+/* Can the query be answered: is q finite and not the centre, and the star up to date? */
+bool mw__star_answerable(const mw_star *star, const double q[3]);
+
+/* --- a query in two halves, for several walks in flight --- */
+
+/* Start the walk of a query that can be answered, by the cursor's start. `last`: where the previous
+ * query ended, or MW_NONE. Counts in *work, unless that is NULL. */
+void mw__star_query_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor, const double q[3],
+                          uint32_t last, uint64_t random, mw_star_work *work);
+const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor);
+/* Go from facet walk->t, where the walk ended, to the answer. */
+void mw__star_query_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict,
+                        mw_location *location);
+
+/* --- a query as a whole --- */
+
+/* Answer the query at `point` by the cursor's options. *last is where the previous query ended, or
+ * MW_NONE; it becomes the stored facet where this one ended. Counts in *counters if the cursor
+ * counts. `trace` may be NULL. */
+mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3],
+                                  uint32_t *last, uint64_t *random, mw_counters *counters, mw_star_trace *trace);
+
+#endif
