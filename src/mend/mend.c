@@ -9,19 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-bool mw__mend_note(mw_mend_work *w, mw_mend_change_kind kind, uint32_t triangle, uint32_t vertex, uint32_t other)
-{
-    if (w->change_count == w->change_capacity) {
-        size_t capacity = w->change_capacity ? 2 * w->change_capacity : 64;
-        mw_mend_change *more = mw__realloc(w->changes, capacity, sizeof *more);
-        if (!more) return false;
-        w->changes = more;
-        w->change_capacity = capacity;
-    }
-    w->changes[w->change_count++] = (mw_mend_change){kind, triangle, vertex, other};
-    return true;
-}
-
 /* --- input --- */
 
 static mw_status mend_check_arguments(const mw_arrays *arrays, const mw_mend_options *options, mw_error *error)
