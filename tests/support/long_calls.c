@@ -306,6 +306,19 @@ static mw_status run_check_damaged(const call_inputs *in, const call_setting *ho
     return check_made(mw_check_arrays(&view, &options, &check, error), &check, sum);
 }
 
+static mw_status run_mend(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_mended mended;
+    mw_arrays view = arrays_view(&in->damaged);
+    mw_mend_options options = {.progress = how->progress};
+    mw_status status = mw_mend_arrays(&view, &options, &mended, error);
+    expect(!status || (!mended.triangles && mended.change_count == 0), "there is a mended mesh");
+    for (size_t i = 0; i < 3 * mended.triangle_count; i++) sum_add(sum, mended.triangles[i]);
+    for (size_t i = 0; i < mended.change_count; i++) sum_add(sum, mended.changes[i].triangle);
+    mw_mended_release(&mended);
+    return status;
+}
+
 static mw_status run_describe(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
 {
     mw_mesh_info info;
@@ -682,6 +695,7 @@ const long_call long_calls[] = {
     {"mw_mesh_create, as given", run_mesh_as_given},
     {"mw_check_arrays", run_check},
     {"mw_check_arrays, damaged", run_check_damaged},
+    {"mw_mend_arrays", run_mend},
     {"mw_mesh_describe", run_describe},
     {"mw_locator_create", run_locator},
     {"mw_locator_create, crowded", run_locator_crowded},
