@@ -22,7 +22,6 @@ bool animation_named(const char *path)
 
 #include <cairo.h>
 #include <math.h>
-#include <meshwalk/io.h>
 #include <stdlib.h>
 #include <zlib.h>
 
