@@ -40,6 +40,7 @@ _meshwalk_names() {
         --engines)
             echo 'meshwalk meshwalk-single meshwalk-grid meshwalk-grid-single meshwalk-two-level'
             echo 'meshwalk-two-level-single meshwalk-curve meshwalk-curve-single meshwalk-last'
+            echo 'meshwalk-borrowed meshwalk-borrowed-single'
             echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
             echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
             ;;

@@ -119,6 +119,8 @@ call_inputs call_inputs_make(uint32_t n, uint64_t seed)
     for (uint32_t i = 0; i < 2 * n; i++) in.points[i] = random_unit(&random);
     inputs_add_segments(&in);
     in.mesh = mesh_delaunay(in.points, n);
+    in.whole = arrays_of_mesh(in.mesh);
+    in.neighbours = mesh_neighbours(in.mesh);
     in.plain = arrays_of_mesh(in.mesh);
     arrays_punch(&in.plain, 0.1, &random);
     arrays_scramble(&in.plain, 1, &random);
@@ -155,6 +157,8 @@ void call_inputs_release(call_inputs *in)
     star_shape_free(&in->ball);
     arrays_free(&in->damaged);
     arrays_free(&in->plain);
+    arrays_free(&in->whole);
+    free(in->neighbours);
     free(in->segments);
     free(in->points);
 }
@@ -395,6 +399,43 @@ static mw_status run_table(const call_inputs *in, const call_setting *how, uint6
     for (size_t i = 0; i < VALUES * n && !status; i++) sum_add(sum, (uint64_t)llrint(result[i] * 1e6));
     free(result);
     free(at);
+    return status;
+}
+
+/* --- borrowed arrays ----------------------------------------------------------------------------- */
+
+static mw_status borrow_run(const call_inputs *in, mw_borrow_options options, mw_borrowed **mesh, mw_error *error)
+{
+    mw_borrowed_arrays foreign = {.mesh = arrays_view(&in->whole), .neighbours = in->neighbours};
+    mw_status status = mw_mesh_borrow(&foreign, &options, mesh, error);
+    expect(!status == (*mesh != NULL), "there is a borrowed mesh");
+    return status;
+}
+
+static mw_status run_borrow(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_borrowed *mesh;
+    mw_borrowed_info info;
+    mw_borrow_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = borrow_run(in, options, &mesh, error);
+    if (status) return status;
+    mw_borrowed_describe(mesh, &info);
+    sum_add(sum, (uint64_t)info.convex << 32 | info.clockwise_triangles);
+    mw_borrowed_release(mesh);
+    return MW_OK;
+}
+
+static mw_status run_borrowed_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_borrowed *mesh;
+    mw_status status = borrow_run(in, (mw_borrow_options){.unchecked = 1, .convex = 1}, &mesh, error);
+    if (status) return status;
+    mw_location *at = malloc(in->point_count * sizeof *at);
+    mw_borrowed_query_options options = {.threads = how->threads, .progress = how->progress};
+    status = mw_borrowed_locate_batch(mesh, in->points, in->point_count, 2, &options, at, NULL, error);
+    if (!status) sum_add_locations(sum, at, in->point_count);
+    free(at);
+    mw_borrowed_release(mesh);
     return status;
 }
 
@@ -642,6 +683,8 @@ const long_call long_calls[] = {
     {"mw_index_create, kd tree", run_index_kd_tree},
     {"mw_locate_batch", run_batch},
     {"mw_interpolate_table", run_table},
+    {"mw_mesh_borrow", run_borrow},
+    {"mw_borrowed_locate_batch", run_borrowed_batch},
     {"mw_editor_create", run_editor},
     {"an editor's calls", run_edits},
     {"mw_surface_create", run_surface},
