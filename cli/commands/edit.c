@@ -84,6 +84,7 @@ typedef struct edit_work {
     traced_constraints constraints;
     char **names; /* of the fields */
     size_t name_count;
+    char *crs;           /* of the mesh; NULL: not known */
     double begin, ready; /* monotonic_seconds */
 } edit_work;
 
@@ -93,6 +94,7 @@ static void edit_work_release(edit_work *w)
     traced_constraints_release(&w->constraints);
     for (size_t i = 0; w->names && i < w->name_count; i++) free(w->names[i]);
     free(w->names);
+    free(w->crs);
 }
 
 /* --- settings --------------------------------------------------------------------------------- */
@@ -147,7 +149,7 @@ static int mesh_set_fields(mw_mesh *mesh, const mw_mesh_file *file)
     return status == MW_OK ? 0 : fail_query(&error);
 }
 
-static int edit_read_mesh(const char *path, uint32_t threads, mw_mesh **mesh)
+static int edit_read_mesh(const char *path, uint32_t threads, mw_mesh **mesh, char **crs)
 {
     mw_error error;
     mw_mesh_file file;
@@ -160,6 +162,8 @@ static int edit_read_mesh(const char *path, uint32_t threads, mw_mesh **mesh)
         end = edit_fail_mesh(path, &error);
     else
         end = mesh_set_fields(*mesh, &file);
+    *crs = file.crs;
+    file.crs = NULL;
     mw_mesh_file_release(&file);
     return end;
 }
@@ -220,7 +224,7 @@ static int edit_work_make_editor(const edit_settings *s, const char *path, const
 static int edit_work_prepare(const edit_settings *s, const char *path, edit_work *w)
 {
     mw_mesh *mesh = NULL;
-    int end = edit_read_mesh(path, s->common.threads, &mesh);
+    int end = edit_read_mesh(path, s->common.threads, &mesh, &w->crs);
     if (end == 0 && s->constraints)
         end = traced_constraints_read(&w->constraints, s->constraints, &s->common, mesh, path);
     if (end == 0) end = edit_work_make_editor(s, path, mesh, w);
@@ -229,13 +233,15 @@ static int edit_work_prepare(const edit_settings *s, const char *path, edit_work
     return end;
 }
 
-static int edit_write_mesh(const edit_settings *s, edit_stream *e, bool temporary)
+static int edit_write_mesh(const edit_settings *s, edit_work *w, bool temporary)
 {
     mw_mesh *mesh = NULL;
     vertex_table v = {0};
-    int end = edit_stream_mesh(e, &mesh);
+    int end = edit_stream_mesh(&w->stream, &mesh);
     if (end == 0) end = vertex_table_of_mesh(&v, mesh);
     mw_mesh_destroy(mesh);
+    v.file.crs = w->crs;
+    w->crs = NULL;
     if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, temporary);
     vertex_table_release(&v);
     return end;
@@ -294,8 +300,7 @@ static int edit_work_run(const edit_settings *s, const char *const *operands, ed
 {
     int end = edit_work_prepare(s, operands[0], w);
     if (end == 0) end = edit_stream_run(&w->stream, operands[1]);
-    if (end == 0 && !side_outputs_failed(w->stream.output, EDIT_STREAM_OUTPUTS))
-        end = edit_write_mesh(s, &w->stream, temporary);
+    if (end == 0 && !side_outputs_failed(w->stream.output, EDIT_STREAM_OUTPUTS)) end = edit_write_mesh(s, w, temporary);
     return end;
 }
 

@@ -45,6 +45,10 @@ static void info_report_file(report *r, const char *path, const mw_mesh_file *fi
     report_string(r, "file", path);
     if (plane) info_report_heights(r, file);
     report_strings(r, "fields", file->field_names, file->field_count);
+    if (file->crs)
+        report_string(r, "crs", file->crs);
+    else
+        report_missing(r, "crs", "not known");
     report_count(r, "welded_vertices", file->welded);
 }
 

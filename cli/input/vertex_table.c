@@ -18,6 +18,7 @@ void vertex_table_release(vertex_table *v)
     free(file->fields);
     free(file->points);
     free(file->triangles);
+    free(file->crs);
     *v = (vertex_table){0};
 }
 
@@ -105,6 +106,8 @@ int vertex_table_read(vertex_table *v, const char *path, const char *columns, co
     point_rows r = {.width = mw_point_reader_width(reader)};
     end = point_rows_read(&r, reader);
     if (end == 0) end = point_rows_split(v, &r, reader);
+    const char *crs = mw_point_reader_crs(reader);
+    if (end == 0 && crs && !(v->file.crs = strdup(crs))) end = fail_memory();
     free(r.values);
     mw_point_reader_close(reader);
     v->points = v->file.point_count;

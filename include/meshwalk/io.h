@@ -26,6 +26,8 @@ typedef struct mw_mesh_file {
     double **fields;    /* field_count arrays of point_count */
     size_t field_count;
     size_t welded; /* STL: vertices merged because their coordinates are equal */
+    char *crs;     /* the coordinate system of x and y, as WKT or "EPSG:n"; NULL = not known. PLY has
+                      it in a line "comment crs ...", other files in a .prj file beside them */
 } mw_mesh_file;
 
 /** How a whole file is read or written. */
@@ -79,6 +81,9 @@ typedef struct mw_constraint_file {
     size_t field_count;
     mw_skipped_ring *skipped; /* what is not among the above; a warning, or an error, as the caller decides */
     size_t skipped_count;
+    char *crs; /* the coordinate system, as WKT or "EPSG:n"; NULL = not known. GeoJSON has longitudes
+                  and latitudes (EPSG:4326) unless it says otherwise or its numbers cannot be
+                  such; .poly has a .prj file beside it */
 } mw_constraint_file;
 
 /* Read constraints.
@@ -105,6 +110,7 @@ MW_API int mw_constraints_known(const char *path);
  *   "vtk"         legacy VTK as text, an unstructured grid with the fields as point data, for ParaView; not read
  *   "csv"         a table for other programs: a row for each corner of each triangle, with the columns
  *                 triangle,corner,vertex,x,y,z and the fields; not read as a mesh
+ * A crs is written to PLY, in a line "comment crs ...", and passed over elsewhere.
  * Vertices, triangles, z and fields keep their order and every bit (the sign of a NaN apart), but for the vertices of
  * STL and csv, which have corners only; names of fields become single words. Of "node" both files are complete before
  * .ele and then .node get their names; who interrupts the program between these two steps finds a new .ele beside no
@@ -172,6 +178,11 @@ MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t 
  * where it becomes 0; a reader with `table` also ends a block early where its text is long. On failure *count points before the faulty one are valid, and the reader can only be closed. */
 MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
                                       mw_error *error);
+/** Tell the coordinate system of the points: that of the records of LAS (WKT, or the EPSG code of its
+ * GeoTIFF keys), or else of a .prj file beside the points.
+ * @param reader  not NULL
+ * @return WKT or "EPSG:n", owned by the reader; NULL = not known. Thread-safe on different readers. */
+MW_API const char *mw_point_reader_crs(const mw_point_reader *reader);
 /**
  * How much of the file has been read, to show to people: from 0 to 1, or -1 where the size is not known, as of a pipe.
  * Not safe while another thread reads by the same reader.

@@ -171,10 +171,12 @@ static void test_read_meshes(void **state)
     files_write_text("a.stl", "solid\n" STL_FACET("0 0 0", "1 0 0", "1 1 0") "endsolid\n");
     files_write("b.stl", mesh_file_stl(room, "", 1, corners, 1));
     files_write_text(
-        "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty int q\n"
+        "a.ply", "ply\nformat ascii 1.0\ncomment crs EPSG:1\nelement vertex 3\nproperty float x\nproperty float "
+                 "y\nproperty int q\n"
                  "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n");
     files_write_text("a.node", "# attributes: depth, z\n3 2 2 0\n0 0 0 7 7\n1 1 0 7 7\n2 0 1 7 7\n");
     files_write_text("a.ele", "1 3 0\n0 0 1 2\n");
+    files_write_text("a.prj", "EPSG:2056");
     static const char *const paths[] = {"a.off", "a.obj", "a.stl", "b.stl", "a.ply", "a.node", "a"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) fail_each(read_mesh, paths[i]);
     /* enough vertices that the table of the welding grows */

@@ -3,6 +3,7 @@
 #include "io/constraints/geojson.h"
 #include "io/constraints/poly.h"
 #include "io/mesh/mesh_builder.h"
+#include "io/text/crs_text.h"
 #include "io/text/file_head.h"
 #include "io/text/number_text.h"
 
@@ -81,6 +82,7 @@ mw_status mw_read_constraints(const char *path, const mw_file_options *options, 
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
     status = mw__job_end(&job, constraint_read_path(path, &job, file, error), error);
+    if (!status && !file->crs) status = mw__crs_beside(path, &file->crs, error);
     if (status) mw_constraint_file_release(file);
     return status;
 }
@@ -105,5 +107,6 @@ void mw_constraint_file_release(mw_constraint_file *file)
     free(file->record);
     free(file->hole_seeds);
     free(file->skipped);
+    free(file->crs);
     *file = (mw_constraint_file){0};
 }

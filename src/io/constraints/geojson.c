@@ -1,9 +1,10 @@
-/* GeoJSON [RFC 7946]: the geometries of all features. Properties, `crs`, `bbox` and foreign
+/* GeoJSON [RFC 7946]: the geometries of all features. Properties, `bbox` and foreign
  * members are passed over, and so are geometries that are null or have no coordinates. The third
  * number of a position is z, further ones do not count. A ring that is not closed is closed. One of
  * fewer than three different points is skipped and listed; if it is the outer one, so is its
  * polygon. The text is parsed by Jansson. */
 #include "io/constraints/geojson.h"
+#include "io/text/crs_text.h"
 
 #ifdef MW_JANSSON
 
@@ -218,6 +219,25 @@ static mw_status geojson_read_root(geojson_reader *g, const json_t *root)
     return status;
 }
 
+/* Could these be longitudes and latitudes? */
+static bool points_are_lonlat(const mw_constraint_file *file)
+{
+    for (size_t i = 0; i < file->point_count; i++)
+        if (!(fabs(file->points[3 * i]) <= 360) || !(fabs(file->points[3 * i + 1]) <= 90)) return false;
+    return file->point_count > 0;
+}
+
+/* The coordinate system: that of the member `crs` [GeoJSON 2008], where one of null says that it is not
+ * known; else longitudes and latitudes [RFC 7946, 4], if the numbers can be such. */
+static mw_status geojson_read_crs(geojson_reader *g, const json_t *root)
+{
+    mw_constraint_file *file = g->builder->file;
+    const json_t *crs = json_object_get(root, "crs");
+    const char *name = json_string_value(json_object_get(json_object_get(crs, "properties"), "name"));
+    if (!crs && points_are_lonlat(file)) name = "EPSG:4326";
+    return name ? mw__crs_copy(name, strlen(name), &file->crs, g->error) : MW_OK;
+}
+
 typedef struct geojson_input {
     mw_source *source;
     mw_status status; /* of the reading */
@@ -270,6 +290,7 @@ mw_status mw__read_geojson(mw_source *source, mw_constraint_builder *builder, mw
     builder->file->record_name = "feature";
     mw_status status = geojson_parse(source, &root, error);
     if (!status) status = geojson_read_root(&g, root);
+    if (!status) status = geojson_read_crs(&g, root);
     json_decref(root);
     return status;
 }

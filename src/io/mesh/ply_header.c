@@ -1,5 +1,6 @@
 #include "io/mesh/ply_header.h"
 
+#include "io/text/crs_text.h"
 #include "io/text/number_text.h"
 
 #include <stdlib.h>
@@ -106,6 +107,13 @@ static mw_status ply_add_property(const mw_source *source, char *rest, mw_ply_he
     return MW_OK;
 }
 
+/* "comment crs ..." names the coordinate system, as MDAL reads it. The first one counts. */
+static mw_status ply_read_comment(char *rest, mw_ply_header *header, mw_error *error)
+{
+    if (header->crs || strcmp(ply_next_word(&rest), "crs") != 0) return MW_OK;
+    return mw__crs_copy(rest, strlen(rest), &header->crs, error);
+}
+
 mw_status mw__ply_read_header(mw_source *source, mw_ply_header *header, mw_error *error)
 {
     *header = (mw_ply_header){0};
@@ -125,9 +133,11 @@ mw_status mw__ply_read_header(mw_source *source, mw_ply_header *header, mw_error
             status = ply_add_element(source, line, header, error);
         } else if (strcmp(word, "property") == 0) {
             status = ply_add_property(source, line, header, error);
+        } else if (strcmp(word, "comment") == 0) {
+            status = ply_read_comment(line, header, error);
         } else if (strcmp(word, "end_header") == 0) {
             return have_format ? MW_OK : mw__source_fail(source, error, "no line with the format");
-        } else if (*word && strcmp(word, "comment") != 0 && strcmp(word, "obj_info") != 0) {
+        } else if (*word && strcmp(word, "obj_info") != 0) {
             return mw__source_fail(source, error, "'%s' was not expected in the header", mw__excerpt(word).text);
         }
         if (status) return status;
@@ -143,6 +153,7 @@ void mw__ply_release_header(mw_ply_header *header)
         free(element->name);
     }
     free(header->elements);
+    free(header->crs);
     *header = (mw_ply_header){0};
 }
 

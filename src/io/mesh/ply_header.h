@@ -32,6 +32,7 @@ typedef struct mw_ply_header {
     mw_ply_kind kind;
     mw_ply_element *elements;
     size_t element_count;
+    char *crs; /* of the line "comment crs ..."; NULL without one */
 } mw_ply_header;
 
 /* Read up to and with "end_header". Release the header in any case. */

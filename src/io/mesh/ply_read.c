@@ -257,6 +257,10 @@ mw_status mw__read_ply(mw_source *source, mw_mesh_builder *builder, mw_error *er
     source->binary = !status && header.kind != MW_PLY_ASCII;
     if (!status) status = ply_read_elements(&r, &header, error);
     if (!status) status = ply_check_end(&r, &header, error);
+    if (!status) {
+        builder->file->crs = header.crs;
+        header.crs = NULL;
+    }
     mw__ply_release_header(&header);
     return status;
 }

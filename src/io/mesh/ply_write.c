@@ -5,9 +5,19 @@
 
 #include <limits.h>
 
+/* A line of the header: a text of several lines becomes one. */
+static void ply_write_crs(mw_output *output, const char *crs)
+{
+    mw__output_text(output, "comment crs ");
+    for (; *crs; crs++) mw__output_char(output, (unsigned char)*crs < 0x20 ? ' ' : *crs);
+    mw__output_char(output, '\n');
+}
+
 static void ply_write_header(mw_output *output, const mw_mesh_file *file, const char *kind)
 {
-    mw_output_printf(output, "ply\nformat %s 1.0\nelement vertex %zu\n", kind, file->point_count);
+    mw_output_printf(output, "ply\nformat %s 1.0\n", kind);
+    if (file->crs && *file->crs) ply_write_crs(output, file->crs);
+    mw_output_printf(output, "element vertex %zu\n", file->point_count);
     mw__output_text(output, "property double x\nproperty double y\nproperty double z\n");
     for (size_t f = 0; f < file->field_count; f++) {
         mw__output_text(output, "property double ");

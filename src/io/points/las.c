@@ -2,18 +2,22 @@
  * compressed form, is refused.
  *
  * The number of points that the header gives is where reading stops; where the data end before,
- * that is an error. What else stands in the file (variable length records, waveforms) is passed
- * over unread. */
+ * that is an error. Of the variable length records before the points, those are read that tell the
+ * coordinate system; what else stands in the file (other records, waveforms) is passed over. */
 #include "io/points/las.h"
 
 #include "io/text/byte_order.h"
+#include "io/text/crs_text.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 enum { HEADER = 227, HEADER_1_4 = 375, VLR_HEADER = 54, LASZIP_RECORD = 22204 };
+enum { WKT_RECORD = 2112, GEO_KEYS_RECORD = 34735 };
 
 /* Bytes of a record of each format, and where in it some values stand (0: not there). */
 typedef struct las_layout {
@@ -146,26 +150,80 @@ static mw_status las_refuse_laz(const mw_source *source, mw_error *error)
                     name);
 }
 
-/* Go through what stands between the header and the points, as far as it consists of records,
- * and look for the mark of a compressed file. The number of records is not trusted. */
-static mw_status las_skip_records(mw_source *source, uint64_t end, bool *compressed, mw_error *error)
+/* What the records before the points tell. */
+typedef struct las_records {
+    bool compressed;
+    char *wkt;     /* NULL: none */
+    unsigned epsg; /* 0: none */
+} las_records;
+
+/* The EPSG code of a directory of GeoTIFF keys: that of the projected system (key 3072), or else of the
+ * geographic one (key 2048); 0 if it has none, as a system that its other keys define. */
+static unsigned las_epsg_of_keys(const unsigned char *bytes, size_t size)
+{
+    enum { MODEL = 1024, GEOGRAPHIC = 2048, PROJECTED = 3072, IS_GEOGRAPHIC = 2, USER_DEFINED = 32767 };
+    unsigned model = 0, geographic = 0, projected = 0;
+    for (size_t at = 8; at + 8 <= size; at += 8) {
+        unsigned key = mw__get_u16(bytes + at), place = mw__get_u16(bytes + at + 2),
+                 value = mw__get_u16(bytes + at + 6);
+        if (place != 0 || value >= USER_DEFINED) continue;
+        if (key == MODEL) model = value;
+        if (key == GEOGRAPHIC) geographic = value;
+        if (key == PROJECTED) projected = value;
+    }
+    return projected && model != IS_GEOGRAPHIC ? projected : model == 0 || model == IS_GEOGRAPHIC ? geographic : 0;
+}
+
+/* Read a record of those that are about the projection; of several of a kind the first counts. */
+static mw_status las_read_record(mw_source *source, size_t length, unsigned number, las_records *records,
+                                 mw_error *error)
+{
+    const unsigned char *bytes;
+    bool wkt = number == WKT_RECORD && !records->wkt;
+    bool keys = number == GEO_KEYS_RECORD && !records->epsg;
+    if (!wkt && !keys) return mw__source_skip(source, length, error);
+    mw_status status = mw__source_bytes(source, length, &bytes, error);
+    if (status) return status;
+    if (keys) records->epsg = las_epsg_of_keys(bytes, length);
+    return wkt ? mw__crs_copy((const char *)bytes, length, &records->wkt, error) : MW_OK;
+}
+
+/* Go through what stands between the header and the points, as far as it consists of records. The number
+ * of records is not trusted. */
+static mw_status las_read_records(mw_source *source, uint64_t end, las_records *records, mw_error *error)
 {
     while (end - source->offset >= VLR_HEADER) {
         const unsigned char *bytes;
         mw_status status = mw__source_bytes(source, VLR_HEADER, &bytes, error);
         if (status) return status;
-        *compressed |= memcmp(bytes + 2, "laszip", 6) == 0 && mw__get_u16(bytes + 18) == LASZIP_RECORD;
+        unsigned number = mw__get_u16(bytes + 18);
+        bool projection = memcmp(bytes + 2, "LASF_Projection", 16) == 0 || memcmp(bytes + 2, "liblas", 7) == 0;
+        records->compressed |= memcmp(bytes + 2, "laszip", 6) == 0 && number == LASZIP_RECORD;
         uint64_t length = mw__get_u16(bytes + 20), left = end - source->offset;
-        status = mw__source_skip(source, length < left ? length : left, error);
+        if (length > left) length = left;
+        status = projection ? las_read_record(source, (size_t)length, number, records, error)
+                            : mw__source_skip(source, length, error);
         if (status) return status;
     }
     return mw__source_skip(source, end - source->offset, error);
 }
 
-/* The fields that all versions have; the rest of the header and the records before the points
- * are skipped. */
-static mw_status las_read_header(mw_source *source, las_reader *l, mw_error *error)
+/* Keep the coordinate system that the records name: WKT, or else EPSG:n. */
+static mw_status las_keep_crs(mw_point_reader *reader, las_records *records, mw_error *error)
 {
+    char code[24];
+    reader->crs = records->wkt;
+    if (reader->crs || !records->epsg) return MW_OK;
+    snprintf(code, sizeof code, "EPSG:%u", records->epsg);
+    reader->crs = strdup(code);
+    return reader->crs ? MW_OK : mw__fail_memory(error);
+}
+
+/* The fields that all versions have, and the records before the points; the rest of the header is
+ * skipped. */
+static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_error *error)
+{
+    mw_source *source = &reader->source;
     const char *head;
     size_t have;
     mw_status status = mw__source_peek(source, HEADER_1_4, &head, &have, error);
@@ -195,9 +253,11 @@ static mw_status las_read_header(mw_source *source, las_reader *l, mw_error *err
         return mw__source_fail_at(source, 94, error, "a header of %u bytes, and points at byte %" PRIu64, header_size,
                                   points_at);
     status = mw__source_skip(source, header_size, error);
-    bool compressed = false;
-    if (!status) status = las_skip_records(source, points_at, &compressed, error);
-    return !status && compressed ? las_refuse_laz(source, error) : status;
+    las_records records = {0};
+    if (!status) status = las_read_records(source, points_at, &records, error);
+    if (!status && records.compressed) status = las_refuse_laz(source, error);
+    mw_status kept = las_keep_crs(reader, &records, status ? NULL : error);
+    return status ? status : kept;
 }
 
 /* A name, or a number counted from 1; COLUMN_COUNT if it is neither. */
@@ -274,7 +334,7 @@ mw_status mw__las_start(mw_point_reader *reader, const mw_point_reader_options *
     reader->select = las_select;
     memcpy(l->classes, options->classes, sizeof l->classes);
     for (size_t c = 0; c < sizeof l->classes; c++) l->filtered |= l->classes[c] != 0;
-    mw_status status = las_read_header(&reader->source, l, error);
+    mw_status status = las_read_header(reader, l, error);
     if (!status) status = las_name_table(reader, l, error);
     if (status || (reader->table && !options->columns)) return status;
     return las_select_columns(reader, l, options->columns, error);

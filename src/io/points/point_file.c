@@ -5,6 +5,7 @@
 #include "io/mesh/mesh_formats.h"
 #include "io/points/las.h"
 #include "io/points/point_table.h"
+#include "io/text/crs_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -75,7 +76,15 @@ mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *
     mw_source source;
     mw_status status = options ? MW_RESERVED_CHECK(mw_point_reader_options, options, error) : MW_OK;
     if (!status) status = mw__source_open(&source, path, error);
-    return status ? status : mw__point_reader_start(source, options, out, error);
+    if (!status) status = mw__point_reader_start(source, options, out, error);
+    if (!status && !(*out)->crs) status = mw__crs_beside(path, &(*out)->crs, error);
+    if (status && *out) mw_point_reader_close(*out), *out = NULL;
+    return status;
+}
+
+const char *mw_point_reader_crs(const mw_point_reader *reader)
+{
+    return reader->crs;
 }
 
 size_t mw_point_reader_width(const mw_point_reader *reader)
@@ -151,5 +160,6 @@ void mw_point_reader_close(mw_point_reader *reader)
     mw__table_header_release(&reader->header);
     mw__row_texts_release(&reader->rows);
     free(reader->state);
+    free(reader->crs);
     free(reader);
 }

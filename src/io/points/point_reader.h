@@ -22,6 +22,7 @@ struct mw_point_reader {
     char decimal;           /* '.' or ',' */
     bool table, begun;      /* keeps the rows' texts; has read something */
     mw_row_texts rows;      /* of the block read last */
+    char *crs;              /* NULL: not known */
 };
 
 /* Add a column to the reader: its name, and which column of the file it is. */
