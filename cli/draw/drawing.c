@@ -1,8 +1,8 @@
 /* drawing.c - a scene, painted from back to front with Cairo.
  *
  * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin veil: those of the
- * walk that turn their back are painted first, and so shimmer through. Green and vermilion are those of Okabe and
- * Ito (2008), which colour-blind people can tell apart. */
+ * walk that turn their back are painted first, and so shimmer through. Green and vermilion are those of [Okabe,
+ * Ito 2008], which colour-blind people can tell apart. */
 #include "cli/draw/drawing.h"
 #include "cli/draw/animation.h"
 #include "cli/frame/message.h"
