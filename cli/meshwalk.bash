@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info) echo "--as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
+        triangulate) echo "--constraints --keep --split --strict --kind --weight --hidden --limit --format --columns --class --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -72,7 +72,7 @@ _meshwalk_names() {
         --outside) echo 'empty nearest linear' ;;
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
-        --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
+        --kind) echo 'delaunay greedy min-weight min-max-angle regular' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;
         --class)

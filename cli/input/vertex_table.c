@@ -4,8 +4,10 @@
 #include "cli/input/las_classes.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 void vertex_table_release(vertex_table *v)
 {
@@ -19,6 +21,7 @@ void vertex_table_release(vertex_table *v)
     free(file->points);
     free(file->triangles);
     free(file->crs);
+    free(v->height_name);
     *v = (vertex_table){0};
 }
 
@@ -76,6 +79,7 @@ static int point_rows_split(vertex_table *v, point_rows *r, const mw_point_reade
     size_t n = r->count, width = r->width;
     file->point_count = n;
     file->has_z = width >= 3;
+    if (file->has_z && !(v->height_name = strdup(mw_point_reader_column(reader, 2)))) return fail_memory();
     for (size_t k = 3; k < width; k++) {
         double *field = mesh_file_add_field(file, mw_point_reader_column(reader, k));
         if (!field) return fail_memory();
@@ -218,4 +222,23 @@ vertex_field vertex_table_field(const vertex_table *v, size_t number)
 {
     if (number == 0) return (vertex_field){v->file.points + 2, 3, v->point_heights};
     return (vertex_field){v->file.fields[number - 1], 1, number - 1 < v->point_fields};
+}
+
+/* Is this the column of a name, or of a number from 1? */
+static bool column_is(const char *column, const char *name, size_t number)
+{
+    char digits[24];
+    snprintf(digits, sizeof digits, "%zu", number);
+    return strcasecmp(column, name) == 0 || strcmp(column, digits) == 0;
+}
+
+bool vertex_table_find_column(const vertex_table *v, const char *column, vertex_field *field)
+{
+    *field = vertex_table_field(v, 0);
+    if (v->height_name && column_is(column, v->height_name, 3)) return true;
+    for (size_t i = 0; i < v->point_fields; i++) {
+        *field = vertex_table_field(v, i + 1);
+        if (column_is(column, v->file.field_names[i], i + 4)) return true;
+    }
+    return false;
 }

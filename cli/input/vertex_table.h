@@ -11,6 +11,7 @@ typedef struct vertex_table {
     size_t points;       /* the number of vertices from POINTS, the first ones */
     size_t point_fields; /* the number of fields that POINTS have, the first ones */
     bool point_heights;  /* do POINTS have heights? */
+    char *height_name;   /* owned: the name of their column; NULL where there is none */
 } vertex_table;
 
 /* The functions with a result return 0, or an exit code after a complaint. */
@@ -34,6 +35,9 @@ typedef struct vertex_field {
 
 /* Field 0 is the height, the others are those of the file. */
 size_t vertex_table_field_count(const vertex_table *v);
+/* The values that POINTS have in a column: by its name, or by its number from 1 among those taken. False:
+ * there is none of that name or number, beyond x and y. */
+bool vertex_table_find_column(const vertex_table *v, const char *column, vertex_field *field);
 vertex_field vertex_table_field(const vertex_table *v, size_t number);
 
 #endif
