@@ -192,7 +192,7 @@ typedef struct mw_query_options {
 
 #define MW_MAX_LANES 64
 /* Rules for the size of a sample, of the n vertices of the mesh, to the nearest whole number: the cube root of n, 17 for
- * 4,897 [Devroye, Muecke, Zhu 1998; thesis App. D, sec. 5], and 2 times its fourth root [Muecke 1996; thesis App. F]. */
+ * 4,897 [Devroye, Muecke, Zhu 1998; thesis App. D, sec. 5], and 2 times its fourth root [Muecke, Saias, Zhu 1996; thesis App. F]. */
 #define MW_SAMPLE_CUBE_ROOT_OF_VERTICES 0u
 #define MW_SAMPLE_FOURTH_ROOT_OF_VERTICES UINT32_MAX
 

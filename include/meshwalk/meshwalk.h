@@ -6,8 +6,10 @@
 #include <meshwalk/base.h>
 #include <meshwalk/predicates.h>
 #include <meshwalk/mesh.h>
+#include <meshwalk/mend.h>
 #include <meshwalk/triangulate.h>
 #include <meshwalk/locate.h>
+#include <meshwalk/polygons.h>
 #include <meshwalk/borrow.h>
 #include <meshwalk/edit.h>
 #include <meshwalk/surface.h>

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <meshwalk/io.h>
+#include <meshwalk/polygons.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -230,6 +231,34 @@ static mw_status run_constrained(const call_inputs *in, const call_setting *how,
     return mesh_made(status, mesh, sum);
 }
 
+/* Two pentagons that cross. */
+static mw_status run_polygons(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    enum { CORNERS = 5 };
+    mw_polygons *polygons;
+    mw_polygons_info info;
+    uint32_t segments[4 * CORNERS], polygon[2 * CORNERS];
+    for (uint32_t i = 0; i < 2 * CORNERS; i++) {
+        uint32_t first = i < CORNERS ? 0 : CORNERS;
+        segments[2 * i] = i;
+        segments[2 * i + 1] = first + (i - first + 1) % CORNERS;
+        polygon[i] = i / CORNERS;
+    }
+    mw_constraints rings = {.points = in->points,
+                            .point_count = in->point_count,
+                            .segments = segments,
+                            .segment_count = 2 * CORNERS,
+                            .polygon = polygon};
+    mw_polygons_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_polygons_create(&rings, &options, &polygons, error);
+    expect(!status == (polygons != NULL), "there are polygons");
+    if (status) return status;
+    mw_polygons_describe(polygons, &info);
+    sum_add(sum, (uint64_t)info.passages << 32 | info.sets);
+    mw_polygons_destroy(polygons);
+    return MW_OK;
+}
+
 /* --- meshes -------------------------------------------------------------------------------------- */
 
 static mw_status mesh_run(const call_inputs *in, mw_mesh_layout layout, const call_setting *how, uint64_t *sum,
@@ -275,6 +304,19 @@ static mw_status run_check_damaged(const call_inputs *in, const call_setting *ho
     mw_arrays view = arrays_view(&in->damaged);
     mw_check_options options = {.threads = how->threads, .progress = how->progress};
     return check_made(mw_check_arrays(&view, &options, &check, error), &check, sum);
+}
+
+static mw_status run_mend(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_mended mended;
+    mw_arrays view = arrays_view(&in->damaged);
+    mw_mend_options options = {.progress = how->progress};
+    mw_status status = mw_mend_arrays(&view, &options, &mended, error);
+    expect(!status || (!mended.triangles && mended.change_count == 0), "there is a mended mesh");
+    for (size_t i = 0; i < 3 * mended.triangle_count; i++) sum_add(sum, mended.triangles[i]);
+    for (size_t i = 0; i < mended.change_count; i++) sum_add(sum, mended.changes[i].triangle);
+    mw_mended_release(&mended);
+    return status;
 }
 
 static mw_status run_describe(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
@@ -665,10 +707,12 @@ const long_call long_calls[] = {
     {"mw_triangulate, least weight", run_kind_min_weight},
     {"mw_triangulate, least angle", run_kind_min_max_angle},
     {"mw_constrained_delaunay", run_constrained},
+    {"mw_polygons_create", run_polygons},
     {"mw_mesh_create, laid out", run_mesh_laid_out},
     {"mw_mesh_create, as given", run_mesh_as_given},
     {"mw_check_arrays", run_check},
     {"mw_check_arrays, damaged", run_check_damaged},
+    {"mw_mend_arrays", run_mend},
     {"mw_mesh_describe", run_describe},
     {"mw_locator_create", run_locator},
     {"mw_locator_create, crowded", run_locator_crowded},
