@@ -29,7 +29,15 @@ from meshwalk._editor import (
     EditorLocations,
 )
 from meshwalk._errors import Error, InputError, LimitError
-from meshwalk._files import mesh_formats, read, read_points, write
+from meshwalk._files import (
+    Constraints,
+    SkippedRingWarning,
+    mesh_formats,
+    read,
+    read_constraints,
+    read_points,
+    write,
+)
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
@@ -49,6 +57,7 @@ from meshwalk._where import Where
 __all__ = [
     "Change",
     "Check",
+    "Constraints",
     "Cursor",
     "Defect",
     "DuplicateWarning",
@@ -71,6 +80,7 @@ __all__ = [
     "NearestPoints",
     "OptimumWarning",
     "Prober",
+    "SkippedRingWarning",
     "Star",
     "StarInfo",
     "Surface",
@@ -90,6 +100,7 @@ __all__ = [
     "mesh_formats",
     "plot",
     "read",
+    "read_constraints",
     "read_points",
     "triangulate",
     "write",

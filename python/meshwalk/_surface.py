@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from meshwalk._core import Progress
+
 
 class SurfaceInfo(NamedTuple):
     """What kind of surface it is: the answer of `Surface.describe`."""
@@ -77,6 +79,8 @@ class Surface(_core.Surface):
     tolerant : bool, optional
         Take also triangles with a vertex twice, vertices that are not finite, and edges of three
         triangles.
+    progress : callable, optional
+        As of `Locator`.
 
     Raises
     ------
@@ -120,11 +124,12 @@ class Surface(_core.Surface):
         *,
         weld: bool = False,
         tolerant: bool = False,
+        progress: Progress | None = None,
     ) -> Self:
         rows, _ = _arrays.vertices(points, "points", (3,))
         numbers = _arrays.triangles(triangles, "triangles", _core.MAX_TRIANGLES)
         try:
-            surface = _core.surface_from_arrays(cls, rows, numbers, tolerant, weld)
+            surface = _core.surface_from_arrays(cls, rows, numbers, tolerant, weld, progress)
         except InputError as error:
             error.defect = next(iter(check_surface(rows, numbers, weld=weld).defects), None)
             raise
@@ -311,7 +316,7 @@ class Surface(_core.Surface):
         records: NDArray[Any],
         out: NDArray[Any],
         threads: int,
-        progress: Any,
+        progress: Progress | None,
     ) -> None:
         """As the library does it in the plane: a weight of 0 ignores even NaN."""
         there = records["triangle"] >= 0

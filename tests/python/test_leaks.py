@@ -29,6 +29,8 @@ def _use_meshes(folder: Path) -> None:
     _ = mesh.points, mesh.triangles, mesh.neighbours, mesh.nbytes, mesh.describe(), mesh.check()
     mesh.write(folder / "mesh.ply")
     meshwalk.read(folder / "mesh.ply")
+    (folder / "line.poly").write_text("2 2 1 0\n1 0 0 3\n2 1 0 4\n1 0\n1 1 2\n1\n1 3 3\n")
+    meshwalk.read_constraints(folder / "line.poly")
     meshwalk.constrained_delaunay(SQUARE, RING, holes=[[9, 9]], polygons=[0] * 4)
     meshwalk.triangulate(POINTS[:20], "greedy")
     locator = meshwalk.Locator(mesh, border=True)
@@ -94,6 +96,10 @@ def _failures(folder: Path) -> list[Callable[[], Any]]:
         lambda: meshwalk.constrained_delaunay(SQUARE, RING, holes=[[np.nan, 0]]),
         lambda: meshwalk.triangulate(POINTS, wrong),
         lambda: meshwalk.read(folder / "none.off"),
+        lambda: meshwalk.read_constraints(folder / "none.poly"),
+        lambda: meshwalk.Star(surface, progress=wrong),
+        lambda: editor.insert_points(POINTS + 0.01, progress=wrong),
+        lambda: prober.probe([[0, 0, 5]], [0, 0, -1], progress=wrong),
         lambda: mesh.write(folder / "mesh.none"),
         lambda: locator.locate(POINTS, walk=wrong),
         lambda: locator.locate(POINTS, -1),
