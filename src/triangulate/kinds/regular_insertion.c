@@ -136,7 +136,7 @@ static uint32_t facet_find(mw_regular *r, uint32_t p)
 
 /* The facets above p from facet `first` on, and the edges round them. Returns the number of facets; *edges
  * that of edges. */
-static uint32_t cavity_dig(mw_regular *r, uint32_t first, uint32_t p, uint32_t *edges)
+static uint32_t facets_dig(mw_regular *r, uint32_t first, uint32_t p, uint32_t *edges)
 {
     uint32_t count = 1, mark = p + 1;
     r->cavity[0] = first;
@@ -162,7 +162,7 @@ static uint32_t *vertex_facet(mw_regular *r, uint32_t v)
 }
 
 /* Put the star of p in the place of the cavity. */
-static void cavity_fill(mw_regular *r, uint32_t count, uint32_t edges, uint32_t p)
+static void facets_fill_star(mw_regular *r, uint32_t count, uint32_t edges, uint32_t p)
 {
     for (uint32_t i = 0; i < count; i++) {
         r->facet[r->cavity[i]].user = MW_REGULAR_FREED;
@@ -207,6 +207,6 @@ void mw__regular_insert(mw_regular *r, uint32_t p)
         r->last = t;
         return;
     }
-    uint32_t count = cavity_dig(r, t, p, &edges);
-    cavity_fill(r, count, edges, p);
+    uint32_t count = facets_dig(r, t, p, &edges);
+    facets_fill_star(r, count, edges, p);
 }
