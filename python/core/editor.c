@@ -336,29 +336,28 @@ static PyObject *editor_constrained_edges(PyObject *self, PyObject *unused)
 
 /* --- location in between --- */
 
-/* _locate(points, out, threads) */
+/* _locate(points, out, hints, threads, progress): as that of a locator */
 static PyObject *editor_locate(PyObject *self, PyObject *args)
 {
     editor_object *object = (editor_object *)self;
-    PyObject *points, *out;
+    PyObject *points, *out, *hints, *function;
+    mw_progress progress;
     mw_query_options options = {0};
-    buffer_points given;
-    Py_buffer locations;
+    buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOO&", &points, &out, option_uint32, &options.threads) ||
-        buffer_get_points(points, 2, &given))
+    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &hints, option_uint32, &options.threads,
+                          &function) ||
+        buffer_get_batch(points, out, hints, &batch))
         return NULL;
-    if (buffer_get_writable(out, sizeof(mw_location), given.count, &locations)) {
-        PyBuffer_Release(&given.view);
-        return NULL;
-    }
+    options.hints = batch.hints.buf;
+    options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = mw_locate_batch(mw_editor_locator(object->editor), given.points, given.count,
-                             given.stride, &options, locations.buf, NULL, &error);
+    status =
+        mw_locate_batch(mw_editor_locator(object->editor), batch.points.points, batch.points.count,
+                        batch.points.stride, &options, batch.out.buf, NULL, &error);
     Py_END_ALLOW_THREADS
-    PyBuffer_Release(&locations);
-    PyBuffer_Release(&given.view);
+    buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }

@@ -18,6 +18,7 @@ released while the library works, and objects may be used by any number of threa
 from meshwalk._check import Check, Defect, check, check_star, check_surface
 from meshwalk._core import Location
 from meshwalk._core import version as __version__
+from meshwalk._cursor import Cursor
 from meshwalk._editor import (
     Change,
     EdgeKind,
@@ -48,6 +49,7 @@ from meshwalk._where import Where
 __all__ = [
     "Change",
     "Check",
+    "Cursor",
     "Defect",
     "DuplicateWarning",
     "EdgeKind",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from meshwalk._core import Location
+    from meshwalk._core import Location, Progress
 
 _MODES = {"auto": 0, "make": 1, "never": 2}
 _NONE = np.iinfo(np.uint32).max
@@ -457,7 +457,14 @@ class Editor(_core.Editor):
             raise KeyError(f"the editor has no field {field!r}; {there}")
         return number
 
-    def locate(self, xy: ArrayLike, threads: int = 0) -> EditorLocations:
+    def locate(
+        self,
+        xy: ArrayLike,
+        threads: int = 0,
+        *,
+        hints: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> EditorLocations:
         """Find the triangles that contain points, as the mesh is now.
 
         Parameters
@@ -466,15 +473,32 @@ class Editor(_core.Editor):
             The points, see `Locator.locate`.
         threads : int, optional
             How many threads answer; 0 lets the library choose.
+        hints : array_like of int, optional
+            Triangles where searches begin, see `Locator.locate`; those that edits have replaced
+            lead to their heirs.
+        progress : callable, optional
+            As of `Locator.locate`.
 
         Returns
         -------
         EditorLocations
         """
         points, shape = _arrays.queries(xy, "xy", 2)
+        first = None if hints is None else _arrays.hints(hints, shape)
+        return self._locate_rows(points, first, shape, threads, progress)
+
+    def _locate_rows(
+        self,
+        points: NDArray[np.float64],
+        hints: NDArray[np.uint32] | None,
+        shape: tuple[int, ...],
+        threads: int,
+        progress: Progress | None,
+    ) -> EditorLocations:
+        """Locate points as the library takes them; the hints are written."""
         records = np.empty(len(points), LOCATION)
         with self._lock:
-            self._locate(points, records, threads)
+            self._locate(points, records, hints, threads, progress)
             edits = self._edits
         return EditorLocations(self, records.reshape(shape), edits)
 
@@ -511,13 +535,17 @@ class EditorLocations(Locations):
         self.editor = editor
         self._edits = edits
 
-    def interpolate(self, values: ArrayLike | str) -> NDArray[np.float64]:
+    def interpolate(
+        self, values: ArrayLike | str, threads: int = 0, *, progress: Progress | None = None
+    ) -> NDArray[np.float64]:
         """Interpolate a field of the editor.
 
         Parameters
         ----------
         values : str
             Name of a field.
+        threads, progress
+            Not used: one thread does it.
 
         Raises
         ------

@@ -21,6 +21,7 @@ POINTS = np.random.default_rng(7).uniform(size=(400, 2))
 TRIANGLES = meshwalk.delaunay(POINTS).triangles
 SQUARE = [[0, 0], [6, 0], [6, 6], [0, 6], [1, 1]]
 RING = [[0, 1], [1, 2], [2, 3], [3, 0]]
+HINT = np.zeros(1, np.uint32)
 
 
 def _use_meshes(folder: Path) -> None:
@@ -38,7 +39,12 @@ def _use_meshes(folder: Path) -> None:
     locator.nearest_border(2, 2)
     hit.interpolate("z")
     hit.interpolate(np.zeros((400, 3), np.float32))
-    pickle.loads(pickle.dumps((mesh, locator, hit)))
+    cursor = meshwalk.Cursor(locator)
+    cursor.locate(POINTS)
+    cursor.triangle = cursor.triangle[3:]
+    locator.locate(POINTS, hints=hit.triangle)
+    hit.interpolate(np.zeros((3, 400)).T, progress=lambda stage, done: None)
+    pickle.loads(pickle.dumps((mesh, locator, hit, cursor)))
 
 
 def _use_editors() -> None:
@@ -71,6 +77,7 @@ def _use_surfaces() -> None:
 def _failures(folder: Path) -> list[Callable[[], Any]]:
     mesh = meshwalk.Mesh(POINTS, TRIANGLES)
     locator = meshwalk.Locator(mesh)
+    records = locator.locate(POINTS).records
     editor = meshwalk.Editor(mesh)
     surface = meshwalk.Surface(OCTAHEDRON, FACETS)
     star = meshwalk.Star(surface)
@@ -93,9 +100,12 @@ def _failures(folder: Path) -> list[Callable[[], Any]]:
         lambda: locator.locate(POINTS[:, :1]),
         lambda: locator.locate_one(wrong, 1),
         lambda: locator.nearest_border(1, 1),
-        lambda: locator._locate(POINTS, np.empty(3), "auto", "auto", 0, 0, 0, None),
+        lambda: locator._locate(POINTS, np.empty(3), None, "auto", "auto", 0, 0, 0, None),
+        lambda: locator._locate(POINTS, records, HINT, "auto", "auto", 0, 0, 0, None),
+        lambda: locator.locate(POINTS, hints=[1]),
         lambda: mesh._copy_points(np.empty(3)),
-        lambda: mesh._interpolate(np.empty(400), POINTS, np.empty(3)),
+        lambda: mesh._interpolate_table(POINTS, False, records, HINT, 1, None),
+        lambda: locator.locate(POINTS).interpolate(POINTS, progress=wrong),
         lambda: editor.remove(10**7),
         lambda: editor.insert(np.nan, 0),
         lambda: editor.undo(),
