@@ -144,7 +144,8 @@ typedef struct mw_star_query_options {
  * updates. Its members are private. */
 typedef struct mw_star_cursor {
     mw_counters counters; /* of all queries so far, if they count. Of the stages, `init` is the choice of the first
-                             facet by an octahedron */
+                             facet by an octahedron: three tests for each triangle of its subdivision that the way
+                             leads through, as the published table counts, though many take fewer or none */
     const mw_star_index *index;
     uint64_t random;
     uint32_t last;
