@@ -21,7 +21,7 @@ _meshwalk_options() {
         probe)
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
-        walk) echo "--from --to --walk --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
+        walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
 }

@@ -427,6 +427,23 @@ static mw_status run_batch(const call_inputs *in, const call_setting *how, uint6
     return status;
 }
 
+static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    enum { VALUES = 3 };
+    size_t n = in->point_count;
+    mw_location *at = malloc(n * sizeof *at);
+    double *result = calloc(VALUES * n, sizeof *result);
+    mw_value_table table = {.values = in->points, .count = VALUES, .step = 2}; /* x, then x of the next vertices */
+    mw_query_options query = {.threads = how->threads};
+    mw_interpolate_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_locate_batch(in->locator, in->points, n, 2, &query, at, NULL, error);
+    if (!status) status = mw_interpolate_table(in->mesh, &table, at, n, &options, result, error);
+    for (size_t i = 0; i < VALUES * n && !status; i++) sum_add(sum, (uint64_t)llrint(result[i] * 1e6));
+    free(result);
+    free(at);
+    return status;
+}
+
 /* --- borrowed arrays ----------------------------------------------------------------------------- */
 
 static mw_status borrow_run(const call_inputs *in, mw_borrow_options options, mw_borrowed **mesh, mw_error *error)
@@ -709,6 +726,7 @@ const long_call long_calls[] = {
     {"mw_index_create, triangle buckets", run_index_triangle_buckets},
     {"mw_index_create, kd tree", run_index_kd_tree},
     {"mw_locate_batch", run_batch},
+    {"mw_interpolate_table", run_table},
     {"mw_mesh_borrow", run_borrow},
     {"mw_borrowed_locate_batch", run_borrowed_batch},
     {"mw_editor_create", run_editor},
