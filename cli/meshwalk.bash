@@ -3,7 +3,7 @@
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
     local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
-    query="$query --columns"
+    query="$query --columns --crs --points-crs"
     query="$query --any"
     local stream='--strict --stats --json --layer --where --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
@@ -69,6 +69,7 @@ _meshwalk_names() {
         --outside) echo 'empty nearest linear' ;;
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
+        --points-crs) echo mesh ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;
@@ -104,7 +105,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field | --layer | --where) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --field | --layer | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then

@@ -16,8 +16,9 @@ int mesh_output_check(const char *command_name, const char *output, int format);
 /* Is the mesh written as two files, .node and .ele? */
 bool mesh_output_is_node(const char *output, int format);
 
-/* Write the mesh; `temporary` is what files_try_output told. Returns 0, or an exit code after a
+/* Write the mesh, and beside a format that cannot hold its coordinate system a .prj file. `temporary`
+ * is what files_try_output told; `quiet`: no remarks. Returns 0, or an exit code after a
  * complaint. */
-int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary);
+int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary, bool quiet);
 
 #endif

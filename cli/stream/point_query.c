@@ -3,7 +3,10 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
+#include "cli/input/mesh_crs.h"
 #include "cli/stream/statistics.h"
+
+#include <stdlib.h>
 
 static const char *walk_name(int i)
 {
@@ -99,6 +102,13 @@ const option point_query_options[] = {
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
      "calls so, by names that the manual page lists, or the only two)",
      NULL},
+    {"crs", 0, OPTION_TEXT, offsetof(point_query_settings, crs), "CRS",
+     "the coordinate system of MESH, as EPSG:2056 (default: what MESH tells, in a comment of PLY or a .prj file)",
+     NULL},
+    {"points-crs", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.crs), "CRS",
+     "that of POINTS, or 'mesh': that of MESH (default: what POINTS tell; columns called lon and lat are WGS 84). "
+     "Points in another system than MESH are transformed",
+     NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
      "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
     {0},
@@ -186,12 +196,14 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
     if (end == 0) end = query_stream_check_output(&settings->stream);
     if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
     if (end == 0) end = point_query_check_fill(settings);
+    if (end == 0) end = query_crs_check(settings->crs, settings->stream.source.crs);
     if (end == 0) end = files_read_mesh(path, &file);
     if (end) return end;
     bool area = files_has_area(&file);
     extent_add(&q->extent, file.points, file.point_count, 3);
     if (!settings->stream.common.quiet) extent_warn_of_seam(path, &q->extent, &file);
-    end = point_query_make_mesh(q, path, &file, area);
+    end = mesh_crs_settle(path, settings->crs, file.crs, settings->stream.common.quiet, &q->crs);
+    if (end == 0) end = point_query_make_mesh(q, path, &file, area);
     if (end == 0 && load) end = load(q->mesh, path, &file, self);
     mw_mesh_file_release(&file);
     if (end == 0) end = point_query_make_locator(q, path, border, area);
@@ -203,6 +215,7 @@ void point_query_release(point_query *q)
     mw_index_destroy(q->index);
     mw_locator_destroy(q->locator);
     mw_mesh_destroy(q->mesh);
+    free(q->crs);
 }
 
 /* What the callbacks of the query stream need. */
@@ -301,6 +314,9 @@ int point_query_run(const point_query *q, const char *points, const char *const 
         .begin = q->begin,
         .doing = "locating",
         .columns = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2},
+        .ground = GROUND_PLANE,
+        .mesh = q->path,
+        .mesh_crs = q->crs,
         .shown = 2,
         .answers = answers,
         .kinds = kinds,

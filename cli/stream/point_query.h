@@ -10,6 +10,7 @@
 
 typedef struct point_query_settings {
     query_stream_settings stream;
+    const char *crs; /* of the mesh; NULL: not given */
     double tolerance;
     uint32_t sample, steps, cells, layers;
     int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
@@ -34,6 +35,7 @@ typedef struct point_query {
     mw_locator *locator;
     mw_index *index;  /* NULL if the start has none */
     const char *path; /* of the mesh */
+    char *crs;        /* its coordinate system; NULL: not known */
     extent extent;    /* of its vertices */
     double begin;     /* monotonic_seconds when the command began */
 } point_query;
