@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info | check) echo "--as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
-        locate) echo "--details $query $stream $common" ;;
+        locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
@@ -40,6 +40,7 @@ _meshwalk_names() {
         --engines)
             echo 'meshwalk meshwalk-single meshwalk-grid meshwalk-grid-single meshwalk-two-level'
             echo 'meshwalk-two-level-single meshwalk-curve meshwalk-curve-single meshwalk-last'
+            echo 'meshwalk-borrowed meshwalk-borrowed-single'
             echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
             echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
             ;;
@@ -69,7 +70,7 @@ _meshwalk_names() {
         --outside) echo 'empty nearest linear' ;;
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
-        --points-crs) echo mesh ;;
+        --points-crs) echo same ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;
@@ -105,7 +106,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --field | --layer | --where) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --field | --layer | --where | --attribute | --polygon-layer) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then

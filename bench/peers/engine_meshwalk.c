@@ -1,4 +1,5 @@
 #include "bench/peers/engine_meshwalk.h"
+#include "bench/peers/engine_borrowed.h"
 #include "cli/frame/monotonic_clock.h"
 
 #include <meshwalk/meshwalk.h>
@@ -158,6 +159,8 @@ const engine_code *engine_meshwalk_code(engine_id id)
                                                 NULL, meshwalk_engine_destroy};
     static const engine_structure curve = {meshwalk_version, meshwalk_build_curve, meshwalk_engine_bytes, NULL,
                                            meshwalk_engine_destroy};
+    static const engine_structure borrowed = {meshwalk_version, engine_borrowed_build, engine_borrowed_bytes, NULL,
+                                              engine_borrowed_destroy};
     static const engine_code codes[] = {
         [ENGINE_MESHWALK] = {&plain, meshwalk_locate_batch, meshwalk_triangulate},
         [ENGINE_MESHWALK_SINGLE] = {&plain, meshwalk_locate_single, NULL},
@@ -168,6 +171,8 @@ const engine_code *engine_meshwalk_code(engine_id id)
         [ENGINE_MESHWALK_CURVE] = {&curve, meshwalk_locate_batch, NULL},
         [ENGINE_MESHWALK_CURVE_SINGLE] = {&curve, meshwalk_locate_single, NULL},
         [ENGINE_MESHWALK_LAST] = {&plain, meshwalk_locate_last, NULL},
+        [ENGINE_MESHWALK_BORROWED] = {&borrowed, engine_borrowed_locate, NULL},
+        [ENGINE_MESHWALK_BORROWED_SINGLE] = {&borrowed, engine_borrowed_locate_single, NULL},
     };
     return &codes[id];
 }

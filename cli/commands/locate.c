@@ -1,18 +1,28 @@
-/* locate - which triangle contains each point. */
+/* locate - which triangle, or which polygons, contain each point. */
 #include "cli/commands/commands.h"
 #include "cli/output/csv_row.h"
-#include "cli/stream/point_query.h"
+#include "cli/frame/message.h"
+#include "cli/stream/polygon_query.h"
 
 typedef struct locate_settings {
     point_query_settings query;
+    polygon_file_settings polygons;
     bool details;
 } locate_settings;
 
 static const option locate_options[] = {
     {"details", 0, OPTION_FLAG, offsetof(locate_settings, details), NULL,
      "add the columns local (edge or vertex of the triangle), border_triangle, border_edge, distance (of points "
-     "outside) and hole",
+     "outside) and hole; with --polygons: the column border_of",
      NULL},
+    {"polygons", 0, OPTION_TEXT, offsetof(locate_settings, polygons.path), "FILE",
+     "locate the points in the polygons of FILE (GeoJSON, .poly, what GDAL reads), without a MESH: the columns are "
+     "status, feature and others",
+     NULL},
+    {"attribute", 0, OPTION_TEXT, offsetof(locate_settings, polygons.attribute), "LIST",
+     "with --polygons: also columns with these attributes of the feature, by GDAL", NULL},
+    {"polygon-layer", 0, OPTION_TEXT, offsetof(locate_settings, polygons.layer), "NAME",
+     "with --polygons: the layer with the polygons (default: the only one that may have any)", NULL},
     {0},
 };
 
@@ -44,10 +54,23 @@ static const char *const plain_answers[] = {PLAIN_ANSWERS, NULL};
 static const char *const detailed_answers[] = {PLAIN_ANSWERS, "local", "border_triangle", "border_edge", "distance",
                                                "hole",        NULL};
 
+static int locate_in_polygons(const locate_settings *s, const char *const *operands)
+{
+    if (!operands[1]) return polygon_query_run(&s->query, &s->polygons, operands[0], s->details);
+    complain("--polygons takes the place of MESH: only POINTS may follow, not also '%s'", operands[1]);
+    return END_USAGE;
+}
+
 static int locate_run(const void *settings, const char *const *operands)
 {
     const locate_settings *s = settings;
     point_query q;
+    if (s->polygons.path) return locate_in_polygons(s, operands);
+    if (!operands[1]) return options_fail_operands(&locate_command, 1);
+    if (s->polygons.attribute || s->polygons.layer) {
+        complain("option '--%s' is for --polygons", s->polygons.attribute ? "attribute" : "polygon-layer");
+        return END_USAGE;
+    }
     int end = point_query_open(&q, &s->query, operands, s->details, NULL, NULL);
     if (end == 0)
         end = point_query_run(&q, operands[1], s->details ? detailed_answers : plain_answers,
@@ -62,12 +85,16 @@ const command locate_command = {
     .name = "locate",
     .operands = "MESH POINTS",
     .operand_count = 2,
-    .summary = "find the triangle that contains each point",
-    .description = "Writes every row of POINTS as it is, and behind it status,triangle,w0,w1,w2. The status "
-                   "is inside, edge, vertex, outside, hole, near or bad; the triangle is its number in MESH, from 0, "
-                   "or -1; w0, w1, w2 are the weights of its corners, empty where there is no triangle. A point on "
-                   "an edge or a corner belongs to the lowest-numbered triangle that contains it. '-' is standard "
-                   "input.",
+    .optional_operands = 1, /* without MESH, but with --polygons */
+    .summary = "find the triangle, or the polygons, that contain each point",
+    .description =
+        "Writes every row of POINTS as it is, and behind it status,triangle,w0,w1,w2. The status "
+        "is inside, edge, vertex, outside, hole, near or bad; the triangle is its number in MESH, from 0, "
+        "or -1; w0, w1, w2 are the weights of its corners, empty where there is no triangle. A point on "
+        "an edge or a corner belongs to the lowest-numbered triangle that contains it. '-' is standard "
+        "input. With --polygons FILE instead of MESH the status is inside, border, outside or bad; feature "
+        "is the lowest number of a feature of FILE, from 0, that contains the point or has it on its border, "
+        "or -1; others are the numbers of the other ones, separated by blanks.",
     .options = tables,
     .settings_size = sizeof(locate_settings),
     .run = locate_run,

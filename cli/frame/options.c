@@ -253,6 +253,13 @@ static int parse_letters(const command *c, char ***word, void *settings)
     return 0;
 }
 
+int options_fail_operands(const command *c, int found)
+{
+    complain("%s: wants %s, not %d argument%s; usage: meshwalk %s [options] %s", c->name, c->operands, found,
+             found == 1 ? "" : "s", c->name, c->operands);
+    return END_USAGE;
+}
+
 int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MAX_OPERANDS])
 {
     int found = 0, end = 0;
@@ -275,7 +282,5 @@ int options_parse(const command *c, int count, char **arguments, void *settings,
             return END_USAGE;
         }
     if (found <= c->operand_count && found >= c->operand_count - c->optional_operands) return 0;
-    complain("%s: wants %s, not %d argument%s; usage: meshwalk %s [options] %s", c->name, c->operands, found,
-             found == 1 ? "" : "s", c->name, c->operands);
-    return END_USAGE;
+    return options_fail_operands(c, found);
 }

@@ -77,6 +77,9 @@ extern const option common_options[];
  * the settings then have `help` set, the operands have not been checked. */
 int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MAX_OPERANDS]);
 
+/* Complain that a command got `found` operands, which is not what it wants. Returns END_USAGE. */
+int options_fail_operands(const command *c, int found);
+
 /* Refuse a count above the maximum that the library takes. The message writes the maximum as
  * `written`, or in digits if that is NULL. Returns 0, or END_USAGE after a complaint. */
 int options_limit(const char *name, uint32_t value, uint32_t most, const char *written);

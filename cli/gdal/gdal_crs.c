@@ -125,16 +125,47 @@ bool crs_is_lonlat(const char *crs)
     return lonlat;
 }
 
+static char *crs_export(const gdal_functions *gdal, OGRSpatialReferenceH system)
+{
+    char *wkt = NULL, *copy = NULL;
+    if (gdal->OSRExportToWkt(system, &wkt) == OGRERR_NONE && wkt) copy = strdup(wkt);
+    if (wkt) gdal->VSIFree(wkt);
+    return copy;
+}
+
 char *crs_wkt(const char *crs)
 {
     const gdal_functions *gdal = gdal_library_load();
     OGRSpatialReferenceH system = gdal ? crs_parse(gdal, crs, true) : NULL;
     if (!system) return crs_text_is_wkt(crs) ? strdup(crs) : NULL;
-    char *wkt = NULL, *copy = NULL;
-    if (gdal->OSRExportToWkt(system, &wkt) == OGRERR_NONE && wkt) copy = strdup(wkt);
-    if (wkt) gdal->VSIFree(wkt);
+    char *wkt = crs_export(gdal, system);
     gdal->OSRRelease(system);
-    return copy;
+    return wkt;
+}
+
+/* --- layers ----------------------------------------------------------------------------------- */
+
+/* GDAL takes GeoJSON that names no system for longitudes and latitudes, also where it has numbers that
+ * cannot be such. */
+static bool layer_belies_lonlat(const gdal_functions *gdal, GDALDatasetH set, OGRLayerH layer)
+{
+    OGREnvelope box;
+    GDALDriverH driver = gdal->GDALGetDatasetDriver(set);
+    const char *format = driver ? gdal->GDALGetDriverShortName(driver) : "";
+    if (strncmp(format, "GeoJSON", 7) != 0 || !gdal->OSRIsGeographic(gdal->OGR_L_GetSpatialRef(layer))) return false;
+    /* GeoJSONSeq would have to be read as a whole. */
+    if (gdal->OGR_L_GetExtent(layer, &box, strcmp(format, "GeoJSON") == 0) != OGRERR_NONE) return false;
+    return box.MinX < -360 || box.MaxX > 360 || box.MinY < -90 || box.MaxY > 90;
+}
+
+char *crs_of_layer(GDALDatasetH set, OGRLayerH layer)
+{
+    const gdal_functions *gdal = gdal_library_load();
+    OGRSpatialReferenceH system = gdal->OGR_L_GetSpatialRef(layer);
+    const char *name = system ? gdal->OSRGetName(system) : NULL;
+    /* A GeoPackage has a system of that name for what is not known. */
+    if (!system || (name && strncmp(name, "Undefined ", 10) == 0)) return NULL;
+    return layer_belies_lonlat(gdal, set, layer) ? NULL : crs_export(gdal, system);
 }
 
 #else

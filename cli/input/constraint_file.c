@@ -3,7 +3,6 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/gdal/gdal_library.h"
-#include "cli/input/gdal_constraints.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -18,14 +17,15 @@ static bool path_is_directory(const char *path)
     return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
 }
 
-static int constraint_file_read_any(const char *path, mw_constraint_file *file)
+static int constraint_file_read_any(const char *path, const gdal_constraints_options *options, mw_constraint_file *file)
 {
     mw_error error;
     progress_phase("reading", path);
+    if (options->layer || options->values) return gdal_constraints_read(path, options, file);
     mw_status status = mw_read_constraints(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
     if (status == MW_OK) return 0;
     bool unknown = status == MW_ERROR_INPUT && !files_is_standard(path) && !mw_constraints_known(path);
-    if (gdal_library_built() && (unknown || path_is_directory(path))) return gdal_constraints_read(path, file);
+    if (gdal_library_built() && (unknown || path_is_directory(path))) return gdal_constraints_read(path, options, file);
     int end = fail_reading(&error);
     if (unknown) complain("a program that was built with GDAL reads other vector files too");
     return end;
@@ -51,7 +51,7 @@ static void rings_warn(const char *path, const mw_constraint_file *file)
 
 int constraint_file_read(const char *path, constraint_file_options options, mw_constraint_file *file)
 {
-    int end = constraint_file_read_any(path, file);
+    int end = constraint_file_read_any(path, &options.gdal, file);
     if (end || file->skipped_count == 0) return end;
     if (!options.strict) {
         if (!options.quiet) rings_warn(path, file);

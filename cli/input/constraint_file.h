@@ -2,12 +2,15 @@
 #ifndef MW_CLI_INPUT_CONSTRAINT_FILE_H
 #define MW_CLI_INPUT_CONSTRAINT_FILE_H
 
+#include "cli/input/gdal_constraints.h"
+
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>
 
 typedef struct constraint_file_options {
-    bool quiet;  /* no warnings */
-    bool strict; /* rings that are skipped are an error */
+    bool quiet;                    /* no warnings */
+    bool strict;                   /* rings that are skipped are an error */
+    gdal_constraints_options gdal; /* a file whose layer or attributes are asked for is read with GDAL */
 } constraint_file_options;
 
 /* Read constraints, with GDAL if the library does not know the format. Rings that are skipped are

@@ -1,6 +1,7 @@
 #include "cli/input/gdal_constraints.h"
 #include "cli/frame/message.h"
-#include "cli/gdal/gdal_library.h"
+#include "cli/frame/text.h"
+#include "cli/gdal/gdal_crs.h"
 
 #ifdef MW_GDAL
 
@@ -24,6 +25,9 @@ typedef struct constraint_collector {
     size_t point_room, segment_room, skipped_room;
     uint32_t feature;
     uint32_t polygons; /* of the feature */
+    const gdal_constraints_options *options;
+    feature_values *values; /* NULL: none are wanted */
+    int layers;             /* read so far */
 } constraint_collector;
 
 /* Make room for one more element after `count`. Returns false if memory runs out. */
@@ -174,22 +178,139 @@ static int collector_add_feature(constraint_collector *c, OGRFeatureH feature, c
     return END_RESOURCE;
 }
 
+/* --- attributes ---------------------------------------------------------------------------- */
+
+static char field_kind(OGRFieldDefnH field)
+{
+    OGRFieldType type = gdal.OGR_Fld_GetType(field);
+    return type == OFTReal ? 'r' : type == OFTInteger || type == OFTInteger64 ? 'i' : 't';
+}
+
+static int collector_choose_values(constraint_collector *c, OGRLayerH layer, const char *path)
+{
+    OGRFeatureDefnH definition = gdal.OGR_L_GetLayerDefn(layer);
+    size_t count = (size_t)gdal.OGR_FD_GetFieldCount(definition);
+    const char **names = calloc(count + 1, sizeof *names);
+    char *kinds = calloc(count + 1, 1);
+    for (size_t i = 0; names && kinds && i < count; i++) {
+        OGRFieldDefnH field = gdal.OGR_FD_GetFieldDefn(definition, (int)i);
+        names[i] = gdal.OGR_Fld_GetNameRef(field);
+        kinds[i] = field_kind(field);
+    }
+    int end = names && kinds ? feature_values_choose(c->values, path, names, kinds, count) : fail_memory();
+    free(names);
+    free(kinds);
+    return end;
+}
+
+static bool collector_add_values(const constraint_collector *c, OGRFeatureH feature)
+{
+    for (size_t i = 0; i < c->values->count; i++) {
+        int field = (int)c->values->fields[i];
+        char digits[32];
+        const char *cell = "";
+        if (gdal.OGR_F_IsFieldSetAndNotNull(feature, field) && c->values->kinds[i] == 'r') {
+            mw_format_double(gdal.OGR_F_GetFieldAsDouble(feature, field), digits);
+            cell = digits;
+        } else if (gdal.OGR_F_IsFieldSetAndNotNull(feature, field)) {
+            cell = gdal.OGR_F_GetFieldAsString(feature, field);
+        }
+        if (!feature_values_add(c->values, cell)) return false;
+    }
+    return true;
+}
+
+/* --- layers -------------------------------------------------------------------------------- */
+
 static int collector_read_layer(constraint_collector *c, OGRLayerH layer, const char *path)
 {
+    int chosen = c->values ? collector_choose_values(c, layer, path) : 0;
+    if (chosen) return chosen;
     gdal.OGR_L_ResetReading(layer);
     for (;; c->feature++) {
         gdal.CPLErrorReset();
         OGRFeatureH feature = gdal.OGR_L_GetNextFeature(layer);
         if (!feature) return gdal.CPLGetLastErrorType() >= CE_Failure ? gdal_fail(path) : 0;
         int end = collector_add_feature(c, feature, path);
+        if (end == 0 && c->values && !collector_add_values(c, feature)) end = fail_memory();
         gdal.OGR_F_Destroy(feature);
         if (end) return end;
     }
 }
 
-int gdal_constraints_read(const char *path, mw_constraint_file *file)
+/* All layers have one coordinate system. */
+static int collector_note_crs(constraint_collector *c, GDALDatasetH set, OGRLayerH layer, const char *path)
 {
-    constraint_collector c = {.file = file};
+    char *crs = crs_of_layer(set, layer), names[2][CRS_NAME];
+    if (c->layers++ == 0) {
+        c->file->crs = crs;
+        return 0;
+    }
+    const char *first = c->file->crs;
+    bool same = crs && first ? crs_same(crs, first) : !crs && !first;
+    if (!same)
+        complain("%s: its layers are in different coordinate systems: %s, and %s", path,
+                 first ? crs_name(first, names[0]) : "one that is not known",
+                 crs ? crs_name(crs, names[1]) : "one that is not known");
+    free(crs);
+    return same ? 0 : END_INPUT;
+}
+
+static bool layer_may_have_polygons(OGRLayerH layer)
+{
+    switch (gdal.OGR_GT_Flatten(gdal.OGR_L_GetGeomType(layer))) {
+    case wkbPoint:
+    case wkbMultiPoint:
+    case wkbLineString:
+    case wkbMultiLineString:
+    case wkbCircularString:
+    case wkbCompoundCurve:
+    case wkbMultiCurve:
+    case wkbNone: return false;
+    default: return true;
+    }
+}
+
+static bool layer_is_wanted(const gdal_constraints_options *o, OGRLayerH layer)
+{
+    if (o->layer) return strcmp(gdal.OGR_L_GetName(layer), o->layer) == 0;
+    return !o->polygons || layer_may_have_polygons(layer);
+}
+
+static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, const char *path)
+{
+    text names = {0};
+    for (int i = 0; i < gdal.GDALDatasetGetLayerCount(set); i++)
+        text_printf(&names, "%s%s", i ? ", " : "", gdal.OGR_L_GetName(gdal.GDALDatasetGetLayer(set, i)));
+    int size = names.size < 1000 ? (int)names.size : 1000;
+    if (names.failed || names.size == 0)
+        complain("%s: GDAL finds no layer in it", path);
+    else if (o->layer)
+        complain("%s: has no layer '%s', but: %.*s", path, o->layer, size, names.bytes);
+    else
+        complain("%s: which layer has the polygons? --polygon-layer may be one of: %.*s", path, size, names.bytes);
+    text_release(&names);
+    return o->layer ? END_INPUT : END_USAGE;
+}
+
+static int collector_read_layers(constraint_collector *c, GDALDatasetH set, const char *path)
+{
+    int end = 0, wanted = 0, count = gdal.GDALDatasetGetLayerCount(set);
+    bool one = c->options->layer || c->options->polygons;
+    for (int i = 0; i < count; i++) wanted += layer_is_wanted(c->options, gdal.GDALDatasetGetLayer(set, i));
+    if (one && (c->options->layer ? wanted == 0 : wanted > 1)) return layers_fail(c->options, set, path);
+    for (int i = 0; end == 0 && i < count; i++) {
+        OGRLayerH layer = gdal.GDALDatasetGetLayer(set, i);
+        if (!layer_is_wanted(c->options, layer)) continue;
+        end = collector_note_crs(c, set, layer, path);
+        if (end == 0) end = collector_read_layer(c, layer, path);
+    }
+    return end;
+}
+
+int gdal_constraints_read(const char *path, const gdal_constraints_options *options, mw_constraint_file *file)
+{
+    constraint_collector c = {.file = file, .options = options, .values = options->values};
     *file = (mw_constraint_file){.record_name = "feature"};
     if (!gdal_load()) {
         complain("%s: is no GeoJSON or .poly, and GDAL, which might read it, cannot be loaded (" MW_GDAL ")", path);
@@ -198,12 +319,10 @@ int gdal_constraints_read(const char *path, mw_constraint_file *file)
     GDALDatasetH set =
         gdal.GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!set) return gdal_fail(path);
-    int end = 0;
-    for (int i = 0; end == 0 && i < gdal.GDALDatasetGetLayerCount(set); i++)
-        end = collector_read_layer(&c, gdal.GDALDatasetGetLayer(set, i), path);
+    int end = collector_read_layers(&c, set, path);
     gdal.GDALClose(set);
     if (end == 0 && file->point_count == 0) {
-        complain("%s: GDAL finds no points, lines or polygons in it", path);
+        complain("%s: GDAL finds no %spolygons in it", path, options->polygons ? "" : "points, lines or ");
         end = END_INPUT;
     }
     if (end) mw_constraint_file_release(file);
@@ -212,8 +331,9 @@ int gdal_constraints_read(const char *path, mw_constraint_file *file)
 
 #else
 
-int gdal_constraints_read(const char *path, mw_constraint_file *file)
+int gdal_constraints_read(const char *path, const gdal_constraints_options *options, mw_constraint_file *file)
 {
+    (void)options;
     *file = (mw_constraint_file){0};
     complain("%s: the program was built without GDAL", path);
     return END_INPUT;

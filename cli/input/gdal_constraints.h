@@ -2,11 +2,21 @@
 #ifndef MW_CLI_INPUT_GDAL_CONSTRAINTS_H
 #define MW_CLI_INPUT_GDAL_CONSTRAINTS_H
 
-#include <meshwalk/meshwalk.h>
+#include "cli/input/feature_values.h"
 
-/* Read the points, lines and polygons of all layers, also those inside collections; curves become
- * chains of segments. Features are numbered from 0 over all layers. Returns 0, or an exit code
- * after a complaint; release the file with mw_constraint_file_release. */
-int gdal_constraints_read(const char *path, mw_constraint_file *file);
+#include <meshwalk/meshwalk.h>
+#include <stdbool.h>
+
+/* What is read. All zero: all layers, no attributes. */
+typedef struct gdal_constraints_options {
+    const char *layer;      /* the only one that is read; NULL: see `polygons`                         */
+    bool polygons;          /* without `layer`: the only layer that has polygons; several are an error */
+    feature_values *values; /* NULL, or filled with the attributes that its list names                 */
+} gdal_constraints_options;
+
+/* Read points, lines and polygons, also those inside collections; curves become chains of segments.
+ * Features are numbered from 0 over all layers that are read. Returns 0, or an exit code after a
+ * complaint; release the file with mw_constraint_file_release. */
+int gdal_constraints_read(const char *path, const gdal_constraints_options *options, mw_constraint_file *file);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <meshwalk/base.h>
+#include <string.h>
 
 void csv_row_numbers(text *out, const double *values, size_t count)
 {
@@ -37,6 +38,20 @@ void csv_row_word(text *out, const char *word)
     text_string(out, word);
 }
 
+void csv_row_text(text *out, const char *cell)
+{
+    size_t length = strlen(cell);
+    text_bytes(out, ",", 1);
+    bool blank = length > 0 && (cell[0] == ' ' || cell[length - 1] == ' ');
+    if (!blank && !cell[strcspn(cell, ",;.\t\"\r\n")]) {
+        text_bytes(out, cell, length);
+        return;
+    }
+    text_bytes(out, "\"", 1);
+    for (; *cell; cell++) text_bytes(out, *cell == '"' ? "\"\"" : cell, *cell == '"' ? 2 : 1);
+    text_bytes(out, "\"", 1);
+}
+
 void csv_row_status(text *out, const char *status, uint32_t triangle)
 {
     csv_row_word(out, status);
@@ -54,10 +69,13 @@ void csv_row_weights(text *out, uint32_t triangle, const double weight[3])
 void csv_row_adapt(text *out, size_t begin, char separator, char decimal)
 {
     if (out->failed || (separator == ',' && decimal == '.')) return;
+    bool quoted = false;
     for (char *c = out->bytes + begin, *end = out->bytes + out->size; c < end; c++) {
-        if (*c == ',')
+        if (*c == '"')
+            quoted = !quoted;
+        else if (*c == ',' && !quoted)
             *c = separator;
-        else if (*c == '.')
+        else if (*c == '.' && !quoted)
             *c = decimal;
     }
 }

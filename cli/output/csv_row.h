@@ -11,6 +11,8 @@ void csv_row_numbers(text *out, const double *values, size_t count);
 void csv_row_word(text *out, const char *word);
 /* The status, and the triangle's number: -1 for MW_NONE. */
 void csv_row_status(text *out, const char *status, uint32_t triangle);
+/* Any text, in quotes where a table needs them. */
+void csv_row_text(text *out, const char *cell);
 /* A number; an empty cell if not `filled`. */
 void csv_row_count(text *out, bool filled, uint32_t value);
 void csv_row_double(text *out, bool filled, double value);
@@ -18,7 +20,7 @@ void csv_row_double(text *out, bool filled, double value);
  * is MW_NONE. */
 void csv_row_weights(text *out, uint32_t triangle, const double weight[3]);
 /* Write the cells from byte `begin` on as those of another table: its separator in place of commas, its
- * decimal mark in place of points. They hold numbers and words only. */
+ * decimal mark in place of points. Texts in quotes stay as they are. */
 void csv_row_adapt(text *out, size_t begin, char separator, char decimal);
 /* The end of the row. */
 void csv_row_end(text *out);

@@ -103,10 +103,9 @@ const option point_query_options[] = {
      "calls so, by names that the manual page lists, or the only two)",
      NULL},
     {"crs", 0, OPTION_TEXT, offsetof(point_query_settings, crs), "CRS",
-     "the coordinate system of MESH, as EPSG:2056 (default: what MESH tells, in a comment of PLY or a .prj file)",
-     NULL},
+     "the coordinate system of MESH, or of polygons, as EPSG:2056 (default: what their file tells)", NULL},
     {"points-crs", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.crs), "CRS",
-     "that of POINTS, or 'mesh': that of MESH (default: what POINTS tell; columns called lon and lat are WGS 84). "
+     "that of POINTS, or 'same' as MESH (default: what POINTS tell; columns called lon and lat are WGS 84). "
      "Points in another system than MESH are transformed",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
@@ -136,8 +135,10 @@ static int point_query_make_mesh(point_query *q, const char *path, const mw_mesh
     mw_mesh_options options = {
         .tolerant = q->settings->any, .threads = q->settings->stream.common.threads, .progress = progress_of_call()};
     progress_phase("preparing", path);
-    return mw_mesh_create(&arrays, &options, &q->mesh, &error) == MW_OK ? 0
-                                                                        : point_query_fail_mesh(q, path, area, &error);
+    if (mw_mesh_create(&arrays, &options, &q->own, &error) != MW_OK)
+        return point_query_fail_mesh(q, path, area, &error);
+    q->mesh = q->own;
+    return 0;
 }
 
 static int point_query_make_locator(point_query *q, const char *path, bool border, bool area)
@@ -186,17 +187,38 @@ static int point_query_make_index(point_query *q)
     return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
+int point_query_begin(point_query *q, const point_query_settings *settings, const char *const *inputs, int count)
+{
+    *q = (point_query){.settings = settings, .begin = monotonic_seconds()};
+    int end = files_check_output(settings->stream.common.output, inputs, count);
+    if (end == 0) end = query_stream_check_output(&settings->stream);
+    if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
+    if (end == 0) end = point_query_check_fill(settings);
+    return end ? end : query_crs_check(settings->crs, settings->stream.source.crs);
+}
+
+int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, const char *crs)
+{
+    double at[2];
+    q->mesh = mesh;
+    q->path = path;
+    int end = mesh_crs_settle(path, q->settings->crs, crs, q->settings->stream.common.quiet, &q->crs);
+    if (end) return end;
+    for (uint32_t v = 0; v < mw_mesh_vertex_count(mesh); v++) {
+        mw_mesh_vertex(mesh, v, at);
+        extent_add(&q->extent, at, 1, 2);
+    }
+    end = point_query_make_locator(q, path, false, true);
+    return end ? end : point_query_make_index(q);
+}
+
 int point_query_open(point_query *q, const point_query_settings *settings, const char *const *operands, bool border,
                      point_query_load *load, const void *self)
 {
     const char *path = operands[0];
     mw_mesh_file file;
-    *q = (point_query){.settings = settings, .path = path, .begin = monotonic_seconds()};
-    int end = files_check_output(settings->stream.common.output, operands, 2);
-    if (end == 0) end = query_stream_check_output(&settings->stream);
-    if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
-    if (end == 0) end = point_query_check_fill(settings);
-    if (end == 0) end = query_crs_check(settings->crs, settings->stream.source.crs);
+    int end = point_query_begin(q, settings, operands, 2);
+    q->path = path;
     if (end == 0) end = files_read_mesh(path, &file);
     if (end) return end;
     bool area = files_has_area(&file);
@@ -204,7 +226,7 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
     if (!settings->stream.common.quiet) extent_warn_of_seam(path, &q->extent, &file);
     end = mesh_crs_settle(path, settings->crs, file.crs, settings->stream.common.quiet, &q->crs);
     if (end == 0) end = point_query_make_mesh(q, path, &file, area);
-    if (end == 0 && load) end = load(q->mesh, path, &file, self);
+    if (end == 0 && load) end = load(q->own, path, &file, self);
     mw_mesh_file_release(&file);
     if (end == 0) end = point_query_make_locator(q, path, border, area);
     return end ? end : point_query_make_index(q);
@@ -214,7 +236,7 @@ void point_query_release(point_query *q)
 {
     mw_index_destroy(q->index);
     mw_locator_destroy(q->locator);
-    mw_mesh_destroy(q->mesh);
+    mw_mesh_destroy(q->own);
     free(q->crs);
 }
 
@@ -295,7 +317,9 @@ static void point_query_report(const void *self, report *r)
 {
     const point_query_context *context = self;
     const point_query_settings *settings = context->query->settings;
-    for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(r, mw_where_name((mw_where)i), context->statistics.where[i]);
+    if (context->query->tally) context->query->tally(context->self, r);
+    for (int i = 0; i < MW_WHERE_COUNT && !context->query->tally; i++)
+        report_count(r, mw_where_name((mw_where)i), context->statistics.where[i]);
     report_string(r, "walk", walk_name(settings->walk));
     report_string(r, "start", start_name(settings->start));
     report_string(r, "arithmetic", arithmetic_name(settings->arithmetic));

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* What --points-crs says of points that are in the system of the mesh. */
-static const char as_mesh[] = "mesh";
+static const char as_mesh[] = "same";
 
 static bool option_means_mesh(const char *option)
 {
@@ -71,7 +71,7 @@ static void warn_of_unknown(const query_crs_settings *s, const char *points, con
     if (s->quiet) return;
     if (known == s->mesh_crs)
         complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are taken as they are; "
-                 "--points-crs tells their system, or 'mesh' for the same",
+                 "--points-crs tells their system, or 'same'",
                  points, s->mesh, crs_name(known, name));
     else
         complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are taken as they are; "

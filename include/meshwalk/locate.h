@@ -186,7 +186,8 @@ typedef struct mw_query_options {
                             queries, the part of the mesh over which they lie, and the caches                      */
     const mw_index *index; /* for the starts that have one (mw_index_create), NULL else; must outlive the cursor */
     const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
-    uint32_t reserved[4];
+    uint32_t *hints;             /* batches: NULL, or a triangle for each query, read and written: mw_locate_batch */
+    uint32_t reserved[2];
 } mw_query_options;
 
 #define MW_MAX_LANES 64
@@ -302,7 +303,14 @@ MW_API size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, doubl
  * pockets and holes are open, it means MW_START_SORTED for 64 queries and more, or MW_START_LAST if they come in about as good an
  * order already. MW_START_LAST and _SORTED: each thread takes 16,384 queries at a time, in `lanes` runs; the first query of a run begins
  * as with MW_START_SAMPLE, each other where the one before it ended.
- * MW_ERROR_ARGUMENT as mw_cursor_init; MW_ERROR_MEMORY (then locations is unspecified). */
+ *
+ * options->hints, for particles: n numbers of triangles, where the queries begin. With MW_START_AUTO query i begins at
+ * triangle hints[i] if that is near, with any other start in any case. MW_NONE, and a number that no triangle has, is
+ * no hint: the query begins as `start` says, or at the nearest of a sample if that is MW_START_LAST or MW_START_SORTED.
+ * Afterwards hints[i] is the triangle of locations[i], or as it was where that has none. Hints change the time, never
+ * the answer. In an editor's locator the number of a deleted triangle leads to one that replaced it.
+ *
+ * MW_ERROR_ARGUMENT as mw_cursor_init; MW_ERROR_MEMORY (then locations and hints are unspecified). */
 MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,
                                  const mw_query_options *options, mw_location *locations, mw_counters *counters,
                                  mw_error *error);

@@ -8,6 +8,8 @@
 #include <meshwalk/mesh.h>
 #include <meshwalk/triangulate.h>
 #include <meshwalk/locate.h>
+#include <meshwalk/polygons.h>
+#include <meshwalk/borrow.h>
 #include <meshwalk/edit.h>
 #include <meshwalk/surface.h>
 #include <meshwalk/star.h>

@@ -72,6 +72,7 @@ static mw_status batch_run_blocks(mw_batch *batch, size_t n, mw_job *job, mw_cou
         if (!block_run(batch, keys, block, (double)block / (double)n, job, sum)) break;
         batch->points += block * batch->stride;
         batch->locations += block;
+        if (batch->hints) batch->hints += block;
     }
     free(keys);
     return MW_OK;

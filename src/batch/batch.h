@@ -9,14 +9,15 @@
 
 #define MW_SORT_WORTHWHILE 64 /* fewer queries are not sorted by `auto` */
 
-/* First member of what a room knows of its batch. Points, locations and seed are those of one block
- * while it is answered; its queries are numbered from 0, and the random numbers of a query come
+/* First member of what a room knows of its batch. Points, locations, hints and seed are those of one
+ * block while it is answered; its queries are numbered from 0, and the random numbers of a query come
  * from the seed and its number. */
 typedef struct mw_batch mw_batch;
 struct mw_batch {
     const double *points;
     mw_location *locations;
-    size_t stride; /* doubles from point to point */
+    uint32_t *hints; /* NULL, or one for each query, of which only its room knows */
+    size_t stride;   /* doubles from point to point */
     uint64_t seed;
     const mw_key *order; /* NULL, or order[i].item is the i-th query to answer */
 

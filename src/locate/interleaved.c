@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "locate/fast_path.h"
+#include "locate/hints.h"
 #include "locate/index.h"
 #include "locate/query.h"
 #include "walk/remembering_vector.h"
@@ -55,11 +56,39 @@ static MW_INLINE bool query_point(const mw_interleaved *of, uint32_t query, mw_p
     return false;
 }
 
+/* The first tiles of n queries, at most READY. */
+static void queries_first_tiles(const mw_interleaved *of, const uint32_t *query, const mw_point *q, uint32_t n,
+                                uint32_t *t)
+{
+    const mw_index *index = of->cursor->index;
+    if (index && !mw__index_counts(index))
+        mw__index_first_many(&of->locator->tiling, index, q, n, t);
+    else
+        for (uint32_t i = 0; i < n; i++) t[i] = query_tile(of, q[i], query[i]);
+}
+
+/* Begin at the hints; queries without one are gathered, and begin as others do. */
+static void schedule_take_hints(lane_schedule *s)
+{
+    const mw_interleaved *of = s->of;
+    uint32_t which[READY], query[READY], tile[READY], count = 0;
+    mw_point q[READY];
+    mw__hints_first_many(of->locator, of->cursor, of->queries->hints, s->query, s->q, s->ready_count, s->tile);
+    for (uint32_t i = 0; i < s->ready_count; i++) {
+        if (MW_LIKELY(s->tile[i] != MW_NONE)) continue;
+        which[count] = i;
+        query[count] = s->query[i];
+        q[count++] = s->q[i];
+    }
+    if (count == 0) return;
+    queries_first_tiles(of, query, q, count, tile);
+    for (uint32_t i = 0; i < count; i++) s->tile[which[i]] = tile[i];
+}
+
 /* Give the next queries their first tiles. */
 static void schedule_refill(lane_schedule *s)
 {
     const mw_interleaved *of = s->of;
-    const mw_index *index = of->cursor->index;
     uint32_t n = 0;
     for (; n < READY && s->next < s->end; s->next++) {
         s->query[n] = s->next;
@@ -67,10 +96,10 @@ static void schedule_refill(lane_schedule *s)
     }
     s->ready_next = 0;
     s->ready_count = n;
-    if (index && !mw__index_counts(index))
-        mw__index_first_many(&of->locator->tiling, index, s->q, n, s->tile);
+    if (of->queries->hints)
+        schedule_take_hints(s);
     else
-        for (uint32_t i = 0; i < n; i++) s->tile[i] = query_tile(of, s->q[i], s->query[i]);
+        queries_first_tiles(of, s->query, s->q, n, s->tile);
 }
 
 static MW_INLINE void lane_set(const lane_schedule *s, lane_group *g, uint32_t k, mw_point q, uint32_t query,

@@ -7,6 +7,7 @@
 #include "batch/batch.h"
 #include "base/random.h"
 #include "locate/fast_path.h"
+#include "locate/hints.h"
 #include "locate/index.h"
 #include "locate/interleaved.h"
 #include "locate/query.h"
@@ -44,6 +45,16 @@ static MW_INLINE void chunk_prefetch_query(const mw_batch *b, uint32_t query, ui
     __builtin_prefetch(&b->locations[later], 1);
 }
 
+static mw_walk chunk_begin_walk(batch_chunk *c, uint32_t lane, uint32_t query, mw_point q)
+{
+    const locate_batch *b = c->batch;
+    uint64_t random = mw__random_seed(b->queries.seed, query);
+    const uint32_t *hints = b->queries.hints;
+    uint32_t t = hints ? mw__hint_first(b->locator, &b->cursor, hints[query], q) : MW_NONE;
+    return t == MW_NONE ? mw__query_begin(b->locator, &b->cursor, c->last[lane], q, &random, &c->work[lane])
+                        : mw__query_begin_at(b->locator, &b->cursor, t, q, &random, &c->work[lane]);
+}
+
 /* Put the next query of a lane into *walk; queries that are no points are answered on the way. */
 static bool chunk_next_query(batch_chunk *c, uint32_t lane, mw_walk *walk)
 {
@@ -60,8 +71,7 @@ static bool chunk_next_query(batch_chunk *c, uint32_t lane, mw_walk *walk)
             queries->locations[query] = mw__location_nowhere(MW_BAD);
             continue;
         }
-        uint64_t random = mw__random_seed(queries->seed, query);
-        *walk = mw__query_begin(b->locator, &b->cursor, c->last[lane], q, &random, &c->work[lane]);
+        *walk = chunk_begin_walk(c, lane, query, q);
         c->query[lane] = query;
         return true;
     }
@@ -84,7 +94,7 @@ static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count
 {
     enum { FEW = 2 * MW_GROUP_LANES };
     const mw_batch *queries = &b->queries;
-    if (!b->guided || count < FEW) return false;
+    if (!b->guided || queries->hints || count < FEW) return false;
     return mw__queries_are_dense(b->locator,
                                  &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
 }
@@ -100,14 +110,8 @@ static void chunk_answer_fast(const locate_batch *b, uint32_t first, uint32_t co
 
 /* Share the queries of a chunk out to the lanes, and walk. Where each query is close to the one
  * before it, one walk after the other finds everything in the cache. */
-static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_t count)
+static mw_counters chunk_answer_by_walks(const locate_batch *b, uint32_t first, uint32_t count, bool dense)
 {
-    const locate_batch *b = (const locate_batch *)queries; /* its first member */
-    bool dense = chunk_is_dense(b, first, count);
-    if (b->fast) {
-        chunk_answer_fast(b, first, count, dense);
-        return (mw_counters){0};
-    }
     batch_chunk c;
     c.feed.deliver = chunk_deliver;
     c.batch = b;
@@ -130,6 +134,19 @@ static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_
     return c.counters;
 }
 
+static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_t count)
+{
+    const locate_batch *b = (const locate_batch *)queries; /* its first member */
+    bool dense = chunk_is_dense(b, first, count);
+    mw_counters counters = {0};
+    if (b->fast)
+        chunk_answer_fast(b, first, count, dense);
+    else
+        counters = chunk_answer_by_walks(b, first, count, dense);
+    if (queries->hints) mw__hints_update(&queries->locations[first], count, &queries->hints[first]);
+    return counters;
+}
+
 /* Along a Hilbert curve. */
 static void batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
 {
@@ -140,7 +157,7 @@ static void batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *
 /* Do walks begin near their queries, so that they touch the mesh there only? */
 static bool batch_begins_near(const locate_batch *b)
 {
-    return b->cursor.index != NULL || b->cursor.start == MW_START_AUTO;
+    return b->cursor.index != NULL || b->cursor.start == MW_START_AUTO || b->queries.hints;
 }
 
 /* Walks that take turns hide the time that memory takes. The slower the memory, the more of them
@@ -175,6 +192,14 @@ static bool batch_is_fast(const locate_batch *b, const mw_query_options *options
     return mw__has_fast_path(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
 }
 
+/* A query with a hint begins there, not where the one before it ended; one that has none does not
+ * either, so that it does not depend on the others. */
+static void batch_choose_start_beside_hints(locate_batch *b)
+{
+    mw_start_kind start = (mw_start_kind)b->cursor.start;
+    if (start == MW_START_AUTO || start == MW_START_SORTED || start == MW_START_LAST) b->cursor.start = MW_START_SAMPLE;
+}
+
 /* How queries begin where nothing is said: by the locator's guide, else sorted, unless they come in
  * order; few, where the one before ended or at the nearest of a sample. */
 static void batch_choose_start(locate_batch *b, size_t n)
@@ -185,7 +210,7 @@ static void batch_choose_start(locate_batch *b, size_t n)
     if (b->guided) {
         b->cursor.start = (uint8_t)guide->start;
         b->cursor.index = guide;
-    } else if (n >= MW_SORT_WORTHWHILE) {
+    } else if (n >= MW_SORT_WORTHWHILE && !b->queries.hints) {
         mw_queries queries = {b->queries.points, n, b->queries.stride};
         b->cursor.start = mw__queries_are_in_order(b->locator, &queries) ? MW_START_LAST : MW_START_SORTED;
     }
@@ -212,6 +237,7 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
     if (!options) options = &defaults;
     locate_batch b = {.queries = {.points = points,
                                   .locations = locations,
+                                  .hints = options->hints,
                                   .stride = stride ? stride : 2,
                                   .seed = options->seed,
                                   .answer = chunk_answer},
@@ -221,5 +247,6 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
     if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
     if (b.queries.stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
     batch_choose_start(&b, n);
+    if (options->hints) batch_choose_start_beside_hints(&b);
     return batch_run(&b, n, options, counters, error);
 }

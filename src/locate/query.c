@@ -201,12 +201,10 @@ uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor
                          : start_tile(locator, cursor, last, q, random);
 }
 
-static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
-                          uint64_t *random, mw_work *work)
+static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q, uint64_t *random,
+                          mw_work *work)
 {
     const mw_tiling *tiling = &locator->tiling;
-    if (cursor->count) *work = (mw_work){0};
-    uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
     mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
     if (MW_UNLIKELY(tiling->border_loops)) mw__components_begin(locator, &walk);
     return walk;
@@ -228,12 +226,28 @@ static void walk_allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t 
     walk->fuel += walk->steps; /* at most 4096 + 45 sqrt(2^30), twice */
 }
 
+/* *work is zero, or has what looking for tile t counted. */
+static mw_walk query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
+                              uint64_t *random, mw_work *work)
+{
+    mw_walk walk = query_walk(locator, cursor, t, q, random, work);
+    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) walk_allow_steps(&walk, locator, cursor->steps);
+    return walk;
+}
+
 mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
                         mw_work *work)
 {
-    mw_walk walk = query_walk(locator, cursor, last, q, random, work);
-    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) walk_allow_steps(&walk, locator, cursor->steps);
-    return walk;
+    if (cursor->count) *work = (mw_work){0};
+    uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
+    return query_begin_at(locator, cursor, t, q, random, work);
+}
+
+mw_walk mw__query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q, uint64_t *random,
+                           mw_work *work)
+{
+    if (cursor->count) *work = (mw_work){0};
+    return query_begin_at(locator, cursor, t, q, random, work);
 }
 
 /* --- the public query --- */

@@ -16,6 +16,10 @@ mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *curso
 mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
                         mw_work *work);
 
+/* The same, from tile t on. */
+mw_walk mw__query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q, uint64_t *random,
+                           mw_work *work);
+
 uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
                               uint64_t *random, mw_work *work);
 

@@ -47,7 +47,7 @@ done
 run locate edited.ply none.csv; exits 0
 says 'none\.csv: warning: its coordinate system is not known, and edited\.ply is in EPSG:2056'
 run locate -q edited.ply none.csv; exits 0; says_nothing
-run locate --points-crs mesh edited.ply none.csv; exits 0; says_nothing
+run locate --points-crs same edited.ply none.csv; exits 0; says_nothing
 run locate --points-crs EPSG:2056 edited.ply none.csv; exits 0; says_nothing
 run locate --points-crs EPSG:2056 edited.ply none.csv -o told.csv; exits 0; says_nothing
 holds "beside a table" grep -q 2056 told.prj
@@ -126,6 +126,18 @@ run star --lonlat --only-answers tetra.off swiss.geojson; exits 0; cp "$logs/out
 echo 7.438632421,46.951082725 >gps.txt
 run star --lonlat --only-answers tetra.off gps.txt; exits 0
 holds "the same facet" test "$(cut -d, -f3,4 "$logs/out")" == "$(cut -d, -f3,4 swiss.txt)"
+
+# Polygons have a system, too.
+echo '{"type":"Feature","properties":{"id":"P7"},"geometry":{"type":"Polygon","coordinates":[[[7,46],[8,46],[8,47],[7,47]]]}}' >canton.geojson
+echo 'E,N' >swiss.csv
+echo '2600000,1200000' >>swiss.csv
+for attribute in '' '--attribute id'; do
+    # shellcheck disable=SC2086
+    run locate --points-crs EPSG:2056 --polygons canton.geojson $attribute swiss.csv; exits 0; says_nothing
+    prints_line '^2600000,1200000,inside,0,'
+done
+run locate --polygons canton.geojson --attribute id swiss.csv; exits 0
+says 'swiss\.csv: warning: its coordinate system is not known, and canton\.geojson is in EPSG:4326'
 
 # Without GDAL.
 mkdir without

@@ -156,11 +156,17 @@ static void *batches(void *argument)
     const locate_job *j = argument;
     const locate_world *w = j->world;
     mw_location *location = malloc(QUERIES * sizeof *location);
-    if (!location) return "out of memory";
-    mw_query_options options = {.threads = 2, .seed = j->number, .lanes = 1 + 7 * j->number};
-    mw_status status = mw_locate_batch(w->locator, w->query, QUERIES, 2, &options, location, NULL, NULL);
-    int same = !status && memcmp(location, w->answer, QUERIES * sizeof *location) == 0;
+    uint32_t *hint = malloc(QUERIES * sizeof *hint);
+    int same = location && hint;
+    if (same) memset(hint, 0xff, QUERIES * sizeof *hint);
+    for (int round = 0; same && round < 3; round++) { /* the first without hints, the last with good ones */
+        mw_query_options options = {.threads = 2, .seed = j->number, .lanes = 1 + 7 * j->number};
+        if (round > 0) options.hints = hint;
+        mw_status status = mw_locate_batch(w->locator, w->query, QUERIES, 2, &options, location, NULL, NULL);
+        same = !status && memcmp(location, w->answer, QUERIES * sizeof *location) == 0;
+    }
     free(location);
+    free(hint);
     return same ? NULL : "a batch is answered differently";
 }
 

@@ -57,3 +57,72 @@ location_answer location_oracle_locate(const double *points, const uint32_t *tri
         }
     return answer;
 }
+
+/* --- polygons --- */
+
+static bool between(double a, double b, double x)
+{
+    return (a <= x && x <= b) || (b <= x && x <= a);
+}
+
+static const double *segment_end(const mw_constraints *rings, size_t segment, unsigned end)
+{
+    return rings->points + 2 * (size_t)rings->segments[2 * segment + end];
+}
+
+static bool points_same(const double *a, const double *b)
+{
+    return a[0] == b[0] && a[1] == b[1];
+}
+
+static bool segment_has(const double *a, const double *b, const double *q)
+{
+    return between(a[0], b[0], q[0]) && between(a[1], b[1], q[1]) && location_oracle_orient(a, b, q) == 0;
+}
+
+/* Does the ray from q to the right cross the segment? One that ends on the ray's line counts where its
+ * other end is below. */
+static bool ray_crosses(const double *a, const double *b, const double *q)
+{
+    if ((a[1] > q[1]) == (b[1] > q[1])) return false;
+    int side = location_oracle_orient(a, b, q);
+    return b[1] > a[1] ? side > 0 : side < 0;
+}
+
+polygon_side location_oracle_polygon(const mw_constraints *rings, uint32_t polygon, const double q[2])
+{
+    bool inside = false;
+    for (size_t i = 0; i < rings->segment_count; i++) {
+        if (rings->polygon[i] != polygon) continue;
+        const double *a = segment_end(rings, i, 0), *b = segment_end(rings, i, 1);
+        if (!points_same(a, b) && segment_has(a, b, q)) return POLYGON_BORDER;
+        if (ray_crosses(a, b, q)) inside = !inside;
+    }
+    return inside ? POLYGON_INSIDE : POLYGON_OUTSIDE;
+}
+
+static bool strictly_inside(const double *a, const double *b, const double *q)
+{
+    return segment_has(a, b, q) && !points_same(a, q) && !points_same(b, q);
+}
+
+static bool segments_cross(const double *a, const double *b, const double *c, const double *d)
+{
+    int ac = location_oracle_orient(a, b, c), ad = location_oracle_orient(a, b, d);
+    if (points_same(a, b) || points_same(c, d)) return false;
+    if (ac == 0 && ad == 0)
+        return strictly_inside(a, b, c) || strictly_inside(a, b, d) || strictly_inside(c, d, a) ||
+               strictly_inside(c, d, b) || (points_same(a, c) && points_same(b, d)) ||
+               (points_same(a, d) && points_same(b, c));
+    return ac * ad < 0 && location_oracle_orient(c, d, a) * location_oracle_orient(c, d, b) < 0;
+}
+
+bool location_oracle_crosses(const mw_constraints *rings, uint32_t polygon)
+{
+    for (size_t i = 0; i < rings->segment_count; i++)
+        for (size_t j = 0; rings->polygon[i] == polygon && j < i; j++)
+            if (rings->polygon[j] == polygon && segments_cross(segment_end(rings, i, 0), segment_end(rings, i, 1),
+                                                               segment_end(rings, j, 0), segment_end(rings, j, 1)))
+                return true;
+    return false;
+}

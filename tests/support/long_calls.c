@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <meshwalk/io.h>
+#include <meshwalk/polygons.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,6 +120,8 @@ call_inputs call_inputs_make(uint32_t n, uint64_t seed)
     for (uint32_t i = 0; i < 2 * n; i++) in.points[i] = random_unit(&random);
     inputs_add_segments(&in);
     in.mesh = mesh_delaunay(in.points, n);
+    in.whole = arrays_of_mesh(in.mesh);
+    in.neighbours = mesh_neighbours(in.mesh);
     in.plain = arrays_of_mesh(in.mesh);
     arrays_punch(&in.plain, 0.1, &random);
     arrays_scramble(&in.plain, 1, &random);
@@ -155,6 +158,8 @@ void call_inputs_release(call_inputs *in)
     star_shape_free(&in->ball);
     arrays_free(&in->damaged);
     arrays_free(&in->plain);
+    arrays_free(&in->whole);
+    free(in->neighbours);
     free(in->segments);
     free(in->points);
 }
@@ -224,6 +229,34 @@ static mw_status run_constrained(const call_inputs *in, const call_setting *how,
     expect(!status || !edges.segment, "there are constrained edges");
     if (!status) mw_constrained_edges_release(&edges);
     return mesh_made(status, mesh, sum);
+}
+
+/* Two pentagons that cross. */
+static mw_status run_polygons(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    enum { CORNERS = 5 };
+    mw_polygons *polygons;
+    mw_polygons_info info;
+    uint32_t segments[4 * CORNERS], polygon[2 * CORNERS];
+    for (uint32_t i = 0; i < 2 * CORNERS; i++) {
+        uint32_t first = i < CORNERS ? 0 : CORNERS;
+        segments[2 * i] = i;
+        segments[2 * i + 1] = first + (i - first + 1) % CORNERS;
+        polygon[i] = i / CORNERS;
+    }
+    mw_constraints rings = {.points = in->points,
+                            .point_count = in->point_count,
+                            .segments = segments,
+                            .segment_count = 2 * CORNERS,
+                            .polygon = polygon};
+    mw_polygons_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_polygons_create(&rings, &options, &polygons, error);
+    expect(!status == (polygons != NULL), "there are polygons");
+    if (status) return status;
+    mw_polygons_describe(polygons, &info);
+    sum_add(sum, (uint64_t)info.passages << 32 | info.sets);
+    mw_polygons_destroy(polygons);
+    return MW_OK;
 }
 
 /* --- meshes -------------------------------------------------------------------------------------- */
@@ -378,6 +411,43 @@ static mw_status run_batch(const call_inputs *in, const call_setting *how, uint6
     mw_status status = mw_locate_batch(in->locator, in->points, in->point_count, 2, &options, at, NULL, error);
     if (!status) sum_add_locations(sum, at, in->point_count);
     free(at);
+    return status;
+}
+
+/* --- borrowed arrays ----------------------------------------------------------------------------- */
+
+static mw_status borrow_run(const call_inputs *in, mw_borrow_options options, mw_borrowed **mesh, mw_error *error)
+{
+    mw_borrowed_arrays foreign = {.mesh = arrays_view(&in->whole), .neighbours = in->neighbours};
+    mw_status status = mw_mesh_borrow(&foreign, &options, mesh, error);
+    expect(!status == (*mesh != NULL), "there is a borrowed mesh");
+    return status;
+}
+
+static mw_status run_borrow(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_borrowed *mesh;
+    mw_borrowed_info info;
+    mw_borrow_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = borrow_run(in, options, &mesh, error);
+    if (status) return status;
+    mw_borrowed_describe(mesh, &info);
+    sum_add(sum, (uint64_t)info.convex << 32 | info.clockwise_triangles);
+    mw_borrowed_release(mesh);
+    return MW_OK;
+}
+
+static mw_status run_borrowed_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_borrowed *mesh;
+    mw_status status = borrow_run(in, (mw_borrow_options){.unchecked = 1, .convex = 1}, &mesh, error);
+    if (status) return status;
+    mw_location *at = malloc(in->point_count * sizeof *at);
+    mw_borrowed_query_options options = {.threads = how->threads, .progress = how->progress};
+    status = mw_borrowed_locate_batch(mesh, in->points, in->point_count, 2, &options, at, NULL, error);
+    if (!status) sum_add_locations(sum, at, in->point_count);
+    free(at);
+    mw_borrowed_release(mesh);
     return status;
 }
 
@@ -607,6 +677,7 @@ const long_call long_calls[] = {
     {"mw_triangulate, least weight", run_kind_min_weight},
     {"mw_triangulate, least angle", run_kind_min_max_angle},
     {"mw_constrained_delaunay", run_constrained},
+    {"mw_polygons_create", run_polygons},
     {"mw_mesh_create, laid out", run_mesh_laid_out},
     {"mw_mesh_create, as given", run_mesh_as_given},
     {"mw_check_arrays", run_check},
@@ -624,6 +695,8 @@ const long_call long_calls[] = {
     {"mw_index_create, triangle buckets", run_index_triangle_buckets},
     {"mw_index_create, kd tree", run_index_kd_tree},
     {"mw_locate_batch", run_batch},
+    {"mw_mesh_borrow", run_borrow},
+    {"mw_borrowed_locate_batch", run_borrowed_batch},
     {"mw_editor_create", run_editor},
     {"an editor's calls", run_edits},
     {"mw_surface_create", run_surface},

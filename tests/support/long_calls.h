@@ -13,6 +13,8 @@ typedef struct call_inputs {
     arrays plain, damaged; /* a mesh with holes; the same with a triangle that lies over others */
     uint32_t *segments;    /* two points each; they cross nowhere */
     uint32_t segment_count;
+    arrays whole; /* the whole mesh, as arrays */
+    uint32_t *neighbours;
     star_shape ball;
     mw_mesh *mesh, *holed, *crowded; /* crowded: most vertices lie near one point */
     mw_locator *locator;

@@ -65,6 +65,14 @@ arrays arrays_of_mesh(const mw_mesh *mesh)
     return a;
 }
 
+uint32_t *mesh_neighbours(const mw_mesh *mesh)
+{
+    uint32_t n = mw_mesh_triangle_count(mesh), *neighbours = malloc((3 * (size_t)n + 1) * sizeof *neighbours);
+    for (uint32_t t = 0; t < n; t++)
+        for (uint32_t k = 0; k < 3; k++) neighbours[3 * (size_t)t + (k + 2) % 3] = mw_mesh_neighbour(mesh, t, k, NULL);
+    return neighbours;
+}
+
 /* --- made ------------------------------------------------------------------------------------- */
 
 arrays arrays_grid(uint32_t n, double jitter, uint64_t *random)

@@ -45,6 +45,10 @@ mw_arrays arrays_view(const arrays *a);
 /* A copy of the vertices and triangles of a mesh, in the order of their numbers. */
 arrays arrays_of_mesh(const mw_mesh *mesh);
 
+/* The neighbours of all triangles of a mesh, three each, opposite to their vertices; MW_NONE where
+ * there is none. The caller frees them. */
+uint32_t *mesh_neighbours(const mw_mesh *mesh);
+
 /* --- made ------------------------------------------------------------------------------------- */
 
 /* The square from 0 to n in n x n cells, each cut along a random diagonal. Inner points are

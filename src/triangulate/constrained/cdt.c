@@ -5,6 +5,8 @@
  * the triangles that are to be kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments
  * cross and are to be split, points are put there (cdt_split.c) and all is made anew, until nothing
  * crosses. */
+#include "triangulate/constrained/cdt.h"
+
 #include "base/hilbert.h"
 #include "base/options.h"
 #include "triangulate/constrained/cdt_keep.h"
@@ -45,7 +47,7 @@ static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, 
     return cdt_check_segments(given, error);
 }
 
-static void cdt_release(mw_cdt *m)
+void mw__cdt_release(mw_cdt *m)
 {
     mw__segment_insertion_release(&m->net);
     free(m->point);
@@ -60,18 +62,6 @@ static void cdt_release(mw_cdt *m)
 
 /* --- forcing the stretches in --- */
 
-/* A subsegment was made, or one made before has another owner now. */
-static bool cdt_note_subsegment(mw_cdt *m, const mw_subsegment *subsegment, uint32_t segment)
-{
-    mw_segment_part part = {subsegment->from, subsegment->to, segment};
-    if (subsegment->number == m->subsegments.count) {
-        if (!mw__segment_parts_add(&m->subsegments, part)) return false;
-    } else if (segment < m->subsegments.item[subsegment->number].segment) {
-        m->subsegments.item[subsegment->number] = part;
-    }
-    return mw__subsegment_owner_add(m, (mw_subsegment_owner){subsegment->number, segment});
-}
-
 /* Force in a part, or as much of it as lies before what it crosses. Returns false when out of
  * memory. */
 static bool part_force(mw_cdt *m, mw_segment_part s)
@@ -80,7 +70,7 @@ static bool part_force(mw_cdt *m, mw_segment_part s)
         mw_subsegment subsegment;
         mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &subsegment);
         if (result == MW_SUBSEGMENT_CROSSES) return mw__segment_parts_add(&m->crossing, s);
-        if (result != MW_SUBSEGMENT_DONE || !cdt_note_subsegment(m, &subsegment, s.segment)) return false;
+        if (result != MW_SUBSEGMENT_DONE || !mw__subsegment_note(m, &subsegment, s.segment)) return false;
     }
     return true;
 }
@@ -151,12 +141,12 @@ typedef struct finder {
     uint32_t subsegment;
 } finder;
 
-static bool cdt_find_subsegment(void *context, uint32_t subsegment, uint32_t vertex)
+static bool cdt_find_subsegment(void *context, mw_segment_meeting meeting, uint32_t number)
 {
     finder *f = context;
-    (void)vertex;
-    f->subsegment = subsegment;
-    return subsegment == MW_NONE;
+    if (meeting != MW_MEETS_SUBSEGMENT) return true;
+    f->subsegment = number;
+    return false;
 }
 
 /* Name the first pair found that crosses. */
@@ -251,7 +241,7 @@ static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_erro
         m->crossed += ends.crossed;
         if (status == MW_OK && !cdt_take_back(m, number, count, &ends)) status = mw__fail_memory(error);
     }
-    cdt_release(&ends);
+    mw__cdt_release(&ends);
     free(number);
     return status;
 }
@@ -322,6 +312,13 @@ static mw_status cdt_build(mw_cdt *m, const mw_constrain_options *options, uint3
     return status;
 }
 
+mw_status mw__cdt_make_partly(mw_cdt *m, mw_error *error)
+{
+    mw_status status = cdt_check_arguments(m->given, MW_KEEP_HULL, error);
+    if (status == MW_OK) status = cdt_take(m, error);
+    return status ? status : cdt_make(m, true, NULL, error);
+}
+
 mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
                                   uint32_t *duplicate_of, mw_constrain_report *report, mw_constrained_edges *edges,
                                   mw_mesh **out, mw_error *error)
@@ -340,7 +337,7 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_co
     mw_job job = mw__job(options->threads, options->progress);
     mw_cdt m = {.given = constraints, .job = &job};
     status = mw__job_end(&job, cdt_build(&m, options, duplicate_of, report, edges, out, error), error);
-    cdt_release(&m);
+    mw__cdt_release(&m);
     if (status && edges) mw_constrained_edges_release(edges);
     if (status) {
         mw_mesh_destroy(*out);

@@ -2,10 +2,9 @@
  * not reached from outside, and not in holes. */
 #include "triangulate/constrained/cdt_keep.h"
 
-#include "base/hilbert.h"
 #include "base/random.h"
+#include "triangulate/constrained/polygon_ranks.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 
 static uint32_t keep_subsegment_at(const mw_cdt *m, uint32_t half)
@@ -15,82 +14,27 @@ static uint32_t keep_subsegment_at(const mw_cdt *m, uint32_t half)
 
 /* --- polygons --- */
 
-/* The polygons as they were given have any numbers: here they count from 0. */
 typedef struct parity {
     const mw_cdt *m;
     mw_subsegment_owners owners;
-    uint32_t *rank; /* per segment: its polygon, MW_NONE */
-    uint8_t *odd;   /* per polygon: has an odd number of its segments been crossed? */
+    mw_polygon_ranks ranks;
+    uint8_t *odd; /* per polygon: has an odd number of its segments been crossed? */
     uint32_t odd_count;
 } parity;
 
 static void parity_release(parity *p)
 {
     mw__subsegment_owners_release(&p->owners);
-    free(p->rank);
+    mw__polygon_ranks_release(&p->ranks);
     free(p->odd);
-}
-
-/* The segments that belong to polygons, by polygon. Returns NULL when out of memory. */
-static mw_key *polygon_segments_sort(const mw_constraints *given, size_t *count)
-{
-    size_t n = given->segment_count;
-    mw_key *key = mw__alloc(n, sizeof *key), *scratch = mw__alloc(n, sizeof *scratch);
-    *count = 0;
-    if (key && scratch) {
-        for (size_t i = 0; i < n; i++)
-            if (given->polygon[i] != MW_NONE) key[(*count)++] = (mw_key){given->polygon[i], (uint32_t)i};
-        mw__sort_keys(key, scratch, *count);
-    } else {
-        free(key);
-        key = NULL;
-    }
-    free(scratch);
-    return key;
-}
-
-static bool parity_rank_polygons(parity *p, const mw_key *key, size_t count)
-{
-    uint32_t polygons = 0;
-    p->rank = mw__alloc(p->m->given->segment_count, sizeof *p->rank);
-    if (!p->rank) return false;
-    for (size_t i = 0; i < p->m->given->segment_count; i++) p->rank[i] = MW_NONE;
-    for (size_t i = 0; i < count; i++) {
-        if (i > 0 && key[i].key != key[i - 1].key) polygons++;
-        p->rank[key[i].item] = polygons;
-    }
-    p->odd = mw__calloc((size_t)polygons + 1, sizeof *p->odd);
-    return p->odd;
-}
-
-/* Inside and outside make sense where at each vertex an even number of a polygon's segments end. */
-static mw_status polygons_check_closed(const mw_cdt *m, const mw_key *key, size_t count, mw_error *error)
-{
-    uint8_t *odd = mw__calloc(m->given->point_count, sizeof *odd);
-    mw_status status = odd ? MW_OK : mw__fail_memory(error);
-    for (size_t from = 0, to; from < count && status == MW_OK; from = to) {
-        for (to = from; to < count && key[to].key == key[from].key; to++)
-            for (size_t k = 0; k < 2; k++) odd[mw__vertex_of(m, m->given->segments[2 * (size_t)key[to].item + k])] ^= 1;
-        for (size_t i = 2 * from; i < 2 * to && status == MW_OK; i++) {
-            uint32_t v = mw__vertex_of(m, m->given->segments[2 * (size_t)key[i / 2].item + i % 2]);
-            if (odd[v])
-                status = mw__fail_at(error, -1, v, "polygon %" PRIu32 " is not closed: a ring ends at point %" PRIu32,
-                                     key[from].key, v);
-        }
-    }
-    free(odd);
-    return status;
 }
 
 static mw_status parity_prepare(parity *p, mw_error *error)
 {
-    size_t count;
-    mw_key *key = polygon_segments_sort(p->m->given, &count);
-    mw_status status = key ? polygons_check_closed(p->m, key, count, error) : mw__fail_memory(error);
-    if (status == MW_OK && !(parity_rank_polygons(p, key, count) && mw__subsegment_owners_create(&p->owners, p->m)))
-        status = mw__fail_memory(error);
-    free(key);
-    return status;
+    mw_status status = mw__polygon_ranks_create(&p->ranks, p->m, error);
+    if (status) return status;
+    p->odd = mw__calloc((size_t)p->ranks.count + 1, sizeof *p->odd);
+    return p->odd && mw__subsegment_owners_create(&p->owners, p->m) ? MW_OK : mw__fail_memory(error);
 }
 
 /* Cross a half-edge, either way. */
@@ -99,7 +43,7 @@ static void parity_cross(parity *p, uint32_t half)
     uint32_t subsegment = keep_subsegment_at(p->m, half);
     if (subsegment == MW_NONE) return;
     for (size_t i = p->owners.first[subsegment]; i < p->owners.first[subsegment + 1]; i++) {
-        uint32_t rank = p->rank[p->owners.segment[i]];
+        uint32_t rank = p->ranks.rank[p->owners.segment[i]];
         if (rank == MW_NONE) continue;
         p->odd[rank] ^= 1;
         p->odd_count += p->odd[rank] ? 1 : UINT32_MAX; /* less one */

@@ -177,17 +177,23 @@ static bool splitter_cut_at_ends(splitter *s, size_t link, size_t other)
     return true;
 }
 
-static bool splitter_meet(void *context, uint32_t subsegment, uint32_t vertex)
+/* A link crosses a subsegment. */
+static bool splitter_cross(splitter *s, size_t link, uint32_t subsegment)
 {
-    splitter *s = context;
-    size_t link = s->m->subsegments.count + s->remainder;
-    if (subsegment == MW_NONE) return splitter_add_cut(s, link, vertex, true);
     size_t before = s->cut_count;
     if (s->tolerance > 0 && !(splitter_cut_at_ends(s, link, subsegment) && splitter_cut_at_ends(s, subsegment, link)))
         return false;
     if (s->cut_count > before) return true;
     uint32_t point = splitter_make_point(s, splitter_part_at(s->m, link), &s->m->subsegments.item[subsegment]);
     return point != MW_NONE && splitter_add_cut(s, link, point, false) && splitter_add_cut(s, subsegment, point, false);
+}
+
+static bool splitter_meet(void *context, mw_segment_meeting meeting, uint32_t number)
+{
+    splitter *s = context;
+    size_t link = s->m->subsegments.count + s->remainder;
+    if (meeting == MW_MEETS_VERTEX) return splitter_add_cut(s, link, number, true);
+    return meeting != MW_MEETS_SUBSEGMENT || splitter_cross(s, link, number);
 }
 
 static bool splitter_find_cuts(splitter *s)

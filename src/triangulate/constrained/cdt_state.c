@@ -31,6 +31,17 @@ bool mw__subsegment_owner_add(mw_cdt *m, mw_subsegment_owner owner)
     return true;
 }
 
+bool mw__subsegment_note(mw_cdt *m, const mw_subsegment *subsegment, uint32_t segment)
+{
+    mw_segment_part part = {subsegment->from, subsegment->to, segment};
+    if (subsegment->number == m->subsegments.count) {
+        if (!mw__segment_parts_add(&m->subsegments, part)) return false;
+    } else if (segment < m->subsegments.item[subsegment->number].segment) {
+        m->subsegments.item[subsegment->number] = part;
+    }
+    return mw__subsegment_owner_add(m, (mw_subsegment_owner){subsegment->number, segment});
+}
+
 bool mw__subsegment_owners_create(mw_subsegment_owners *owners, const mw_cdt *m)
 {
     size_t *first = mw__calloc(m->subsegments.count + 1, sizeof *first);

@@ -61,6 +61,8 @@ typedef struct mw_subsegment_owners {
     uint32_t *segment;
 } mw_subsegment_owners;
 bool mw__subsegment_owner_add(mw_cdt *m, mw_subsegment_owner owner); /* false when out of memory */
+/* A subsegment was made, or one made before has another owner now. False when out of memory. */
+bool mw__subsegment_note(mw_cdt *m, const mw_subsegment *subsegment, uint32_t segment);
 bool mw__subsegment_owners_create(mw_subsegment_owners *owners,
                                   const mw_cdt *m); /* false when out of memory; release anyway */
 void mw__subsegment_owners_release(mw_subsegment_owners *owners);

@@ -475,14 +475,14 @@ static bool channel_legalize(mw_segment_insertion *c, size_t triangle_count)
 
 /* --- subsegments --- */
 
-static void half_mark(mw_segment_insertion *c, uint32_t half, uint32_t *number)
+uint32_t mw__segment_insertion_mark(mw_segment_insertion *c, uint32_t half)
 {
     if (*half_subsegment(c, half) == MW_NONE) {
         *half_subsegment(c, half) = c->subsegment_count++;
         if (*half_link_field(c, half) != MW_NONE)
             *half_subsegment(c, *half_link_field(c, half)) = *half_subsegment(c, half);
     }
-    *number = *half_subsegment(c, half);
+    return *half_subsegment(c, half);
 }
 
 /* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two
@@ -494,7 +494,7 @@ static bool channel_cut_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uin
     *w = mw__half_start(c->tri, mw__half_prev(*half_link_field(c, half)));
     if (*w != b && segment_vertex_side(c, a, b, *w) != 0) return false;
     channel_flip(c, half);
-    half_mark(c, mw__link(mw__link_triangle(half), 1), number);
+    *number = mw__segment_insertion_mark(c, mw__link(mw__link_triangle(half), 1));
     c->crossed += 2;
     return true;
 }
@@ -517,7 +517,7 @@ static mw_subsegment_result channel_cut(mw_segment_insertion *c, uint32_t a, uin
     uint32_t left = side_fill(c, c->left, ch.left_count, true, &next);
     *half_link_field(c, right) = left;
     *half_link_field(c, left) = right;
-    half_mark(c, left, number);
+    *number = mw__segment_insertion_mark(c, left);
     *w = ch.w;
     return channel_legalize(c, ch.triangle_count) ? MW_SUBSEGMENT_DONE : MW_SUBSEGMENT_MEMORY;
 }
@@ -539,7 +539,7 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
     mw_subsegment_result result = MW_SUBSEGMENT_DONE;
     if (along) {
         w = mw__half_start(c->tri, half) == *ends[i] ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
-        half_mark(c, half, &subsegment->number);
+        subsegment->number = mw__segment_insertion_mark(c, half);
     } else {
         result = channel_cut(c, *ends[i], *ends[1 - i], half, &w, &subsegment->number);
         if (result != MW_SUBSEGMENT_DONE) return result;
@@ -555,10 +555,12 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
 static uint32_t segment_follow(const mw_segment_insertion *c, uint32_t from, uint32_t to, uint32_t half,
                                mw_segment_visitor *meet, void *context)
 {
+    if (!meet(context, MW_MEETS_TRIANGLE, mw__link_triangle(half))) return MW_NONE;
     for (;;) {
         uint32_t subsegment = *half_subsegment(c, half);
-        if (subsegment != MW_NONE && !meet(context, subsegment, MW_NONE)) return MW_NONE;
+        if (subsegment != MW_NONE && !meet(context, MW_MEETS_SUBSEGMENT, subsegment)) return MW_NONE;
         half = *half_link_field(c, half);
+        if (!meet(context, MW_MEETS_TRIANGLE, mw__link_triangle(half))) return MW_NONE;
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
         double s = w == to ? 0 : segment_vertex_side(c, from, to, w);
         if (s == 0) return w;
@@ -574,11 +576,12 @@ bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, u
         bool along;
         vertex_rotor r = segment_rotor(c, from, to);
         while (!rotor_leaves_here(&r, &half, &along)) segment_rotor_turn(c, &r, from, to);
+        if (along && !meet(context, MW_MEETS_EDGE, half)) return false;
         if (along)
             from = mw__half_start(c->tri, half) == from ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
         else
             from = segment_follow(c, from, to, half, meet, context);
-        if (from == MW_NONE || (from != to && !meet(context, MW_NONE, from))) return false;
+        if (from == MW_NONE || (from != to && !meet(context, MW_MEETS_VERTEX, from))) return false;
     }
     return true;
 }

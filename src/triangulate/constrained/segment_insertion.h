@@ -60,9 +60,20 @@ typedef struct mw_subsegment {
 mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *from, uint32_t *to,
                                            mw_subsegment *subsegment);
 
-/* Met by a segment: a subsegment that it crosses, or, subsegment being MW_NONE, a vertex that lies
- * on it. Returns whether to go on. */
-typedef bool mw_segment_visitor(void *context, uint32_t subsegment, uint32_t vertex);
+/* Make the edge of a half-edge a subsegment. Returns its number, which is that of before if it is one
+ * already. */
+uint32_t mw__segment_insertion_mark(mw_segment_insertion *c, uint32_t half);
+
+/* What a segment meets on its way. */
+typedef enum mw_segment_meeting {
+    MW_MEETS_SUBSEGMENT, /* crosses the subsegment of that number    */
+    MW_MEETS_VERTEX,     /* a vertex that lies on it, between its ends */
+    MW_MEETS_TRIANGLE,   /* passes through the triangle, inside       */
+    MW_MEETS_EDGE,       /* runs along the half-edge, to or from its start */
+} mw_segment_meeting;
+
+/* A segment meets the `number` of its kind. Returns whether to go on. */
+typedef bool mw_segment_visitor(void *context, mw_segment_meeting meeting, uint32_t number);
 
 /* Tell all that a segment meets between its ends, in order; the triangulation stays as it is.
  * Returns false if `meet` did. */

@@ -1,0 +1,51 @@
+/* hints.h - queries of a batch that begin at triangles of their own. Private. */
+#ifndef MW_SRC_LOCATE_HINTS_H
+#define MW_SRC_LOCATE_HINTS_H
+
+#include "locate/locator.h"
+
+/* Has an edited tiling, or had it before an undo, a triangle of this number? */
+static MW_INLINE bool hint_is_name(const mw_tiling *tiling, uint32_t hint)
+{
+    return hint < tiling->number_count || hint < tiling->name_count;
+}
+
+/* The tile where a walk may begin that was given a triangle of this number; MW_NONE if no triangle
+ * has it. Where the tiling has other tiles than the mesh has triangles, because flat ones are left
+ * out or others cut, it is a tile near that. */
+static MW_INLINE uint32_t mw__hint_tile(const mw_locator *locator, uint32_t hint)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    if (MW_UNLIKELY(tiling->tile_of)) return hint_is_name(tiling, hint) ? mw__tile_named(tiling, hint) : MW_NONE;
+    if (hint >= locator->mesh->tri_count) return MW_NONE;
+    uint32_t slot = mw__triangle_slot(locator->mesh, hint);
+    return MW_LIKELY(slot < tiling->tri_count) ? slot : slot % tiling->tri_count;
+}
+
+/* Is q so near to the tile of its hint that the guide would hardly lead nearer? Only the place of
+ * one corner is looked at: more would have to be waited for. */
+static MW_INLINE bool mw__hint_is_near(const mw_locator *locator, uint32_t t, mw_point q)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    return mw__distance2(tiling->point[tiling->tri[t].v[0]], q) <= 2 * locator->cell2;
+}
+
+/* The same for one query. MW_NONE also where the query has left its hint behind: where nothing was
+ * said of the start, the locator's guide leads nearer then. */
+static MW_INLINE uint32_t mw__hint_first(const mw_locator *locator, const mw_cursor *cursor, uint32_t hint, mw_point q)
+{
+    uint32_t t = mw__hint_tile(locator, hint);
+    bool stays = t == MW_NONE || cursor->index != &locator->guide || mw__hint_is_near(locator, t, q);
+    return stays ? t : MW_NONE;
+}
+
+/* mw__hint_first for n queries, at most MW_INDEX_MANY, whose numbers are given. They wait for
+ * memory together. */
+void mw__hints_first_many(const mw_locator *locator, const mw_cursor *cursor, const uint32_t *hints,
+                          const uint32_t *query, const mw_point *q, uint32_t n, uint32_t *t);
+
+/* Make the triangles that were found the hints of the next time; a query that found none keeps its
+ * hint. */
+void mw__hints_update(const mw_location *locations, uint32_t n, uint32_t *hints);
+
+#endif

@@ -1,0 +1,53 @@
+/* polygons.h - polygons that are ready for queries. Private.
+ *
+ * The rings are constraints of a triangulation. A segment that crosses another which is an edge already
+ * stays whole from there on: it is a chord of each triangle that it passes through. On a side of all
+ * its chords the triangle is covered by one set of polygons. The set that is stored is that of the
+ * left sides of all chords, be there a place on all of them or not:
+ *
+ *          c
+ *         / \ B          Chord k of polygon P parts the triangle. The stored set holds where a point is
+ *        / k .           to the left of k; P is in or out of it the other way for points to the right.
+ *       /  .  \          On k the point is on P's border. The side of each chord is an orient2d of the
+ *      a .-----b         segment's own points, so nothing is rounded.
+ *       A
+ */
+#ifndef MW_SRC_POLYGONS_POLYGONS_H
+#define MW_SRC_POLYGONS_POLYGONS_H
+
+#include "mesh/mesh.h"
+#include "polygons/polygon_sets.h"
+#include "polygons/rank_lists.h"
+
+#include <meshwalk/polygons.h>
+
+/* A segment that is no chain of edges. */
+typedef struct mw_polygon_chord {
+    mw_point a, b;
+    uint32_t rank; /* of its polygon */
+} mw_polygon_chord;
+
+/* Polygons go by rank: the order of their numbers. */
+struct mw_polygons {
+    mw_mesh *mesh;
+    uint32_t *polygon; /* per rank: the user's number                     */
+    uint8_t *crossing; /* per rank: do its own segments cross each other? */
+    uint32_t polygon_count;
+    uint32_t *set; /* per triangle, by number */
+    mw_polygon_sets sets;
+    uint32_t *subsegment; /* per edge, at 3 * triangle + edge: a row of `owners`, or MW_NONE */
+    uint32_t subsegment_count;
+    mw_rank_lists owners;    /* per subsegment: the polygons whose segments run along it, as often as they do */
+    mw_rank_lists corners;   /* per vertex: the polygons on whose border it lies */
+    mw_rank_lists chords;    /* per triangle: chords, by number */
+    mw_polygon_chord *chord; /* in the order of their polygons */
+    size_t chord_count;
+};
+
+/* The side of a chord on which a point lies: > 0 for the left, 0 on the chord. */
+static MW_INLINE double mw__chord_side(const mw_polygon_chord *chord, mw_point q)
+{
+    return mw__orient2d(chord->a, chord->b, q);
+}
+
+#endif
