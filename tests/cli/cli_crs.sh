@@ -25,9 +25,14 @@ rm points.prj
 run triangulate -q points.csv -o points.off; exits 0; absent points.prj
 echo 'EPSG:2056' >points.prj
 run triangulate points.csv -o points.off; exits 0; holds "the .prj is as it was" test "$(<points.prj)" == EPSG:2056
+rm points.off
 run edit -q points.ply edits.txt -o points.off
 refused 4 'points\.off: is in some grid, but points\.prj, which is there already, says EPSG:2056'
-rm points.prj
+absent points.off
+echo beside >points.shp
+echo OFF >points.off
+run edit -q points.ply edits.txt -o points.off; exits 4
+rm points.shp
 run edit -q points.ply edits.txt -o points.off; exits 0
 holds "beside OFF" test "$(<points.prj)" == 'PROJCS["some grid", UNIT["metre", 1]]'
 rm points.off points.prj
