@@ -209,6 +209,19 @@ static int columns_check_chosen(const query_columns *wanted, const mw_point_read
     return 0;
 }
 
+int query_columns_check_points(const char *path, const mw_point_reader *reader)
+{
+    static const query_columns wanted = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2};
+    mw_error error;
+    mw_point_table table;
+    found_columns found[2] = {0};
+    if (mw_point_reader_table(reader, &table, &error) != MW_OK) return fail_reading(&error);
+    size_t count = columns_find_sets(&wanted, &table, found);
+    bool few = table.column_count <= 3 && columns_are_in_order(&wanted, &table);
+    if (!table.names || (count == 1 && !found[0].doubled) || (count == 0 && few)) return 0;
+    return columns_fail_unclear(&wanted, files_is_standard(path) ? "standard input" : path, &table, found, count);
+}
+
 int query_columns_find(const query_columns *wanted, const char *path, mw_point_reader *reader, bool chosen,
                        size_t index[MAX_QUERY_COLUMNS], bool *lonlat)
 {

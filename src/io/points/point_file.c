@@ -57,6 +57,7 @@ mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options
     }
     reader->source = source;
     reader->table = options && options->table;
+    reader->texts_allowed = options && options->texts && !options->columns;
     reader->separator = ',';
     reader->decimal = '.';
     mw_status status = point_reader_start(reader, options ? options : &none, error);
@@ -145,6 +146,13 @@ mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
     return reader->select(reader, columns, count, error);
 }
 
+uint64_t mw_point_reader_texts(const mw_point_reader *reader, size_t column, int64_t *line)
+{
+    if (!reader->texts || column >= reader->width || reader->texts[column].count == 0) return 0;
+    if (line) *line = reader->texts[column].line;
+    return reader->texts[column].count;
+}
+
 const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length)
 {
     *length = 0;
@@ -159,6 +167,7 @@ void mw_point_reader_close(mw_point_reader *reader)
     mw__table_header_release(&reader->header);
     mw__row_texts_release(&reader->rows);
     free(reader->state);
+    free(reader->texts);
     free(reader->crs);
     free(reader);
 }
