@@ -3,7 +3,7 @@
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
     local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
-    query="$query --columns"
+    query="$query --columns --crs --points-crs"
     query="$query --any"
     local stream='--strict --stats --json --layer --where --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
@@ -72,6 +72,7 @@ _meshwalk_names() {
         --outside) echo 'empty nearest linear' ;;
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
+        --points-crs) echo same ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;
@@ -107,7 +108,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field | --layer | --where | --attribute | --polygon-layer) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --field | --layer | --where | --attribute | --polygon-layer) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then

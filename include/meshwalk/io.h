@@ -131,6 +131,14 @@ typedef struct mw_point_reader_options {
     uint32_t reserved[2];
 } mw_point_reader_options;
 
+/** Tell the coordinate system that a .prj file beside a file names: the name without .gz and without its ending, and
+ * .prj. The readers of meshes, points and constraints do this by themselves.
+ * @param path  name of the file, which need not exist; "-" has none beside it
+ * @param crs   a text on one line, WKT or "EPSG:n", released by the caller with free(); NULL = there is no such file, or
+ *              it names no system
+ * @return MW_OK; MW_ERROR_ARGUMENT: NULL; MW_ERROR_MEMORY. Thread-safe. */
+MW_API mw_status mw_read_prj(const char *path, char **crs, mw_error *error);
+
 /** Names that files give to the coordinates of a point, as "lon", "lat" and "z". */
 typedef struct mw_axis_names {
     const char *axis[3];

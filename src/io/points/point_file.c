@@ -5,7 +5,6 @@
 #include "io/mesh/mesh_formats.h"
 #include "io/points/las.h"
 #include "io/points/point_table.h"
-#include "io/text/crs_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,7 +77,7 @@ mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *
     mw_status status = options ? MW_RESERVED_CHECK(mw_point_reader_options, options, error) : MW_OK;
     if (!status) status = mw__source_open(&source, path, error);
     if (!status) status = mw__point_reader_start(source, options, out, error);
-    if (!status && !(*out)->crs) status = mw__crs_beside(path, &(*out)->crs, error);
+    if (!status && !(*out)->crs) status = mw_read_prj(path, &(*out)->crs, error);
     if (status && *out) mw_point_reader_close(*out), *out = NULL;
     return status;
 }
