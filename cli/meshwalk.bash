@@ -45,6 +45,7 @@ _meshwalk_names() {
             echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
             echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
             ;;
+        --help | -h) echo all ;;
         --fix) echo 'weld orient drop split all' ;;
         --as) echo 'plane surface star' ;;
         --walk)

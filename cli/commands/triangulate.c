@@ -412,6 +412,7 @@ const command triangulate_command = {
         "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
         "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
+    .essential = "columns constraints max-edge class output",
     .settings_size = sizeof(triangulate_settings),
     .run = triangulate_run,
 };

@@ -216,7 +216,7 @@ int query_columns_check_points(const char *path, const mw_point_reader *reader)
     mw_point_table table;
     found_columns found[2] = {0};
     if (mw_point_reader_table(reader, &table, &error) != MW_OK) return fail_reading(&error);
-    size_t count = columns_find_sets(&wanted, &table, found);
+    size_t count = columns_find_sets(&wanted, &table, PREFER_NOTHING, found);
     bool few = table.column_count <= 3 && columns_are_in_order(&wanted, &table);
     if (!table.names || (count == 1 && !found[0].doubled) || (count == 0 && few)) return 0;
     return columns_fail_unclear(&wanted, files_is_standard(path) ? "standard input" : path, &table, found, count);
