@@ -242,7 +242,7 @@ static int edit_write_mesh(const edit_settings *s, edit_work *w, bool temporary)
     mw_mesh_destroy(mesh);
     v.file.crs = w->crs;
     w->crs = NULL;
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, temporary);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, temporary, s->common.quiet);
     vertex_table_release(&v);
     return end;
 }
