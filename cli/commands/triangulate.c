@@ -5,6 +5,7 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
+#include "cli/input/border_peel.h"
 #include "cli/input/constraint_file.h"
 #include "cli/input/missing_values.h"
 #include "cli/input/vertex_table.h"
@@ -20,6 +21,7 @@ typedef struct triangulate_settings {
     const char *columns, *classes, *constraints;
     int kind, format, keep;
     uint32_t limit;
+    double max_edge;
     bool json, split, strict;
 } triangulate_settings;
 
@@ -58,6 +60,10 @@ static const option triangulate_options[] = {
      "with --constraints, refuse a FILE that has rings of fewer than three different points; without it they are "
      "skipped with a warning",
      NULL},
+    {"max-edge", 0, OPTION_LENGTH, offsetof(triangulate_settings, max_edge), "L",
+     "peel triangles off the border while they have a border edge longer than L; constraints hold them (default: keep "
+     "the convex hull)",
+     NULL},
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
      "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
     {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
@@ -68,7 +74,7 @@ static const option triangulate_options[] = {
      "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &mesh_formats},
     {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
      "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first two are x and y, the "
-     "third is z, further ones become fields (default: all, with x, y and z first where a header names them)",
+     "third is z, further ones become fields (default: all that hold numbers; x, y and z are found by their names)",
      NULL},
     {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
      "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)", NULL},
@@ -84,6 +90,7 @@ typedef struct triangulate_work {
     mw_constrained_edges edges;
     mw_constrain_report constrained;
     mw_kind_report kind;
+    border_peel peel;
     double begin;
 } triangulate_work;
 
@@ -93,6 +100,37 @@ static void triangulate_work_release(triangulate_work *w)
     mw_constraint_file_release(&w->constraints);
     mw_constrained_edges_release(&w->edges);
     free(w->duplicate_of);
+}
+
+/* Take all triangles of the mesh but those that --max-edge peels off, and destroy it. */
+static int triangulate_take_mesh(const triangulate_settings *s, const char *path, triangulate_work *w, mw_mesh *mesh)
+{
+    int end = vertex_table_complete(&w->vertices, mesh);
+    if (end == 0 && s->max_edge > 0) end = border_peel_off(mesh, s->max_edge, &w->edges, &w->vertices.file, &w->peel);
+    mw_mesh_destroy(mesh);
+    if (end || w->vertices.file.triangle_count > 0 || w->peel.triangles == 0) return end;
+    complain("%s: no triangle is left: all have longer edges than --max-edge", path);
+    return END_INPUT;
+}
+
+/* Warn of points that only peeled triangles had, and of polygons that leave out most points. */
+static void triangulate_warn_of_points(const triangulate_settings *s, const char *points, const triangulate_work *w)
+{
+    if (s->common.quiet || !points) return;
+    const mw_mesh_file *file = &w->vertices.file;
+    if (w->peel.points > 0)
+        complain("%s: %zu of its %zu points belong to no triangle any more: --max-edge peeled theirs off", points,
+                 w->peel.points, file->point_count);
+    uint8_t *used = w->constrained.triangles_removed ? calloc(file->point_count + 1, 1) : NULL;
+    if (!used) return;
+    size_t inside = 0;
+    for (size_t i = 0; i < 3 * file->triangle_count; i++) used[file->triangles[i]] = 1;
+    for (size_t i = 0; i < w->vertices.points; i++) inside += used[i];
+    free(used);
+    if (2 * inside < w->vertices.points && w->vertices.points > 2)
+        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others; --keep hull keeps "
+                 "their triangles",
+                 points, w->vertices.points - inside, w->vertices.points, s->constraints);
 }
 
 /* The library chooses the part to keep; but segments of a .poly bound a domain, as for Triangle. */
@@ -143,8 +181,7 @@ static int triangulate_with_constraints(const triangulate_settings *s, const cha
     if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->edges, &mesh, &error) !=
         MW_OK)
         return triangulate_fail_constrained(s, points, w, &error);
-    int end = vertex_table_complete(&w->vertices, mesh);
-    mw_mesh_destroy(mesh);
+    int end = triangulate_take_mesh(s, points ? points : s->constraints, w, mesh);
     bool on_a_line = false;
     if (end == 0)
         end = missing_values_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, s->common.threads,
@@ -182,8 +219,7 @@ static int triangulate_points(const triangulate_settings *s, const char *path, t
     if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
                        &mesh, &error) != MW_OK)
         return fail_mesh(path, &error);
-    int end = vertex_table_complete(&w->vertices, mesh);
-    mw_mesh_destroy(mesh);
+    int end = triangulate_take_mesh(s, path, w, mesh);
     if (end == 0) triangulate_warn_if_local(s, path, &w->kind);
     return end;
 }
@@ -209,6 +245,16 @@ static void triangulate_report_kind(report *r, const triangulate_settings *s, co
     report_count(r, "local_faces", kind->local_faces);
 }
 
+/* What became of the columns of POINTS: heights come from this one, and fields from these. */
+static void triangulate_report_columns(report *r, const vertex_table *v)
+{
+    if (v->height_name)
+        report_string(r, "heights", v->height_name);
+    else
+        report_missing(r, "heights", "none");
+    report_strings(r, "fields", v->file.field_names, v->file.field_count);
+}
+
 /* Print the report on standard output; on standard error if the mesh goes to standard output. */
 static int triangulate_print_report(const triangulate_settings *s, const triangulate_work *w)
 {
@@ -219,6 +265,8 @@ static int triangulate_print_report(const triangulate_settings *s, const triangu
     report_count(&r, "points", made->points);
     report_count(&r, "duplicates", made->duplicates);
     report_count(&r, "triangles", w->vertices.file.triangle_count);
+    if (s->max_edge > 0) report_count(&r, "peeled", w->peel.triangles);
+    triangulate_report_columns(&r, &w->vertices);
     report_rounded(&r, "visited_per_point", made->points ? (double)made->triangles_visited / (double)made->points : 0);
     if (s->constraints)
         triangulate_report_constrained(&r, w);
@@ -267,7 +315,8 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
 
 static int triangulate_read_input(const triangulate_settings *s, const char *points, triangulate_work *w)
 {
-    int end = points ? vertex_table_read(&w->vertices, points, s->columns, s->classes) : 0;
+    const vertex_table_options how = {s->columns, s->classes, s->common.quiet};
+    int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
     if (end || !s->constraints) return end;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
     end = constraint_file_read(s->constraints, options, &w->constraints);
@@ -285,8 +334,9 @@ static int triangulate_run(const void *settings, const char *const *operands)
     if (end == 0) end = triangulate_read_input(s, points, &w);
     if (end == 0)
         end = s->constraints ? triangulate_with_constraints(s, points, &w) : triangulate_points(s, points, &w);
+    if (end == 0) triangulate_warn_of_points(s, points, &w);
     if (end == 0 && !s->common.quiet) mesh_output_warn(s->common.output, s->format, &w.vertices.file);
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary, s->common.quiet);
     if (end == 0) end = triangulate_print_report(s, &w);
     triangulate_work_release(&w);
     return end;
@@ -303,10 +353,11 @@ const command triangulate_command = {
     .description =
         "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says otherwise. Vertex i of the mesh "
         "is point i, from 0. A point equal to an earlier one is counted in the report, and belongs to no "
-        "triangle. A third column is the height, further columns become fields. With --constraints, "
+        "triangle. A column z, or height, is the height; further columns of numbers become fields. With --constraints, "
         "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
         "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
+    .essential = "columns constraints max-edge class output",
     .settings_size = sizeof(triangulate_settings),
     .run = triangulate_run,
 };

@@ -11,12 +11,19 @@ typedef struct vertex_table {
     size_t points;       /* the number of vertices from POINTS, the first ones */
     size_t point_fields; /* the number of fields that POINTS have, the first ones */
     bool point_heights;  /* do POINTS have heights? */
+    char *height_name;   /* the column of POINTS that the heights come from; NULL: none */
 } vertex_table;
 
 /* The functions with a result return 0, or an exit code after a complaint. */
 
-/* Read POINTS; `columns` and `classes` are the options of these names, and may be NULL. */
-int vertex_table_read(vertex_table *v, const char *path, const char *columns, const char *classes);
+/* How POINTS are read. */
+typedef struct vertex_table_options {
+    const char *columns, *classes; /* the options of these names; NULL: not given */
+    bool quiet;                    /* do not tell which columns become no fields */
+} vertex_table_options;
+
+/* Read POINTS. */
+int vertex_table_read(vertex_table *v, const char *path, const vertex_table_options *how);
 /* Append the points of constraints, and renumber the constraints' segments accordingly. */
 int vertex_table_append(vertex_table *v, mw_constraint_file *constraints);
 /* Append the vertices that the mesh has beyond these, and take its triangles. */
