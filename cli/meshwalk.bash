@@ -8,7 +8,8 @@ _meshwalk_options() {
     local stream='--strict --stats --json --layer --where --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
-        info | check) echo "--as --centre --lonlat --weld --json $common" ;;
+        info) echo "--as --centre --lonlat --weld --json $common" ;;
+        check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
@@ -20,7 +21,7 @@ _meshwalk_options() {
         probe)
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
-        walk) echo "--from --to --walk --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
+        walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
@@ -44,6 +45,7 @@ _meshwalk_names() {
             echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
             echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
             ;;
+        --fix) echo 'weld orient drop split all' ;;
         --as) echo 'plane surface star' ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return

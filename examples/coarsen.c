@@ -2,8 +2,8 @@
  *
  *     coarsen TERRAIN --tolerance H -o OUT        (coarsen --help)
  *
- * Vertices are removed one after the other, that one first whose removal leaves the smallest error, as in J. Lee, Comparison of existing
- * methods for building triangular irregular network models (1991), called drop heuristic there. When none can go any more, exchanges
+ * Vertices are removed one after the other, that one first whose removal leaves the smallest error, as in the
+ * "drop heuristic" [Lee 1991]. When none can go any more, exchanges
  * are tried: a vertex goes although the error is too large then, the original point with the largest error comes back as a vertex, and
  * if then another vertex beside it can go, one has been gained.
  *

@@ -125,7 +125,7 @@ static mw_status swarm_look(swarm *w, const strait *s, const double *place, mw_e
     mw_query_options options = {.hints = w->hint};
     mw_value_table table = {.values = s->current, .type = MW_FLOAT64, .count = 2};
     mw_status status = mw_locate_batch(s->locator, place, w->count, 2, &options, w->at, NULL, error);
-    return status ? status : mw_interpolate_table(s->mesh, &table, w->at, w->count, w->current, error);
+    return status ? status : mw_interpolate_table(s->mesh, &table, w->at, w->count, NULL, w->current, error);
 }
 
 /* Particle i is at `place`, out of the water. It stays on the shore, or has left the strait. */

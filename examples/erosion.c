@@ -2,7 +2,7 @@
  *
  *     erosion TERRAIN [-o OUT] [options]        (erosion --help)
  *
- * The model is that of H. T. Beyer, Implementation of a method for hydraulic erosion (bachelor's thesis, TU Muenchen, 2015): drops
+ * The model [Beyer 2015]: drops
  * fall one after the other, run downhill, carry soil as far as their speed, water and the slope let them, take up more where they could
  * carry more, and lay it down where they cannot carry what they have. There the terrain is a grid; here it is a mesh, a drop runs along
  * edges from vertex to vertex, and the mesh follows the valleys: vertices are inserted along the beds that drops dig, moved to make them

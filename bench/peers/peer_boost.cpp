@@ -1,5 +1,5 @@
-// peer_boost.cpp - Boost's R-tree over the boxes of the triangles, packed [Leutenegger, Edgington,
-// Lopez 1997], and an exact orientation test of each triangle whose box holds the point.
+// peer_boost.cpp - Boost's R-tree over the boxes of the triangles, packed [Leutenegger, Lopez,
+// Edgington 1997], and an exact orientation test of each triangle whose box holds the point.
 #include "bench/peers/peer_list.h"
 #include "bench/peers/peer_support.h"
 

@@ -1,4 +1,4 @@
-// peer_geos.cpp - GEOS: its STRtree [Leutenegger, Edgington, Lopez 1997] over the boxes of the
+// peer_geos.cpp - GEOS: its STRtree [Leutenegger, Lopez, Edgington 1997] over the boxes of the
 // triangles, by the C interface, and an exact orientation test of each triangle whose box holds the
 // point.
 #include "bench/peers/peer_list.h"

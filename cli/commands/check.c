@@ -1,17 +1,41 @@
 /* check - every defect of a mesh, with its place; of a mesh in the plane, a surface or a
- * star-shaped polyhedron. */
+ * star-shaped polyhedron. With --fix also a mesh in which they are mended. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
 #include "cli/input/mesh_space.h"
+#include "cli/output/mended_mesh.h"
+#include "cli/output/mesh_output.h"
+#include "cli/output/side_outputs.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 
+typedef struct check_settings {
+    mesh_space_settings mesh;
+    const char *fix, *numbers;
+    double tolerance;
+    int format;
+} check_settings;
+
 static const option check_options[] = {
-    {"json", 0, OPTION_FLAG, offsetof(mesh_space_settings, json), NULL, "print the defects as JSON", NULL},
+    {"fix", 0, OPTION_TEXT, offsetof(check_settings, fix), "LIST",
+     "mend these, write the mesh to -o OUT, and tell each change, and what could not be mended:", &mend_repairs},
+    {"tolerance", 0, OPTION_LENGTH, offsetof(check_settings, tolerance), "D",
+     "--fix: weld vertices that are at most D apart, and split border edges at vertices at most D off (default: 0, "
+     "exact)",
+     NULL},
+    {"numbers", 0, OPTION_TEXT, offsetof(check_settings, numbers), "FILE",
+     "--fix: write to FILE which numbers of vertices and triangles became which", NULL},
+    {"format", 0, OPTION_CHOICE, offsetof(check_settings, format), "NAME",
+     "--fix: format of OUT (default: auto, by its ending):", &mesh_formats},
+    {"json", 0, OPTION_FLAG, offsetof(check_settings, mesh.json), NULL, "print the defects as JSON", NULL},
+    {"output", 'o', OPTION_TEXT, offsetof(check_settings, mesh.common.output), "FILE",
+     "write to FILE; with --fix the mended mesh (default: standard output)", NULL},
+    {"quiet", 'q', OPTION_FLAG, offsetof(check_settings, mesh.common.quiet), NULL,
+     "no progress on standard error; with --fix do not list the changes", NULL},
     {0},
 };
 
@@ -92,10 +116,9 @@ static check_outcome check_outcome_of(const mesh_space_settings *s, const mw_che
     return o;
 }
 
-static void check_as_json(text *t, const char *path, const mw_check *check, const check_outcome *o)
+/* The members of a JSON object after the first one. */
+static void check_as_json(text *t, const mw_check *check, const check_outcome *o)
 {
-    text_string(t, "{\n \"file\": ");
-    report_quote(t, path);
     text_printf(t, ",\n \"%s\": %s,\n \"verdict\": ", o->verdict->key, o->sound ? "true" : "false");
     report_quote(t, o->words);
     text_string(t, ",\n \"defects\": [");
@@ -106,12 +129,19 @@ static void check_as_json(text *t, const char *path, const mw_check *check, cons
     text_string(t, check->defect_count ? "\n ]\n}\n" : "]\n}\n");
 }
 
-static void check_as_text(text *t, const char *path, const mw_check *check, const check_outcome *o)
+static void check_json_begin(text *t, const char *path)
+{
+    text_string(t, "{\n \"file\": ");
+    report_quote(t, path);
+}
+
+/* A line for each defect; before each stands `place`. */
+static void check_as_text(text *t, const char *path, const char *place, const mw_check *check, const check_outcome *o)
 {
     for (size_t i = 0; i < check->defect_count; i++) {
         char words[256];
         mw_defect_describe(&check->defects[i], words, sizeof words);
-        text_printf(t, "%s\n", words);
+        text_printf(t, "%s%s\n", place, words);
     }
     text_printf(t, "%s: %s\n", path, o->words);
 }
@@ -136,40 +166,129 @@ static int check_mesh_file(const mesh_space_settings *s, const char *path, const
     progress_phase("checking", path);
     if (check_arrays(s, &arrays, &check, &error) != MW_OK) return fail_mesh(path, &error);
     check_outcome o = check_outcome_of(s, &check, file);
-    if (s->json)
-        check_as_json(&t, path, &check, &o);
-    else
-        check_as_text(&t, path, &check, &o);
+    if (s->json) {
+        check_json_begin(&t, path);
+        check_as_json(&t, &check, &o);
+    } else {
+        check_as_text(&t, path, "", &check, &o);
+    }
     int end = files_write_text(s->common.output, &t);
     if (end == 0 && !o.good) end = END_INPUT;
     mw_check_release(&check);
     return end;
 }
 
+/* --- mending --- */
+
+static int check_refuse(const char *why)
+{
+    complain("check: %s", why);
+    return END_USAGE;
+}
+
+static int check_fix_settings(const check_settings *s, const char *const *operands, side_output *numbers)
+{
+    const char *output = s->mesh.common.output;
+    if (!s->fix && (s->numbers || s->tolerance > 0 || s->format))
+        return check_refuse("--numbers, --tolerance and --format are about --fix");
+    if (!s->fix) return 0;
+    if (s->mesh.lonlat) return check_refuse("--fix mends no mesh of --lonlat");
+    int end = mesh_output_check("check", output, s->format);
+    if (end == 0) end = files_check_output(output, operands, 1);
+    return end ? end : side_outputs_check(numbers, 1, output, operands, 1);
+}
+
+/* Tell the changes, in the numbers of the file, and what is wrong with the mended mesh. */
+static void check_fix_tell(const check_settings *s, const char *path, const mended_mesh *m, const mw_mesh_file *file,
+                           const mw_check *check, const check_outcome *o, text *t)
+{
+    const char *output = s->mesh.common.output;
+    char place[512];
+    if (s->mesh.json) {
+        check_json_begin(t, path);
+        text_string(t, ",\n \"output\": ");
+        report_quote(t, output);
+        text_string(t, ",\n ");
+        mended_mesh_tell_json(m, file, t);
+        check_as_json(t, check, o);
+        return;
+    }
+    snprintf(place, sizeof place, "%s: ", output);
+    if (!s->mesh.common.quiet) mended_mesh_tell(m, file, t);
+    mended_mesh_sum_up(m, path, t);
+    check_as_text(t, output, place, check, o);
+}
+
+/* Check what was mended, write it, then tell about it. One of the files may take standard output. */
+static int check_fix_write(const check_settings *s, const char *path, const mended_mesh *m, const mw_mesh_file *file,
+                           bool temporary)
+{
+    mw_error error;
+    mw_check check;
+    text t = {0};
+    const char *output = s->mesh.common.output;
+    mw_arrays arrays = mw_mesh_file_arrays(file);
+    progress_phase("checking", output);
+    if (check_arrays(&s->mesh, &arrays, &check, &error) != MW_OK) return fail_mesh(output, &error);
+    check_outcome o = check_outcome_of(&s->mesh, &check, file);
+    if (!s->mesh.common.quiet) mesh_output_warn(output, s->format, file);
+    int end = mesh_output_write(output, s->format, file, temporary);
+    check_fix_tell(s, path, m, file, &check, &o, &t);
+    mw_check_release(&check);
+    bool taken = files_is_standard(output) || (s->numbers && files_is_standard(s->numbers));
+    if (end) text_release(&t);
+    if (end) return end;
+    end = taken ? files_write_error_text(&t) : files_write_text(NULL, &t);
+    return end || o.good ? end : END_UNANSWERED;
+}
+
+static int check_fix_file(const check_settings *s, const char *path, mw_mesh_file *file, side_output *numbers)
+{
+    mended_mesh m = {0};
+    bool temporary;
+    mw_mend_options options = {
+        .space = s->mesh.space != SPACE_PLANE, .tolerance = s->tolerance, .progress = progress_of_call()};
+    int end = mended_mesh_parse(s->fix, &options.repairs);
+    if (end == 0) end = files_try_output(s->mesh.common.output, &temporary);
+    if (end == 0) end = side_outputs_open(numbers, 1);
+    if (end == 0) end = mended_mesh_create(&m, path, file, &options);
+    if (end == 0 && s->numbers) mended_mesh_write_numbers(&m, numbers->out);
+    if (end == 0) end = check_fix_write(s, path, &m, file, temporary);
+    int closed = side_outputs_close(numbers, 1, end <= END_UNANSWERED);
+    mended_mesh_release(&m);
+    return end > END_UNANSWERED || closed == 0 ? end : closed;
+}
+
 static int check_run(const void *settings, const char *const *operands)
 {
-    const mesh_space_settings *s = settings;
+    const check_settings *s = settings;
     mw_mesh_file file = {0};
-    int end = mesh_space_read(s, operands, &file);
-    if (end == 0) end = check_mesh_file(s, operands[0], &file);
+    uint32_t repairs;
+    side_output numbers = {"numbers", s->numbers, NULL};
+    int end = s->fix ? mended_mesh_parse(s->fix, &repairs) : 0;
+    if (end == 0) end = check_fix_settings(s, operands, &numbers);
+    if (end == 0) end = mesh_space_read(&s->mesh, operands, &file);
+    if (end == 0)
+        end = s->fix ? check_fix_file(s, operands[0], &file, &numbers) : check_mesh_file(&s->mesh, operands[0], &file);
     mw_mesh_file_release(&file);
     return end;
 }
 
-static const option *const tables[] = {mesh_space_options, check_options, common_options, NULL};
+static const option *const tables[] = {check_options, mesh_space_options, common_options, NULL};
 
 const command check_command = {
     .name = "check",
     .operands = "MESH",
     .operand_count = 1,
-    .summary = "list the defects of a mesh",
+    .summary = "list the defects of a mesh, and mend them",
     .description =
         "Prints every defect of MESH with its place, one on a line, and then whether the mesh is an "
         "embedding: whether its triangles cover the plane without folds and overlaps. Exits with 0 if it "
         "is one and with 3 if not, or if no triangle has an area. Flat triangles beside others are listed, but do "
-        "no harm. With --as, MESH is checked as a surface or as a star-shaped polyhedron in the same way. '-' is "
-        "standard input.",
+        "no harm. With --as, MESH is checked as a surface or as a star-shaped polyhedron in the same way. With "
+        "--fix, a mended mesh is written and told about; then the exit code is 0 if that is an embedding, and 1 if "
+        "defects remain. '-' is standard input.",
     .options = tables,
-    .settings_size = sizeof(mesh_space_settings),
+    .settings_size = sizeof(check_settings),
     .run = check_run,
 };

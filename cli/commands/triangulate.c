@@ -285,6 +285,7 @@ static int triangulate_run(const void *settings, const char *const *operands)
     if (end == 0) end = triangulate_read_input(s, points, &w);
     if (end == 0)
         end = s->constraints ? triangulate_with_constraints(s, points, &w) : triangulate_points(s, points, &w);
+    if (end == 0 && !s->common.quiet) mesh_output_warn(s->common.output, s->format, &w.vertices.file);
     if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary);
     if (end == 0) end = triangulate_print_report(s, &w);
     triangulate_work_release(&w);

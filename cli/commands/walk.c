@@ -1,5 +1,6 @@
 /* walk - one walk, triangle by triangle: listed or drawn. */
 #include "cli/commands/commands.h"
+#include "cli/draw/animation.h"
 #include "cli/draw/drawing.h"
 #include "cli/draw/picture.h"
 #include "cli/frame/files.h"
@@ -19,6 +20,7 @@ typedef struct walk_settings {
     coordinates from, to;
     double max_distance;
     uint32_t samples, iterations;
+    const char *animate;
     int walk; /* mw_walk_kind, or MW_WALK_COUNT for all; a polyhedron has the walk of that name */
 } walk_settings;
 
@@ -48,6 +50,11 @@ static const option walk_options[] = {
      "how to walk (default: auto). --as plane takes all of these, and --as star auto, stochastic, "
      "forgetful, barycentric, orthogonal and straight; a probe has one walk:",
      &walk_choices},
+    {"animate", 0, OPTION_TEXT, offsetof(walk_settings, animate), "FILE",
+     "show the walk step by step in FILE, an animated PNG (.png or .apng); the list or picture of the whole is then "
+     "written "
+     "only with -o",
+     NULL},
     {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(walk_settings, max_distance), "D",
      "--as surface: touch nothing that is farther than D from the point, either way; 0: only what lies at the point "
      "(default: no limit)",
@@ -108,7 +115,20 @@ static int walk_check_output(const char *path)
     return END_USAGE;
 }
 
-static int walk_check_options(const walk_settings *s)
+static int walk_check_animation(const walk_settings *s, const char *const *operands)
+{
+    const char *path = s->animate, *output = s->mesh.common.output;
+    if (!path) return 0;
+    if (s->walk == MW_WALK_COUNT) return walk_option_wants("animate", "one walk, not --walk all");
+    if (!animation_named(path)) return walk_option_wants("animate", "a .png or .apng file");
+    if (!files_is_standard(output) && files_same_output(path, output))
+        return walk_option_wants("animate", "another file than --output");
+    int end = files_check_output(path, operands, 1);
+    if (end == 0) end = picture_check(path);
+    return end ? end : files_try_output(path, NULL);
+}
+
+static int walk_check_options(const walk_settings *s, const char *const *operands)
 {
     int end = walk_check_coordinates(s, "from", &s->from);
     if (end == 0) end = walk_check_coordinates(s, "to", &s->to);
@@ -118,7 +138,8 @@ static int walk_check_options(const walk_settings *s)
         if (s->samples > 0) return walk_option_wants("samples", "--as surface");
         if (s->iterations > 0) return walk_option_wants("iterations", "--as surface");
     }
-    return end ? end : walk_check_output(s->mesh.common.output);
+    if (end == 0) end = walk_check_output(s->mesh.common.output);
+    return end ? end : walk_check_animation(s, operands);
 }
 
 /* --- the walk --------------------------------------------------------------------------------- */
@@ -465,6 +486,16 @@ static int walk_write_picture(const walk_record *w)
     return drawing_write(&d, w->settings->mesh.common.output);
 }
 
+static int walk_write_animation(const walk_record *w)
+{
+    enum { TRIANGLES = 4000 /* of the mesh, which each step shows again */ };
+    char caption[160];
+    drawing d = walk_drawing(w, caption);
+    d.most_triangles = TRIANGLES;
+    progress_phase("drawing", w->settings->animate);
+    return drawing_write_animation(&d, w->settings->animate);
+}
+
 static int walk_and_write(walk_record *w)
 {
     const walk_settings *s = w->settings;
@@ -472,7 +503,8 @@ static int walk_and_write(walk_record *w)
     int end = s->mesh.space == SPACE_PLANE  ? walk_plane(w)
               : s->mesh.space == SPACE_STAR ? walk_star(w)
                                             : walk_surface(w);
-    if (end) return end;
+    if (end == 0 && s->animate) end = walk_write_animation(w);
+    if (end || (s->animate && !s->mesh.common.output)) return end;
     return walk_writes_picture(s) ? walk_write_picture(w) : walk_write_list(w);
 }
 
@@ -517,7 +549,7 @@ static int walk_run(const void *settings, const char *const *operands)
     mw_mesh_file file = {0};
     walk_record w = {.settings = s, .path = operands[0], .file = &file, .walk = (mw_walk_kind)s->walk};
     bool all = s->walk == MW_WALK_COUNT;
-    int end = walk_check_options(s);
+    int end = walk_check_options(s, operands);
     if (end == 0) end = mesh_space_read(&s->mesh, operands, &file);
     if (end == 0) end = all ? walk_all_and_write(&w) : walk_and_write(&w);
     walk_record_release(&w);
@@ -535,7 +567,8 @@ const command walk_command = {
     .description =
         "Walks through MESH from the triangle that contains --from to the one that contains --to, and writes the "
         "triangles visited: as a list, step,triangle,iteration, in order and numbered from 0; or as a picture, if the "
-        "output is an .svg, .png or .pdf file. With --as star, the walk goes over the facets of a polyhedron from one "
+        "output is an .svg, .png or .pdf file; or step by step (--animate). With --as star, the walk goes over the "
+        "facets of a polyhedron from one "
         "ray to the other. With --as surface, it is that of a probe at --from that moves towards --to, and iteration "
         "is the number of its walk; it begins in a triangle chosen at random. '-' is standard input.",
     .options = tables,

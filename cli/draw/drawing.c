@@ -1,9 +1,10 @@
 /* drawing.c - a scene, painted from back to front with Cairo.
  *
  * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin veil: those of the
- * walk that turn their back are painted first, and so shimmer through. Green and vermilion are those of Okabe and
- * Ito (2008), which colour-blind people can tell apart. */
+ * walk that turn their back are painted first, and so shimmer through. Green and vermilion are those of [Okabe,
+ * Ito 2008], which colour-blind people can tell apart. */
 #include "cli/draw/drawing.h"
+#include "cli/draw/animation.h"
 #include "cli/frame/message.h"
 #include "cli/draw/picture.h"
 
@@ -13,6 +14,7 @@
 
 #include <cairo.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +64,7 @@ static void colour_of_visit(const scene *s, uint32_t visit, double rgb[3])
 static void colour_of_triangle(const scene *s, const painted_triangle *p, double rgb[3])
 {
     const drawing *d = s->d;
-    if (p->triangle == d->path[d->path_count - 1])
+    if (p->triangle == d->path[s->seen - 1])
         memcpy(rgb, vermilion, sizeof vermilion);
     else if (p->triangle == d->path[0])
         memcpy(rgb, green, sizeof green);
@@ -130,8 +132,9 @@ static void triangle_trace(cairo_t *c, const scene *s, uint32_t triangle)
 
 static void triangle_paint(cairo_t *c, const scene *s, const painted_triangle *p, double width)
 {
-    bool walk = s->visit[p->triangle] != UINT32_MAX;
+    bool walk = s->visit[p->triangle] < s->seen;
     double rgb[3];
+    if (p->back && !walk) return; /* not seen yet */
     triangle_trace(c, s, p->triangle);
     if (walk) {
         colour_of_triangle(s, p, rgb);
@@ -241,7 +244,7 @@ static void scene_paint_caption(cairo_t *c, const scene *s, double y)
     cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(c, 11);
     double x = MARGIN;
-    legend_write_words(c, x, y, s->d->caption);
+    legend_write_words(c, x, y, s->caption);
     if (!s->d->path_count) return;
     x = legend_sample(c, x, y + LEGEND, green, "first");
     x = legend_sample(c, x, y + LEGEND, vermilion, "last");
@@ -271,7 +274,7 @@ static void drawing_draw(cairo_t *c, const void *self)
     scene_paint_line(c, s);
     if (s->d->path_count) {
         triangle_ring(c, s, s->d->path[0], green);
-        triangle_ring(c, s, s->d->path[s->d->path_count - 1], vermilion);
+        triangle_ring(c, s, s->d->path[s->seen - 1], vermilion);
     }
     scene_paint_end(c, s, s->d->line, false);
     scene_paint_end(c, s, s->d->line + 3 * (s->d->line_count - 1), true);
@@ -323,7 +326,59 @@ int drawing_write(const drawing *d, const char *path)
     return drawing_write_sheet(d, 1, path);
 }
 
+/* --- animations ---------------------------------------------------------------------------------------------------- */
+
+enum { MOST_FRAMES = 120, CAPTION_ROOM = 240 };
+
+typedef struct moving_scene {
+    scene scene;
+    size_t steps; /* visits that each frame adds */
+    uint32_t frames;
+    char caption[CAPTION_ROOM];
+} moving_scene;
+
+static void moving_scene_draw(cairo_t *c, uint32_t frame, void *self)
+{
+    moving_scene *m = self;
+    size_t all = m->scene.d->path_count, seen = (frame + 1) * m->steps;
+    m->scene.seen = frame + 1 < m->frames ? seen : all;
+    snprintf(m->caption, sizeof m->caption, "%s: %zu", m->scene.d->caption, m->scene.seen);
+    m->scene.caption = m->caption;
+    drawing_draw(c, &m->scene);
+}
+
+/* All frames take about eight seconds, but none is shorter or longer than eyes can follow; the last one
+ * stays a while. */
+static uint16_t moving_scene_milliseconds(uint32_t frame, void *self)
+{
+    const moving_scene *m = self;
+    double each = fmin(500, fmax(60, 8000.0 / m->frames));
+    return frame + 1 < m->frames ? (uint16_t)each : 2000;
+}
+
+int drawing_write_animation(const drawing *d, const char *path)
+{
+    moving_scene m = {.steps = (d->path_count + MOST_FRAMES - 1) / MOST_FRAMES};
+    m.frames = d->path_count ? (uint32_t)((d->path_count + m.steps - 1) / m.steps) : 1;
+    bool made = scene_make(&m.scene, d);
+    animation a = {.width = made ? scene_page_width(&m.scene) : 0,
+                   .height = made ? scene_page_height(&m.scene) : 0,
+                   .frames = m.frames,
+                   .draw = moving_scene_draw,
+                   .milliseconds = moving_scene_milliseconds,
+                   .self = &m};
+    int end = made ? animation_write(&a, path) : fail_memory();
+    scene_release(&m.scene);
+    return end;
+}
+
 #else
+
+int drawing_write_animation(const drawing *d, const char *path)
+{
+    (void)d;
+    return picture_check(path);
+}
 
 int drawing_write(const drawing *d, const char *path)
 {

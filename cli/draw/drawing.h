@@ -10,4 +10,7 @@ int drawing_write(const drawing *d, const char *path);
 /* Several on one sheet, in rows. */
 int drawing_write_sheet(const drawing *d, size_t count, const char *path);
 
+/* One step by step, as an animated PNG. */
+int drawing_write_animation(const drawing *d, const char *path);
+
 #endif

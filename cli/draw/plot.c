@@ -1,4 +1,4 @@
-/* plot.c - draws plots with Cairo. The colours are those of Okabe and Ito (2008), which
+/* plot.c - draws plots with Cairo. The colours are those of [Okabe, Ito 2008], which
  * colour-blind people can tell apart; each curve has a mark of its own too. Measured figures are
  * solid, published ones are dashed lines or empty bars. */
 #include "cli/draw/plot.h"

@@ -275,7 +275,7 @@ static void scene_number_visits(scene *s)
 
 bool scene_make(scene *s, const drawing *d)
 {
-    *s = (scene){.d = d, .projection = projection_make(d)};
+    *s = (scene){.d = d, .projection = projection_make(d), .seen = d->path_count, .caption = d->caption};
     if (!scene_make_room(s)) return false;
     for (size_t v = 0; v < s->d->point_count; v++) s->at[v] = projection_at(&s->projection, s->d->points + 3 * v);
     scene_number_visits(s);

@@ -26,6 +26,8 @@ typedef struct scene {
     double *part;    /* per visit: how far its walk is, from 0 to 1 */
     painted_triangle *painted;
     size_t count;
+    size_t seen; /* visits that are shown: the first ones; all, unless set to another number */
+    const char *caption;
     bool *veil; /* per cell of what is shown, row by row from below: triangles there are left out; NULL: none are */
     page_box all, shown;
 } scene;

@@ -47,6 +47,23 @@ bool mesh_output_is_node(const char *output, int format)
     return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
 }
 
+static bool format_holds_fields(const char *format)
+{
+    static const char *const names[] = {"ply", "ply-ascii", "node", "ele", "vtk", "csv"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcasecmp(format, names[i]) == 0) return true;
+    return false;
+}
+
+void mesh_output_warn(const char *output, int format, const mw_mesh_file *file)
+{
+    const char *name = format == FORMAT_BY_ENDING ? strrchr(output, '.') + 1 : mesh_format_name(format);
+    if (file->field_count == 0 || format_holds_fields(name)) return;
+    complain("%s: warning: the format %s has no place for fields: %s%s%s not written; ply and node have one", output,
+             name, file->field_names[0], file->field_count > 1 ? " and others" : "",
+             file->field_count > 1 ? " are" : " is");
+}
+
 int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary)
 {
     mw_error error;

@@ -192,7 +192,7 @@ typedef struct mw_query_options {
 
 #define MW_MAX_LANES 64
 /* Rules for the size of a sample, of the n vertices of the mesh, to the nearest whole number: the cube root of n, 17 for
- * 4,897 [Devroye, Muecke, Zhu 1998; thesis App. D, sec. 5], and 2 times its fourth root [Muecke 1996; thesis App. F]. */
+ * 4,897 [Devroye, Muecke, Zhu 1998; thesis App. D, sec. 5], and 2 times its fourth root [Muecke, Saias, Zhu 1996; thesis App. F]. */
 #define MW_SAMPLE_CUBE_ROOT_OF_VERTICES 0u
 #define MW_SAMPLE_FOURTH_ROOT_OF_VERTICES UINT32_MAX
 
@@ -340,26 +340,42 @@ MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_l
 
 typedef enum mw_value_type { MW_FLOAT64 = 0, MW_FLOAT32 } mw_value_type;
 
-/** Many values at each vertex, such as those of all time steps: value k of vertex v at values[v * stride + k]. */
+/**
+ * Many values at each vertex, such as those of all time steps: value k of vertex v at values[v * stride + k * step].
+ *
+ * Values of one vertex side by side (`step` 1) are the fastest. Where fields follow one another, as model output has
+ * them, `stride` is 1 and `step` the number of vertices.
+ */
 typedef struct mw_value_table {
     const void *values; /**< of one double (MW_FLOAT64) or float (MW_FLOAT32) each              */
     mw_value_type type;
-    size_t count;  /**< values of each vertex                                              */
-    size_t stride; /**< from one vertex to the next, in values; 0 = count                  */
+    size_t count;  /**< values of each vertex                                                          */
+    size_t stride; /**< from one vertex to the next, in values; 0 = count, or 1 where step is more than 1     */
+    size_t step;   /**< from one value of a vertex to the next, in values; 0 = 1                             */
 } mw_value_table;
+
+/** How mw_interpolate_table works. All zero = choose. */
+typedef struct mw_interpolate_options {
+    uint32_t threads;            /**< 0: as many as processors          */
+    const mw_progress *progress; /**< who watches, and may cancel: base.h; NULL: nobody */
+    uint32_t reserved[4];
+} mw_interpolate_options;
 
 /** Interpolate many values at each point: as mw_interpolate each of them, but looking up each triangle once.
  *
  * @param mesh       in which the points were located
  * @param table      read during the call only; a row for each vertex of the mesh
  * @param locations  n of them
- * @param result     n rows of table->count values of the table's type, packed; floats are summed as doubles and rounded
- *                   once. NaN where the location has no triangle
- * @return MW_ERROR_ARGUMENT: NULL, an unknown type, a stride that is less than count
+ * @param options    NULL = all zero
+ * @param result     of the table's type, packed: value k of location i at result[i * count + k], or, where step is more
+ *                   than 1, at result[k * n + i]. Floats are summed as doubles and rounded once. NaN where the location
+ *                   has no triangle
+ * @return MW_ERROR_ARGUMENT: NULL, an unknown type, a stride that is less than count without a step. MW_CANCELLED
  *
- * Thread-safe; no allocation. */
+ * Thread-safe; no allocation but for threads. The same bits for any number of threads.
+ */
 MW_API mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table, const mw_location *locations,
-                                      size_t n, void *result, mw_error *error);
+                                      size_t n, const mw_interpolate_options *options, void *result, mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,7 @@
 #include <meshwalk/base.h>
 #include <meshwalk/predicates.h>
 #include <meshwalk/mesh.h>
+#include <meshwalk/mend.h>
 #include <meshwalk/triangulate.h>
 #include <meshwalk/locate.h>
 #include <meshwalk/polygons.h>

@@ -47,21 +47,42 @@ int buffer_get_points(PyObject *object, size_t width, buffer_points *points)
     return 0;
 }
 
+/* Steps of at least one member, all of them whole. */
+static int buffer_steps_forward(const Py_buffer *view)
+{
+    if (view->len == 0) return 1;
+    for (int k = 0; k < view->ndim; k++)
+        if (view->shape[k] > 1 &&
+            (view->strides[k] < view->itemsize || view->strides[k] % view->itemsize))
+            return 0;
+    return 1;
+}
+
+/* From one member to the next along an axis, in members. */
+static size_t buffer_step(const Py_buffer *view, int axis)
+{
+    return view->shape[axis] > 1 ? (size_t)(view->strides[axis] / view->itemsize) : 0;
+}
+
 int buffer_get_table(PyObject *object, int narrow, size_t count, buffer_table *table)
 {
     Py_buffer *view = &table->view;
-    table->size = narrow ? sizeof(float) : sizeof(double);
-    if (buffer_get_rows(object, narrow ? 'f' : 'd', (Py_ssize_t)table->size, view)) return -1;
-    if (view->shape[0] != (Py_ssize_t)count) {
-        PyErr_Format(PyExc_ValueError, "expected %zu rows", count);
+    const size_t size = narrow ? sizeof(float) : sizeof(double);
+    if (PyObject_GetBuffer(object, view, PyBUF_STRIDES | PyBUF_FORMAT)) return -1;
+    if (view->ndim != 2 || buffer_letter(view) != (narrow ? 'f' : 'd') ||
+        view->shape[0] != (Py_ssize_t)count || !buffer_steps_forward(view)) {
+        PyErr_Format(PyExc_ValueError, "expected %zu rows of '%c', one after the other", count,
+                     narrow ? 'f' : 'd');
         PyBuffer_Release(view);
         return -1;
     }
+    table->size = size;
     table->table = (mw_value_table){
         .values = view->buf,
         .type = narrow ? MW_FLOAT32 : MW_FLOAT64,
         .count = (size_t)view->shape[1],
-        .stride = buffer_row_stride(view),
+        .stride = buffer_step(view, 0),
+        .step = buffer_step(view, 1),
     };
     return 0;
 }
@@ -103,6 +124,27 @@ int buffer_get_packed(PyObject *object, size_t size, size_t count, Py_buffer *vi
 int buffer_get_writable(PyObject *object, size_t size, size_t count, Py_buffer *view)
 {
     return buffer_get_counted(object, PyBUF_WRITABLE, size, count, view);
+}
+
+int buffer_get_batch(PyObject *points, PyObject *out, PyObject *hints, buffer_batch *batch)
+{
+    batch->hints = (Py_buffer){0};
+    if (buffer_get_points(points, 2, &batch->points)) return -1;
+    if (!buffer_get_writable(out, sizeof(mw_location), batch->points.count, &batch->out)) {
+        if (hints == Py_None ||
+            !buffer_get_writable(hints, sizeof(uint32_t), batch->points.count, &batch->hints))
+            return 0;
+        PyBuffer_Release(&batch->out);
+    }
+    PyBuffer_Release(&batch->points.view);
+    return -1;
+}
+
+void buffer_release_batch(buffer_batch *batch)
+{
+    PyBuffer_Release(&batch->hints); /* does nothing without hints */
+    PyBuffer_Release(&batch->out);
+    PyBuffer_Release(&batch->points.view);
 }
 
 /* The type of vertex numbers; -1 for none that the library takes. */

@@ -38,6 +38,7 @@ typedef struct check_request {
     const char *kind; /* "mesh", "surface" or "star" */
     int weld;
     mw_star_options star;
+    mw_check_options check; /* of the others */
 } check_request;
 
 static mw_status check_run(const check_request *request, const mw_arrays *arrays, mw_check *check,
@@ -46,14 +47,16 @@ static mw_status check_run(const check_request *request, const mw_arrays *arrays
     if (strcmp(request->kind, "star") == 0)
         return mw_star_check_arrays(arrays, request->weld, &request->star, check, error);
     if (strcmp(request->kind, "surface") == 0)
-        return mw_surface_check_arrays(arrays, request->weld, NULL, check, error);
-    return mw_check_arrays(arrays, NULL, check, error);
+        return mw_surface_check_arrays(arrays, request->weld, &request->check, check, error);
+    return mw_check_arrays(arrays, &request->check, check, error);
 }
 
-/* check_arrays(kind, points, triangles, weld, (x, y, z)): is it sound, and a list of defects */
+/* check_arrays(kind, points, triangles, weld, (x, y, z), progress): is it sound, and a list of defects */
 static PyObject *check_arrays(PyObject *module, PyObject *args)
 {
-    PyObject *points, *triangles, *list;
+    PyObject *points, *triangles, *list, *function;
+    core_state *state = PyModule_GetState(module);
+    mw_progress progress;
     check_request request = {0};
     double *centre = request.star.centre;
     buffer_mesh given;
@@ -61,15 +64,17 @@ static PyObject *check_arrays(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     int valid;
-    if (!PyArg_ParseTuple(args, "sOOp(ddd)", &request.kind, &points, &triangles, &request.weld,
-                          &centre[0], &centre[1], &centre[2]) ||
+    if (!PyArg_ParseTuple(args, "sOOp(ddd)O", &request.kind, &points, &triangles, &request.weld,
+                          &centre[0], &centre[1], &centre[2], &function) ||
         buffer_get_mesh(points, triangles, strcmp(request.kind, "mesh") == 0 ? 2 : 3, &given))
         return NULL;
+    request.check.progress = progress_begin(state, function, &progress);
+    request.star.progress = request.check.progress;
     Py_BEGIN_ALLOW_THREADS
     status = check_run(&request, &given.arrays, &check, &error);
     Py_END_ALLOW_THREADS
     buffer_release_mesh(&given);
-    if (status) return errors_raise(PyModule_GetState(module), &error);
+    if (status) return errors_raise(state, &error);
     list = check_defect_list(&check);
     valid = check.valid;
     mw_check_release(&check);

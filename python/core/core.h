@@ -85,14 +85,25 @@ int buffer_get_writable(PyObject *object, size_t size, size_t count, Py_buffer *
 /* Members in a buffer of members of `size` bytes without gaps; their number goes to *count. */
 int buffer_get_all(PyObject *object, size_t size, Py_buffer *view, size_t *count);
 
-/* Rows of values: the buffer of a two-dimensional array. */
+/* Points in the plane, room for where they lie, and hints where there are any. */
+typedef struct buffer_batch {
+    buffer_points points;
+    Py_buffer out, hints; /* hints.buf is NULL without hints */
+} buffer_batch;
+
+/* `out` has room for a mw_location for each of the points, and `hints` for a uint32, or is None.
+ * 0, or -1 with an exception; released by buffer_release_batch. */
+int buffer_get_batch(PyObject *points, PyObject *out, PyObject *hints, buffer_batch *batch);
+void buffer_release_batch(buffer_batch *batch);
+
+/* Values at vertices: the buffer of a two-dimensional array. */
 typedef struct buffer_table {
     Py_buffer view;
     mw_value_table table;
     size_t size; /* of a value, in bytes */
 } buffer_table;
 
-/* `count` rows of doubles, or of floats if `narrow`; there may be gaps between rows. */
+/* `count` rows of doubles, or of floats if `narrow`; they may lie in any way that goes forward. */
 int buffer_get_table(PyObject *object, int narrow, size_t count, buffer_table *table);
 
 /* Points and triangles as the library takes them. */

@@ -6,7 +6,9 @@ typedef struct editor_object {
     PyObject_HEAD
     core_state *state;
     mw_editor *editor;
-    mw_cursor cursor; /* of single queries */
+    mw_cursor cursor;     /* of single queries                                        */
+    mw_progress progress; /* the editor's; watches only while a call that may be long */
+    int busy;             /* such a call runs: the function that it reports to must keep off */
 } editor_object;
 
 static mw_editor *editor_of(PyObject *self)
@@ -37,45 +39,63 @@ static int editor_set_fields(core_state *state, mw_mesh *mesh, PyObject *list)
     return 0;
 }
 
-static PyObject *editor_new(core_state *state, PyObject *class, mw_editor *editor)
+/* A long call begins. */
+static void editor_watch(editor_object *object, PyObject *function)
 {
-    editor_object *object = objects_new(class, state->editor_type);
-    if (!object) {
-        mw_editor_destroy(editor);
-        return NULL;
-    }
-    object->state = state;
-    object->editor = editor;
-    return (PyObject *)object;
+    if (!progress_begin(object->state, function, &object->progress))
+        object->progress = (mw_progress){0};
+    object->busy = 1;
 }
 
-/* editor_from_mesh(cls, mesh, fields, delaunay, undo, log, constrained_edges, threads): not while
- * another thread makes an editor of the mesh */
+static void editor_watch_end(editor_object *object)
+{
+    object->progress = (mw_progress){0};
+    object->busy = 0;
+}
+
+static int editor_is_busy(const editor_object *object)
+{
+    if (!object->busy) return 0;
+    PyErr_SetString(PyExc_RuntimeError, "the editor is at work: what watches it may not use it");
+    return -1;
+}
+
+/* editor_from_mesh(cls, mesh, fields, delaunay, undo, log, constrained_edges, threads, progress):
+ * not while another thread makes an editor of the mesh */
 static PyObject *editor_from_mesh(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *mesh, *fields, *edges;
+    PyObject *class, *mesh, *fields, *edges, *function;
     mw_editor_options options = {0};
     int mode;
     uint64_t undo;
     Py_buffer edge_view;
-    mw_editor *editor;
+    editor_object *object;
     mw_error error;
-    mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!O!iO&pOO&", &class, state->mesh_type, &mesh, &PyList_Type,
+    mw_status status = MW_OK;
+    if (!PyArg_ParseTuple(args, "OO!O!iO&pOO&O", &class, state->mesh_type, &mesh, &PyList_Type,
                           &fields, &mode, option_uint64, &undo, &options.log, &edges, option_uint32,
-                          &options.threads) ||
+                          &options.threads, &function) ||
         editor_set_fields(state, ((mesh_object *)mesh)->mesh, fields) ||
         buffer_get_all(edges, 2 * sizeof(uint32_t), &edge_view, &options.constrained_edge_count))
         return NULL;
-    options.delaunay = (mw_delaunay_mode)mode;
-    options.undo = (size_t)undo;
-    options.constrained_edges = edge_view.buf;
-    Py_BEGIN_ALLOW_THREADS
-    status = mw_editor_create(((mesh_object *)mesh)->mesh, &options, &editor, &error);
-    Py_END_ALLOW_THREADS
+    object = objects_new(class, state->editor_type);
+    if (object) {
+        object->state = state;
+        options.delaunay = (mw_delaunay_mode)mode;
+        options.undo = (size_t)undo;
+        options.constrained_edges = edge_view.buf;
+        options.progress = &object->progress;
+        editor_watch(object, function);
+        Py_BEGIN_ALLOW_THREADS
+        status = mw_editor_create(((mesh_object *)mesh)->mesh, &options, &object->editor, &error);
+        Py_END_ALLOW_THREADS
+        editor_watch_end(object);
+    }
     PyBuffer_Release(&edge_view);
-    return status ? errors_raise(state, &error) : editor_new(state, class, editor);
+    if (!status) return (PyObject *)object;
+    Py_DECREF(object);
+    return errors_raise(state, &error);
 }
 
 static void editor_dealloc(PyObject *self)
@@ -116,47 +136,54 @@ static PyObject *editor_apply(PyObject *self, PyObject *args)
                           &edit.other, option_uint32, &edit.field, &edit.x, &edit.y, &edit.value))
         return NULL;
     edit.kind = (mw_edit_kind)kind;
+    if (editor_is_busy(object)) return NULL;
     Py_BEGIN_ALLOW_THREADS
     status = mw_edit_apply(object->editor, &edit, &change, &error);
     Py_END_ALLOW_THREADS
     return status ? errors_raise(object->state, &error) : editor_change_tuple(&change);
 }
 
-/* _insert_points(points, vertices): fill the number of the vertex at each point */
+/* _insert_points(points, vertices, progress): fill the number of the vertex at each point */
 static PyObject *editor_insert_points(PyObject *self, PyObject *args)
 {
     editor_object *object = (editor_object *)self;
-    PyObject *points, *vertices;
+    PyObject *points, *vertices, *function;
     buffer_points given;
     Py_buffer numbers;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO", &points, &vertices) || buffer_get_points(points, 2, &given))
+    if (!PyArg_ParseTuple(args, "OOO", &points, &vertices, &function) || editor_is_busy(object) ||
+        buffer_get_points(points, 2, &given))
         return NULL;
     if (buffer_get_writable(vertices, sizeof(uint32_t), given.count, &numbers)) {
         PyBuffer_Release(&given.view);
         return NULL;
     }
+    editor_watch(object, function);
     Py_BEGIN_ALLOW_THREADS
     status = mw_edit_insert_points(object->editor, given.points, given.count, given.stride,
                                    numbers.buf, NULL, &error);
     Py_END_ALLOW_THREADS
+    editor_watch_end(object);
     PyBuffer_Release(&numbers);
     PyBuffer_Release(&given.view);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
 
-static PyObject *editor_undo(PyObject *self, PyObject *unused)
+/* _undo(progress) */
+static PyObject *editor_undo(PyObject *self, PyObject *function)
 {
     editor_object *object = (editor_object *)self;
     mw_change change = {.vertex = MW_NONE};
     mw_error error;
     mw_status status;
-    (void)unused;
+    if (editor_is_busy(object)) return NULL;
+    editor_watch(object, function);
     Py_BEGIN_ALLOW_THREADS
     status = mw_edit_undo(object->editor, &change, &error);
     Py_END_ALLOW_THREADS
+    editor_watch_end(object);
     return status ? errors_raise(object->state, &error) : editor_change_tuple(&change);
 }
 
@@ -186,12 +213,14 @@ typedef struct editor_maps {
     Py_buffer triangles, vertices;
 } editor_maps;
 
-static int editor_get_maps(PyObject *self, PyObject *args, editor_maps *maps)
+/* args: triangles, vertices, progress */
+static int editor_get_maps(PyObject *self, PyObject *args, editor_maps *maps, PyObject **function)
 {
     PyObject *triangles, *vertices;
     mw_editor_info info;
     mw_editor_describe(editor_of(self), &info);
-    if (!PyArg_ParseTuple(args, "OO", &triangles, &vertices) ||
+    if (!PyArg_ParseTuple(args, "OOO", &triangles, &vertices, function) ||
+        editor_is_busy((editor_object *)self) ||
         buffer_get_writable(triangles, sizeof(uint32_t), info.triangle_range, &maps->triangles))
         return -1;
     if (!buffer_get_writable(vertices, sizeof(uint32_t), info.vertex_range, &maps->vertices))
@@ -206,37 +235,42 @@ static void editor_release_maps(editor_maps *maps)
     PyBuffer_Release(&maps->vertices);
 }
 
-/* _compact(triangles, vertices): fill the new number of each */
+/* _compact(triangles, vertices, progress): fill the new number of each */
 static PyObject *editor_compact(PyObject *self, PyObject *args)
 {
     editor_object *object = (editor_object *)self;
+    PyObject *function;
     editor_maps maps;
     mw_error error;
     mw_status status;
-    if (editor_get_maps(self, args, &maps)) return NULL;
+    if (editor_get_maps(self, args, &maps, &function)) return NULL;
+    editor_watch(object, function);
     Py_BEGIN_ALLOW_THREADS
     status = mw_editor_compact(object->editor, maps.triangles.buf, maps.vertices.buf, &error);
     Py_END_ALLOW_THREADS
+    editor_watch_end(object);
     editor_release_maps(&maps);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
 
-/* _mesh(cls, (triangles, vertices)): a mesh with its fields; fill its number of each */
+/* _mesh(cls, (triangles, vertices, progress)): a mesh with its fields; fill its number of each */
 static PyObject *editor_mesh(PyObject *self, PyObject *args)
 {
     editor_object *object = (editor_object *)self;
-    PyObject *class, *arrays;
+    PyObject *class, *arrays, *function;
     editor_maps maps;
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OO!", &class, &PyTuple_Type, &arrays) ||
-        editor_get_maps(self, arrays, &maps))
+        editor_get_maps(self, arrays, &maps, &function))
         return NULL;
+    editor_watch(object, function);
     Py_BEGIN_ALLOW_THREADS
     status = mw_editor_mesh(object->editor, maps.triangles.buf, maps.vertices.buf, &mesh, &error);
     Py_END_ALLOW_THREADS
+    editor_watch_end(object);
     editor_release_maps(&maps);
     return status ? errors_raise(object->state, &error) : mesh_new(object->state, class, mesh);
 }
@@ -336,29 +370,28 @@ static PyObject *editor_constrained_edges(PyObject *self, PyObject *unused)
 
 /* --- location in between --- */
 
-/* _locate(points, out, threads) */
+/* _locate(points, out, hints, threads, progress): as that of a locator */
 static PyObject *editor_locate(PyObject *self, PyObject *args)
 {
     editor_object *object = (editor_object *)self;
-    PyObject *points, *out;
+    PyObject *points, *out, *hints, *function;
+    mw_progress progress;
     mw_query_options options = {0};
-    buffer_points given;
-    Py_buffer locations;
+    buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOO&", &points, &out, option_uint32, &options.threads) ||
-        buffer_get_points(points, 2, &given))
+    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &hints, option_uint32, &options.threads,
+                          &function) ||
+        editor_is_busy(object) || buffer_get_batch(points, out, hints, &batch))
         return NULL;
-    if (buffer_get_writable(out, sizeof(mw_location), given.count, &locations)) {
-        PyBuffer_Release(&given.view);
-        return NULL;
-    }
+    options.hints = batch.hints.buf;
+    options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = mw_locate_batch(mw_editor_locator(object->editor), given.points, given.count,
-                             given.stride, &options, locations.buf, NULL, &error);
+    status =
+        mw_locate_batch(mw_editor_locator(object->editor), batch.points.points, batch.points.count,
+                        batch.points.stride, &options, batch.out.buf, NULL, &error);
     Py_END_ALLOW_THREADS
-    PyBuffer_Release(&locations);
-    PyBuffer_Release(&given.view);
+    buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
@@ -369,7 +402,7 @@ static PyObject *editor_locate_one(PyObject *self, PyObject *args)
     editor_object *object = (editor_object *)self;
     mw_location location;
     double x, y;
-    if (!PyArg_ParseTuple(args, "dd", &x, &y)) return NULL;
+    if (!PyArg_ParseTuple(args, "dd", &x, &y) || editor_is_busy(object)) return NULL;
     location = mw_locate(mw_editor_locator(object->editor), &object->cursor, x, y);
     return location_new(object->state, &location);
 }
@@ -399,7 +432,7 @@ static PyObject *editor_interpolate(PyObject *self, PyObject *args)
 static PyMethodDef editor_methods[] = {
     {"_apply", editor_apply, METH_VARARGS, NULL},
     {"_insert_points", editor_insert_points, METH_VARARGS, NULL},
-    {"_undo", editor_undo, METH_NOARGS, NULL},
+    {"_undo", editor_undo, METH_O, NULL},
     {"_log", editor_log, METH_NOARGS, NULL},
     {"_compact", editor_compact, METH_VARARGS, NULL},
     {"_mesh", editor_mesh, METH_VARARGS, NULL},

@@ -1,4 +1,4 @@
-/* files.c - meshes in files, read and written. */
+/* files.c - meshes in files, read and written; constraints, read. */
 #include "core.h"
 
 #include <stdlib.h>
@@ -12,16 +12,23 @@ static PyObject *file_take(core_state *state, void **array, size_t size)
     return memory_new(state, bytes, size);
 }
 
+/* Values at the points of a file. */
+typedef struct file_columns {
+    char **names;
+    double **values;
+    size_t count, point_count;
+} file_columns;
+
 /* {name: memory} */
-static PyObject *file_take_fields(core_state *state, mw_mesh_file *file)
+static PyObject *file_take_columns(core_state *state, file_columns columns)
 {
     PyObject *fields = PyDict_New();
-    for (size_t i = 0; fields && i < file->field_count; i++) {
-        PyObject *name = PyUnicode_DecodeUTF8(
-            file->field_names[i], (Py_ssize_t)strlen(file->field_names[i]), "surrogateescape");
-        PyObject *values =
-            name ? file_take(state, (void **)&file->fields[i], file->point_count * sizeof(double))
-                 : NULL;
+    for (size_t i = 0; fields && i < columns.count; i++) {
+        const char *text = columns.names[i];
+        PyObject *name = PyUnicode_DecodeUTF8(text, (Py_ssize_t)strlen(text), "surrogateescape");
+        PyObject *values = name ? file_take(state, (void **)&columns.values[i],
+                                            columns.point_count * sizeof(double))
+                                : NULL;
         if (!values || PyDict_SetItem(fields, name, values)) Py_CLEAR(fields);
         Py_XDECREF(values);
         Py_XDECREF(name);
@@ -32,7 +39,9 @@ static PyObject *file_take_fields(core_state *state, mw_mesh_file *file)
 /* (points, triangles, has_z, fields, welded) */
 static PyObject *file_take_all(core_state *state, mw_mesh_file *file)
 {
-    PyObject *fields = file_take_fields(state, file);
+    PyObject *fields =
+        file_take_columns(state, (file_columns){file->field_names, file->fields, file->field_count,
+                                                file->point_count});
     PyObject *points =
         file_take(state, (void **)&file->points, 3 * file->point_count * sizeof(double));
     PyObject *triangles =
@@ -47,22 +56,71 @@ static PyObject *file_take_all(core_state *state, mw_mesh_file *file)
     return result;
 }
 
-/* read_mesh(path): path as bytes */
+/* read_mesh(path, progress): path as bytes */
 static PyObject *file_read_mesh(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
     const char *path;
-    PyObject *result;
+    PyObject *result, *function;
+    mw_progress progress;
+    mw_file_options options = {0};
     mw_mesh_file file;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
+    if (!PyArg_ParseTuple(args, "yO", &path, &function)) return NULL;
+    options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = mw_read_mesh(path, NULL, &file, &error);
+    status = mw_read_mesh(path, &options, &file, &error);
     Py_END_ALLOW_THREADS
     if (status) return errors_raise(state, &error);
     result = file_take_all(state, &file);
     mw_mesh_file_release(&file);
+    return result;
+}
+
+/* (points, has_z, segments, polygons, records, seeds, fields, name of a record, skipped) */
+static PyObject *file_take_constraints(core_state *state, mw_constraint_file *file)
+{
+    const size_t n = file->segment_count, k = file->skipped_count;
+    PyObject *part[7] = {
+        file_take_columns(state, (file_columns){file->field_names, file->fields, file->field_count,
+                                                file->point_count}),
+        file_take(state, (void **)&file->points, 3 * file->point_count * sizeof(double)),
+        file_take(state, (void **)&file->segments, 2 * n * sizeof(uint32_t)),
+        file_take(state, (void **)&file->polygon, n * sizeof(uint32_t)),
+        file_take(state, (void **)&file->record, n * sizeof(uint32_t)),
+        file_take(state, (void **)&file->hole_seeds, 2 * file->hole_seed_count * sizeof(double)),
+        file_take(state, (void **)&file->skipped, k * sizeof(mw_skipped_ring)),
+    };
+    PyObject *result = NULL;
+    int there = 1;
+    for (int i = 0; i < 7; i++) there &= part[i] != NULL;
+    if (there)
+        result = Py_BuildValue("OiOOOOOsO", part[1], file->has_z, part[2], part[3], part[4],
+                               part[5], part[0], file->record_name, part[6]);
+    for (int i = 0; i < 7; i++) Py_XDECREF(part[i]);
+    return result;
+}
+
+/* read_constraints(path, progress): path as bytes */
+static PyObject *file_read_constraints(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    const char *path;
+    PyObject *result, *function;
+    mw_progress progress;
+    mw_file_options options = {0};
+    mw_constraint_file file;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "yO", &path, &function)) return NULL;
+    options.progress = progress_begin(state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_read_constraints(path, &options, &file, &error);
+    Py_END_ALLOW_THREADS
+    if (status) return errors_raise(state, &error);
+    result = file_take_constraints(state, &file);
+    mw_constraint_file_release(&file);
     return result;
 }
 
@@ -106,8 +164,10 @@ static int file_get_fields(PyObject *list, size_t point_count, file_fields *fiel
 }
 
 static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z,
-                            const file_fields *fields, const char *format, mw_error *error)
+                            const file_fields *fields, const char *format,
+                            const mw_progress *progress, mw_error *error)
 {
+    const mw_file_options options = {.progress = progress};
     const mw_mesh_file file = {
         .points = mesh->points.view.buf,
         .triangles = mesh->triangles.buf,
@@ -118,23 +178,24 @@ static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z
         .fields = fields->values,
         .field_count = fields->count,
     };
-    return mw_write_mesh(path, &file, format, NULL, error);
+    return mw_write_mesh(path, &file, format, &options, error);
 }
 
-/* write_mesh(path, format or None, points, has_z, triangles, [(name, values)]): three doubles a
- * vertex, without gaps */
+/* write_mesh(path, format or None, points, has_z, triangles, [(name, values)], progress): three
+ * doubles a vertex, without gaps */
 static PyObject *file_write_mesh(PyObject *module, PyObject *args)
 {
     const char *path, *format;
     int has_z;
-    PyObject *points, *triangles, *list;
+    PyObject *points, *triangles, *list, *function;
+    mw_progress progress;
     buffer_mesh mesh;
     file_fields fields = {0};
     mw_error error;
     mw_status status = MW_OK;
     int failed;
-    if (!PyArg_ParseTuple(args, "yzOpOO!", &path, &format, &points, &has_z, &triangles,
-                          &PyList_Type, &list) ||
+    if (!PyArg_ParseTuple(args, "yzOpOO!O", &path, &format, &points, &has_z, &triangles,
+                          &PyList_Type, &list, &function) ||
         buffer_get_mesh(points, triangles, 3, &mesh))
         return NULL;
     failed = file_get_fields(list, mesh.points.count, &fields);
@@ -143,8 +204,10 @@ static PyObject *file_write_mesh(PyObject *module, PyObject *args)
         failed = -1;
     }
     if (!failed) {
+        const mw_progress *watching =
+            progress_begin(PyModule_GetState(module), function, &progress);
         Py_BEGIN_ALLOW_THREADS
-        status = file_write(path, &mesh, has_z, &fields, format, &error);
+        status = file_write(path, &mesh, has_z, &fields, format, watching, &error);
         Py_END_ALLOW_THREADS
     }
     file_release_fields(&fields);
@@ -156,6 +219,7 @@ static PyObject *file_write_mesh(PyObject *module, PyObject *args)
 
 static PyMethodDef file_functions[] = {
     {"read_mesh", file_read_mesh, METH_VARARGS, NULL},
+    {"read_constraints", file_read_constraints, METH_VARARGS, NULL},
     {"write_mesh", file_write_mesh, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

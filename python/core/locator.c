@@ -90,34 +90,30 @@ static void locator_dealloc(PyObject *self)
     objects_free(self);
 }
 
-/* _locate(points, out, walk, start, tolerance, lanes, threads, progress) */
+/* _locate(points, out, hints, walk, start, tolerance, lanes, threads, progress): hints, unless they
+ * are None, are read and written */
 static PyObject *locator_locate(PyObject *self, PyObject *args)
 {
     locator_object *object = (locator_object *)self;
-    PyObject *points, *out, *function;
+    PyObject *points, *out, *hints, *function;
     mw_progress progress;
     locator_query query = {0};
     mw_query_options *options = &query.options;
-    buffer_points given;
-    Py_buffer locations;
+    buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOssdO&O&O", &points, &out, &query.walk, &query.start,
+    if (!PyArg_ParseTuple(args, "OOOssdO&O&O", &points, &out, &hints, &query.walk, &query.start,
                           &options->tolerance, option_uint32, &options->lanes, option_uint32,
                           &options->threads, &function) ||
-        locator_resolve_names(&query) || buffer_get_points(points, 2, &given))
+        locator_resolve_names(&query) || buffer_get_batch(points, out, hints, &batch))
         return NULL;
-    if (buffer_get_writable(out, sizeof(mw_location), given.count, &locations)) {
-        PyBuffer_Release(&given.view);
-        return NULL;
-    }
+    options->hints = batch.hints.buf;
     options->progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = mw_locate_batch(object->locator, given.points, given.count, given.stride, options,
-                             locations.buf, NULL, &error);
+    status = mw_locate_batch(object->locator, batch.points.points, batch.points.count,
+                             batch.points.stride, options, batch.out.buf, NULL, &error);
     Py_END_ALLOW_THREADS
-    PyBuffer_Release(&locations);
-    PyBuffer_Release(&given.view);
+    buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }

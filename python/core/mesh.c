@@ -92,43 +92,23 @@ static PyObject *mesh_copy_neighbours(PyObject *self, PyObject *out)
     Py_RETURN_NONE;
 }
 
-/* interpolate(values, locations, out): one double for each vertex, location and answer */
-static PyObject *mesh_interpolate(PyObject *self, PyObject *args)
-{
-    const mw_mesh *mesh = ((mesh_object *)self)->mesh;
-    PyObject *values, *locations, *out, *result = NULL;
-    Py_buffer value_view, location_view, out_view;
-    size_t count;
-    if (!PyArg_ParseTuple(args, "OOO", &values, &locations, &out)) return NULL;
-    if (buffer_get_packed(values, sizeof(double), mw_mesh_vertex_count(mesh), &value_view))
-        return NULL;
-    if (buffer_get_all(locations, sizeof(mw_location), &location_view, &count)) goto release_values;
-    if (buffer_get_writable(out, sizeof(double), count, &out_view)) goto release_locations;
-    Py_BEGIN_ALLOW_THREADS
-    mw_interpolate(mesh, value_view.buf, location_view.buf, count, out_view.buf);
-    Py_END_ALLOW_THREADS
-    result = Py_NewRef(Py_None);
-    PyBuffer_Release(&out_view);
-release_locations:
-    PyBuffer_Release(&location_view);
-release_values:
-    PyBuffer_Release(&value_view);
-    return result;
-}
-
-/* interpolate_table(values, narrow, locations, out): rows of doubles, or of floats if `narrow`, for
- * each vertex and answer; the values may have gaps between rows */
+/* interpolate_table(values, narrow, locations, out, threads, progress): doubles, or floats if
+ * `narrow`, a row for each vertex. The answers lie in rows for the locations, or, where the values of
+ * a vertex do not lie side by side, in rows for the columns. */
 static PyObject *mesh_interpolate_table(PyObject *self, PyObject *args)
 {
     mesh_object *object = (mesh_object *)self;
-    PyObject *values, *locations, *out;
+    PyObject *values, *locations, *out, *function;
+    mw_progress progress;
+    mw_interpolate_options options = {0};
     int narrow;
     buffer_table table;
     Py_buffer location_view, out_view;
     size_t count;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OpOO", &values, &narrow, &locations, &out) ||
+    if (!PyArg_ParseTuple(args, "OpOOO&O", &values, &narrow, &locations, &out, option_uint32,
+                          &options.threads, &function) ||
         buffer_get_table(values, narrow, mw_mesh_vertex_count(object->mesh), &table))
         return NULL;
     if (buffer_get_all(locations, sizeof(mw_location), &location_view, &count)) {
@@ -140,8 +120,9 @@ static PyObject *mesh_interpolate_table(PyObject *self, PyObject *args)
         PyBuffer_Release(&table.view);
         return NULL;
     }
+    options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = mw_interpolate_table(object->mesh, &table.table, location_view.buf, count,
+    status = mw_interpolate_table(object->mesh, &table.table, location_view.buf, count, &options,
                                   out_view.buf, &error);
     Py_END_ALLOW_THREADS
     PyBuffer_Release(&out_view);
@@ -220,7 +201,6 @@ static PyMethodDef mesh_methods[] = {
     {"_copy_neighbours", mesh_copy_neighbours, METH_O, NULL},
     {"_interpolate_table", mesh_interpolate_table, METH_VARARGS, NULL},
     {"_copy_field", mesh_copy_field, METH_VARARGS, NULL},
-    {"_interpolate", mesh_interpolate, METH_VARARGS, NULL},
     {"_describe", mesh_describe, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

@@ -10,7 +10,7 @@ typedef struct point_rows {
     size_t count, capacity, width;
 } point_rows;
 
-enum { POINT_ROWS_BLOCK = 65536 };
+enum { POINT_ROWS_BLOCK = 65536, POINT_ROWS_AT_A_TIME = 1 << 20 };
 
 static mw_status point_rows_grow(point_rows *rows, mw_error *error)
 {
@@ -25,17 +25,34 @@ static mw_status point_rows_grow(point_rows *rows, mw_error *error)
     return MW_OK;
 }
 
-static mw_status point_rows_read(point_rows *rows, mw_point_reader *reader, mw_error *error)
+/* The next rows have been read. Returns MW_CANCELLED if that is enough. */
+static mw_status point_rows_report(const mw_point_reader *reader, const mw_progress *progress,
+                                   int ended, mw_error *error)
+{
+    const double fraction = mw_point_reader_fraction(reader);
+    if (!progress || (fraction < 0 && !ended)) return MW_OK;
+    if (!progress->report(progress->context, "reading points", ended ? 1 : fraction) || ended)
+        return MW_OK;
+    return error->status = MW_CANCELLED;
+}
+
+static mw_status point_rows_read(point_rows *rows, mw_point_reader *reader,
+                                 const mw_progress *progress, mw_error *error)
 {
     mw_status status = MW_OK;
     size_t more = 1;
     rows->width = mw_point_reader_width(reader);
     while (!status && more) {
+        size_t room;
         if (rows->count == rows->capacity) status = point_rows_grow(rows, error);
-        if (!status)
-            status = mw_point_reader_read(reader, rows->values + rows->count * rows->width,
-                                          rows->capacity - rows->count, &more, error);
-        if (!status) rows->count += more;
+        if (status) break;
+        room = rows->capacity - rows->count;
+        if (room > POINT_ROWS_AT_A_TIME) room = POINT_ROWS_AT_A_TIME;
+        status = mw_point_reader_read(reader, rows->values + rows->count * rows->width, room, &more,
+                                      error);
+        if (status) break;
+        rows->count += more;
+        status = point_rows_report(reader, progress, more == 0, error);
     }
     return status;
 }
@@ -64,7 +81,7 @@ static PyObject *points_result(core_state *state, point_rows *rows, const mw_poi
     return result;
 }
 
-/* read_points(path as bytes, columns as bytes or None, 256 classes as bytes) */
+/* read_points(path as bytes, columns as bytes or None, 256 classes as bytes, progress) */
 static PyObject *points_read(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
@@ -73,16 +90,20 @@ static PyObject *points_read(PyObject *module, PyObject *args)
     mw_point_reader_options options = {0};
     mw_point_reader *reader;
     point_rows rows = {0};
-    PyObject *result;
+    PyObject *result, *function;
+    mw_progress progress;
+    const mw_progress *watching;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "yzy#", &path, &options.columns, &classes, &size)) return NULL;
+    if (!PyArg_ParseTuple(args, "yzy#O", &path, &options.columns, &classes, &size, &function))
+        return NULL;
     if (size != sizeof options.classes)
         return PyErr_Format(PyExc_ValueError, "expected 256 classes");
     memcpy(options.classes, classes, sizeof options.classes);
+    watching = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_point_reader_open(path, &options, &reader, &error);
-    if (!status) status = point_rows_read(&rows, reader, &error);
+    if (!status) status = point_rows_read(&rows, reader, watching, &error);
     Py_END_ALLOW_THREADS
     if (status) {
         free(rows.values);

@@ -3,18 +3,21 @@
 
 #include <string.h>
 
-/* prober_from_surface(cls, surface, boxes) */
+/* prober_from_surface(cls, surface, boxes, threads, progress) */
 static PyObject *prober_from_surface(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *surface;
+    PyObject *class, *surface, *function;
+    mw_progress progress;
     mw_prober_options options = {0};
     prober_object *object;
     mw_prober *prober;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!p", &class, state->surface_type, &surface, &options.boxes))
+    if (!PyArg_ParseTuple(args, "OO!pO&O", &class, state->surface_type, &surface, &options.boxes,
+                          option_uint32, &options.threads, &function))
         return NULL;
+    options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_prober_create(((surface_object *)surface)->surface, &options, &prober, &error);
     Py_END_ALLOW_THREADS
@@ -55,20 +58,22 @@ static mw_probe_start prober_start_by_name(const char *name)
     return (mw_probe_start)start;
 }
 
-/* _probe(queries, out, max_distance, certain, start, iterations, threads): six doubles a query */
+/* _probe(queries, out, max_distance, certain, start, iterations, threads, progress): six doubles a
+ * query */
 static PyObject *prober_probe(PyObject *self, PyObject *args)
 {
     prober_object *object = (prober_object *)self;
-    PyObject *queries, *out;
+    PyObject *queries, *out, *function;
     const char *start;
+    mw_progress progress;
     mw_probe_options options = {0};
     buffer_points given;
     Py_buffer touches;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOdpsO&O&", &queries, &out, &options.max_distance,
+    if (!PyArg_ParseTuple(args, "OOdpsO&O&O", &queries, &out, &options.max_distance,
                           &options.certain, &start, option_uint32, &options.iterations,
-                          option_uint32, &options.threads))
+                          option_uint32, &options.threads, &function))
         return NULL;
     options.start = prober_start_by_name(start);
     if (options.start == MW_PROBE_START_COUNT)
@@ -78,6 +83,7 @@ static PyObject *prober_probe(PyObject *self, PyObject *args)
         PyBuffer_Release(&given.view);
         return NULL;
     }
+    options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_probe_batch(object->prober, given.points, given.count, given.stride, &options,
                             touches.buf, NULL, &error);
@@ -88,28 +94,55 @@ static PyObject *prober_probe(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
-/* _nearest(points, out, max_distance) */
+/* The points that are nearest to several, one after the other. */
+typedef struct prober_search {
+    const mw_prober *prober;
+    const buffer_points *given;
+    double max_distance;
+    mw_nearest_surface_point *nearest;
+    const mw_progress *progress;
+} prober_search;
+
+static mw_status prober_search_run(const prober_search *s, mw_error *error)
+{
+    enum { REPORTS = 200 };
+    mw_status status = MW_OK;
+    size_t told = 0;
+    for (size_t i = 0; i < s->given->count && !status; i++) {
+        status = mw_nearest_on_surface(s->prober, s->given->points + i * s->given->stride,
+                                       s->max_distance, &s->nearest[i], error);
+        if (status || !s->progress || (i + 1) * REPORTS / s->given->count == told) continue;
+        told = (i + 1) * REPORTS / s->given->count;
+        if (s->progress->report(s->progress->context, "finding nearest points",
+                                (double)told / REPORTS) &&
+            told < REPORTS)
+            status = error->status = MW_CANCELLED;
+    }
+    return status;
+}
+
+/* _nearest(points, out, max_distance, progress) */
 static PyObject *prober_nearest(PyObject *self, PyObject *args)
 {
     prober_object *object = (prober_object *)self;
-    PyObject *points, *out;
-    double max_distance;
+    PyObject *points, *out, *function;
+    mw_progress progress;
     buffer_points given;
+    prober_search search = {.prober = object->prober, .given = &given};
     Py_buffer nearest;
     mw_error error;
-    mw_status status = MW_OK;
-    if (!PyArg_ParseTuple(args, "OOd", &points, &out, &max_distance) ||
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOdO", &points, &out, &search.max_distance, &function) ||
         buffer_get_points(points, 3, &given))
         return NULL;
     if (buffer_get_writable(out, sizeof(mw_nearest_surface_point), given.count, &nearest)) {
         PyBuffer_Release(&given.view);
         return NULL;
     }
+    search.nearest = nearest.buf;
+    search.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    for (size_t i = 0; i < given.count && !status; i++)
-        status =
-            mw_nearest_on_surface(object->prober, given.points + i * given.stride, max_distance,
-                                  (mw_nearest_surface_point *)nearest.buf + i, &error);
+    status = prober_search_run(&search, &error);
     Py_END_ALLOW_THREADS
     PyBuffer_Release(&nearest);
     PyBuffer_Release(&given.view);

@@ -1,19 +1,21 @@
 /* star.c - Star: a mw_star as an object, which keeps its surface alive; longitude and latitude. */
 #include "core.h"
 
-/* star_from_surface(cls, surface, x, y, z) */
+/* star_from_surface(cls, surface, x, y, z, progress) */
 static PyObject *star_from_surface(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *surface;
+    PyObject *class, *surface, *function;
     mw_star_options options = {0};
+    mw_progress progress;
     star_object *object;
     mw_star *star;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!ddd", &class, state->surface_type, &surface, &options.centre[0],
-                          &options.centre[1], &options.centre[2]))
+    if (!PyArg_ParseTuple(args, "OO!dddO", &class, state->surface_type, &surface,
+                          &options.centre[0], &options.centre[1], &options.centre[2], &function))
         return NULL;
+    options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_star_create(((surface_object *)surface)->surface, &options, &star, &error);
     Py_END_ALLOW_THREADS
@@ -45,19 +47,20 @@ static void star_dealloc(PyObject *self)
     objects_free(self);
 }
 
-/* _locate(points, out, walk, start, threads) */
+/* _locate(points, out, walk, start, threads, progress) */
 static PyObject *star_locate(PyObject *self, PyObject *args)
 {
     star_object *object = (star_object *)self;
-    PyObject *points, *out;
+    PyObject *points, *out, *function;
     const char *walk, *start;
+    mw_progress progress;
     mw_star_query_options options = {0};
     buffer_points given;
     Py_buffer locations;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOssO&", &points, &out, &walk, &start, option_uint32,
-                          &options.threads))
+    if (!PyArg_ParseTuple(args, "OOssO&O", &points, &out, &walk, &start, option_uint32,
+                          &options.threads, &function))
         return NULL;
     options.walk = mw_star_walk_by_name(walk);
     options.start = mw_star_start_by_name(start);
@@ -70,6 +73,7 @@ static PyObject *star_locate(PyObject *self, PyObject *args)
         PyBuffer_Release(&given.view);
         return NULL;
     }
+    options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_star_locate_batch(object->star, given.points, given.count, given.stride, &options,
                                   locations.buf, NULL, &error);

@@ -6,21 +6,23 @@
 /* Surfaces are made `shared`: a query of one thread waits for an update of another. What changes a
  * surface, or what is kept beside it, is called under a lock of meshwalk.Surface. */
 
-/* surface_from_arrays(cls, points, triangles, tolerant, weld) */
+/* surface_from_arrays(cls, points, triangles, tolerant, weld, progress) */
 static PyObject *surface_from_arrays(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
-    PyObject *class, *points, *triangles;
+    PyObject *class, *points, *triangles, *function;
+    mw_progress progress;
     mw_surface_options options = {.shared = 1};
     buffer_mesh given;
     surface_object *object;
     mw_surface *surface;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOpp", &class, &points, &triangles, &options.tolerant,
-                          &options.weld) ||
+    if (!PyArg_ParseTuple(args, "OOOppO", &class, &points, &triangles, &options.tolerant,
+                          &options.weld, &function) ||
         buffer_get_mesh(points, triangles, 3, &given))
         return NULL;
+    options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_surface_create(&given.arrays, &options, &surface, &error);
     Py_END_ALLOW_THREADS

@@ -18,6 +18,7 @@ released while the library works, and objects may be used by any number of threa
 from meshwalk._check import Check, Defect, check, check_star, check_surface
 from meshwalk._core import Location
 from meshwalk._core import version as __version__
+from meshwalk._cursor import Cursor
 from meshwalk._editor import (
     Change,
     EdgeKind,
@@ -28,7 +29,15 @@ from meshwalk._editor import (
     EditorLocations,
 )
 from meshwalk._errors import Error, InputError, LimitError
-from meshwalk._files import mesh_formats, read, read_points, write
+from meshwalk._files import (
+    Constraints,
+    SkippedRingWarning,
+    mesh_formats,
+    read,
+    read_constraints,
+    read_points,
+    write,
+)
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
@@ -48,6 +57,8 @@ from meshwalk._where import Where
 __all__ = [
     "Change",
     "Check",
+    "Constraints",
+    "Cursor",
     "Defect",
     "DuplicateWarning",
     "EdgeKind",
@@ -69,6 +80,7 @@ __all__ = [
     "NearestPoints",
     "OptimumWarning",
     "Prober",
+    "SkippedRingWarning",
     "Star",
     "StarInfo",
     "Surface",
@@ -88,6 +100,7 @@ __all__ = [
     "mesh_formats",
     "plot",
     "read",
+    "read_constraints",
     "read_points",
     "triangulate",
     "write",

@@ -166,6 +166,26 @@ def indices(
     return np.require(array.astype(np.int64).astype(np.uint32), requirements=("C", "A"))
 
 
+def hints(given: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.uint32]:
+    """Triangles where queries begin, as the library takes them: a copy.
+
+    What is negative, masked or too large to be a triangle is no hint.
+    """
+    array = _as_array(given, "hints")
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"hints must be integers, not {array.dtype}")
+    if array.shape != shape:
+        raise ValueError(f"hints must have the shape of the points, {shape}, not {array.shape}")
+    none = np.iinfo(np.uint32).max
+    numbers = np.asarray(np.ma.getdata(array)).ravel()
+    unusable = (numbers < 0) | (numbers > none)
+    if isinstance(array, np.ma.MaskedArray):
+        unusable |= np.ma.getmaskarray(array).ravel()
+    out = numbers.astype(np.uint32)
+    out[unusable] = none
+    return out
+
+
 def _integer_type(array: NDArray[Any], name: str) -> type[np.integer[Any]]:
     """The type, of those that the library takes, that holds the numbers."""
     if array.dtype.kind == "u" and array.dtype.itemsize == 8:
@@ -178,13 +198,19 @@ def _integer_type(array: NDArray[Any], name: str) -> type[np.integer[Any]]:
     return np.uint32 if array.dtype.kind == "u" and array.dtype.itemsize == 4 else np.int32
 
 
-def rows_lie_side_by_side(array: NDArray[Any]) -> bool:
-    """Whether what belongs to one vertex of a two-dimensional array lies together in memory."""
-    size = array.itemsize
-    across, along = array.strides
-    return array.shape[1] <= 1 or (
-        along == size and across % size == 0 and across >= size * array.shape[1]
+def columns(array: NDArray[Any], kind: type[np.floating[Any]]) -> NDArray[Any]:
+    """Two-dimensional values of the type as the library can step over them: a copy if it cannot."""
+    table = np.require(array, kind, ("A",))
+    forward = all(
+        size <= 1 or (step > 0 and step % table.itemsize == 0)
+        for size, step in zip(table.shape, table.strides, strict=True)
     )
+    return table if forward else np.ascontiguousarray(table)
+
+
+def lies_in_rows(table: NDArray[Any]) -> bool:
+    """Whether what belongs to one vertex lies side by side, so that the answers do, too."""
+    return table.shape[1] <= 1 or table.strides[1] == table.itemsize
 
 
 def values(given: ArrayLike, name: str, count: int) -> NDArray[Any]:

@@ -141,5 +141,5 @@ def _check(
     rows, _ = _arrays.vertices(points, "points", (2, 3) if kind == "mesh" else (3,))
     numbers = _arrays.triangles(triangles, "triangles", _core.MAX_TRIANGLES)
     rows = rows[:, :2] if kind == "mesh" else rows
-    valid, defects = _core.check_arrays(kind, rows, numbers, weld, centre)
+    valid, defects = _core.check_arrays(kind, rows, numbers, weld, centre, None)
     return Check(valid, [Defect(*defect) for defect in defects])

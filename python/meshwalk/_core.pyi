@@ -26,9 +26,15 @@ class Mesh:
     def _copy_points(self, out: Buffer, /) -> None: ...
     def _copy_triangles(self, out: Buffer, /) -> None: ...
     def _copy_neighbours(self, out: Buffer, /) -> None: ...
-    def _interpolate(self, values: Buffer, locations: Buffer, out: Buffer, /) -> None: ...
     def _interpolate_table(
-        self, values: Buffer, narrow: bool, locations: Buffer, out: Buffer, /
+        self,
+        values: Buffer,
+        narrow: bool,
+        locations: Buffer,
+        out: Buffer,
+        threads: int,
+        progress: Progress | None,
+        /,
     ) -> None: ...
     def _copy_field(self, name: bytes, out: Buffer, /) -> None: ...
     def _describe(self) -> dict[str, Any]: ...
@@ -65,6 +71,7 @@ class Locator:
         self,
         points: Buffer,
         out: Buffer,
+        hints: Buffer | None,
         walk: str,
         start: str,
         tolerance: float,
@@ -128,7 +135,14 @@ class Star:
     @property
     def surface(self) -> Surface: ...
     def _locate(
-        self, points: Buffer, out: Buffer, walk: str, start: str, threads: int, /
+        self,
+        points: Buffer,
+        out: Buffer,
+        walk: str,
+        start: str,
+        threads: int,
+        progress: Progress | None,
+        /,
     ) -> None: ...
     def _describe(self) -> dict[str, Any]: ...
 
@@ -144,9 +158,12 @@ class Prober:
         start: str,
         iterations: int,
         threads: int,
+        progress: Progress | None,
         /,
     ) -> None: ...
-    def _nearest(self, points: Buffer, out: Buffer, max_distance: float, /) -> None: ...
+    def _nearest(
+        self, points: Buffer, out: Buffer, max_distance: float, progress: Progress | None, /
+    ) -> None: ...
 
 _RawChange: TypeAlias = tuple[int, int, int, int, int, int, int, int, bytes | None]
 
@@ -154,11 +171,17 @@ class Editor:
     def _apply(
         self, kind: int, vertex: int, other: int, field: int, x: float, y: float, value: float, /
     ) -> _RawChange: ...
-    def _insert_points(self, points: Buffer, vertices: Buffer, /) -> None: ...
-    def _undo(self) -> _RawChange: ...
+    def _insert_points(
+        self, points: Buffer, vertices: Buffer, progress: Progress | None, /
+    ) -> None: ...
+    def _undo(self, progress: Progress | None, /) -> _RawChange: ...
     def _log(self) -> list[tuple[int, int, int, int, float, float, float]]: ...
-    def _compact(self, triangles: Buffer, vertices: Buffer, /) -> None: ...
-    def _mesh(self, cls: type[_Mesh], numbers: tuple[Buffer, Buffer], /) -> _Mesh: ...
+    def _compact(
+        self, triangles: Buffer, vertices: Buffer, progress: Progress | None, /
+    ) -> None: ...
+    def _mesh(
+        self, cls: type[_Mesh], numbers: tuple[Buffer, Buffer, Progress | None], /
+    ) -> _Mesh: ...
     def _describe(self) -> dict[str, Any]: ...
     def _triangle(self, triangle: int, /) -> tuple[int, int, int] | None: ...
     def _vertex(self, vertex: int, /) -> tuple[float, float] | None: ...
@@ -167,7 +190,15 @@ class Editor:
     def _field(self, name: bytes, /) -> int: ...
     def _value(self, field: int, vertex: int, /) -> float: ...
     def _constrained_edges(self) -> memoryview: ...
-    def _locate(self, points: Buffer, out: Buffer, threads: int, /) -> None: ...
+    def _locate(
+        self,
+        points: Buffer,
+        out: Buffer,
+        hints: Buffer | None,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
     def _locate_one(self, x: float, y: float, /) -> Location: ...
     def _interpolate(self, field: int, locations: Buffer, out: Buffer, /) -> None: ...
 
@@ -182,6 +213,7 @@ def editor_from_mesh(
     log: bool,
     constrained_edges: Buffer,
     threads: int,
+    progress: Progress | None,
     /,
 ) -> _Editor: ...
 
@@ -190,12 +222,31 @@ _Star = TypeVar("_Star", bound=Star)
 _Prober = TypeVar("_Prober", bound=Prober)
 
 def surface_from_arrays(
-    cls: type[_Surface], points: Buffer, triangles: Buffer, tolerant: bool, weld: bool, /
+    cls: type[_Surface],
+    points: Buffer,
+    triangles: Buffer,
+    tolerant: bool,
+    weld: bool,
+    progress: Progress | None,
+    /,
 ) -> _Surface: ...
 def star_from_surface(
-    cls: type[_Star], surface: Surface, x: float, y: float, z: float, /
+    cls: type[_Star],
+    surface: Surface,
+    x: float,
+    y: float,
+    z: float,
+    progress: Progress | None,
+    /,
 ) -> _Star: ...
-def prober_from_surface(cls: type[_Prober], surface: Surface, boxes: bool, /) -> _Prober: ...
+def prober_from_surface(
+    cls: type[_Prober],
+    surface: Surface,
+    boxes: bool,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> _Prober: ...
 def lonlat_to_direction(lonlat: Buffer, out: Buffer, /) -> None: ...
 def direction_to_lonlat(directions: Buffer, out: Buffer, /) -> None: ...
 def check_arrays(
@@ -204,6 +255,7 @@ def check_arrays(
     triangles: Buffer,
     weld: bool,
     centre: tuple[float, float, float],
+    progress: Progress | None,
     /,
 ) -> tuple[bool, list[tuple[str, str, int, int, int, int, int]]]: ...
 def delaunay(
@@ -237,9 +289,24 @@ def constrained_delaunay(
     progress: Progress | None,
     /,
 ) -> tuple[_Mesh, int, memoryview, memoryview]: ...
-def read_mesh(path: bytes, /) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]: ...
+def read_mesh(
+    path: bytes, progress: Progress | None, /
+) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]: ...
+def read_constraints(
+    path: bytes, progress: Progress | None, /
+) -> tuple[
+    memoryview,
+    int,
+    memoryview,
+    memoryview,
+    memoryview,
+    memoryview,
+    dict[str, memoryview],
+    str,
+    memoryview,
+]: ...
 def read_points(
-    path: bytes, columns: str | None, classes: bytes, /
+    path: bytes, columns: str | None, classes: bytes, progress: Progress | None, /
 ) -> tuple[memoryview, list[str]]: ...
 def write_mesh(
     path: bytes,
@@ -248,5 +315,6 @@ def write_mesh(
     has_z: bool,
     triangles: Buffer,
     fields: list[tuple[bytes, Buffer]],
+    progress: Progress | None,
     /,
 ) -> None: ...

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from meshwalk._core import Location
+    from meshwalk._core import Location, Progress
 
 _MODES = {"auto": 0, "make": 1, "never": 2}
 _NONE = np.iinfo(np.uint32).max
@@ -181,6 +181,8 @@ class Editor(_core.Editor):
         Keep a list of all edits.
     threads : int, optional
         How many threads make it; 0 lets the library choose.
+    progress : callable, optional
+        As of `Locator`. It may not use the editor: here, and in the calls below.
 
     Raises
     ------
@@ -221,6 +223,7 @@ class Editor(_core.Editor):
         undo: int = 0,
         log: bool = False,
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> Self:
         if not isinstance(mesh, Mesh):
             raise TypeError(f"mesh must be a meshwalk.Mesh, not {type(mesh).__name__}")
@@ -231,7 +234,7 @@ class Editor(_core.Editor):
         edges = mesh._constraints[0]
         with _making:
             editor = _core.editor_from_mesh(
-                cls, mesh, fields, _MODES[delaunay], kept, log, edges, threads
+                cls, mesh, fields, _MODES[delaunay], kept, log, edges, threads, progress
             )
         editor._field_names = tuple(mesh.fields)
         editor._edits = 0
@@ -270,13 +273,17 @@ class Editor(_core.Editor):
         number = 0 if np.isnan(value) else self._field_number(field)
         return self._edit(Edit(EditKind.INSERT, x=x, y=y, field=number, value=value))
 
-    def insert_points(self, points: ArrayLike) -> NDArray[np.int32] | NDArray[np.int64]:
+    def insert_points(
+        self, points: ArrayLike, *, progress: Progress | None = None
+    ) -> NDArray[np.int32] | NDArray[np.int64]:
         """Insert many vertices as one edit, quicker than one by one.
 
         Parameters
         ----------
         points : array_like, shape (n, 2)
             Their places. Fields are interpolated.
+        progress : callable, optional
+            As of `Locator.locate`; a call that is ended changes nothing.
 
         Returns
         -------
@@ -291,7 +298,7 @@ class Editor(_core.Editor):
         rows, _ = _arrays.vertices(points, "points", (2,))
         out = np.empty(len(rows), np.uint32)
         with self._lock:
-            self._insert_points(rows, out)
+            self._insert_points(rows, out, progress)
             self._edits += 1
         return _arrays.numbers(out)
 
@@ -363,8 +370,13 @@ class Editor(_core.Editor):
         """Carry out an edit, such as one of `log`."""
         return self._edit(edit)
 
-    def undo(self) -> Change:
-        """Take back the last edit that is not: everything is as before it, numbers too.
+    def undo(self, *, progress: Progress | None = None) -> Change:
+        """Undo the latest edit that has not been undone: everything is as before, numbers too.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            As of `insert_points`.
 
         Raises
         ------
@@ -372,7 +384,7 @@ class Editor(_core.Editor):
             There is none, or none kept.
         """
         with self._lock:
-            raw = self._undo()
+            raw = self._undo(progress)
             self._edits += 1
         return Change(raw)
 
@@ -385,8 +397,13 @@ class Editor(_core.Editor):
         with self._lock:
             return [Edit(EditKind(raw[0]), *raw[1:]) for raw in self._log()]
 
-    def compact(self) -> tuple[NDArray[Any], NDArray[Any]]:
+    def compact(self, *, progress: Progress | None = None) -> tuple[NDArray[Any], NDArray[Any]]:
         """Number everything anew, without gaps and in the same order.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            As of `insert_points`.
 
         Returns
         -------
@@ -394,15 +411,18 @@ class Editor(_core.Editor):
             The new number of each, -1 for those that are gone.
         """
         with self._lock:
-            info = self.describe()
-            triangles = np.empty(info.triangle_range, np.uint32)
-            vertices = np.empty(info.vertex_range, np.uint32)
-            self._compact(triangles, vertices)
+            triangles, vertices = self._numbers()
+            self._compact(triangles, vertices, progress)
             self._edits += 1
         return _arrays.numbers(triangles), _arrays.numbers(vertices)
 
-    def mesh(self) -> Mesh:
+    def mesh(self, *, progress: Progress | None = None) -> Mesh:
         """Make a mesh of what is there now, numbered as by `compact`, with its fields.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            As of `insert_points`.
 
         Returns
         -------
@@ -410,10 +430,8 @@ class Editor(_core.Editor):
             Its `constrained_edges` are the constraints that are there now.
         """
         with self._lock:
-            info = self.describe()
-            triangles = np.empty(info.triangle_range, np.uint32)
-            vertices = np.empty(info.vertex_range, np.uint32)
-            mesh = self._mesh(Mesh, (triangles, vertices))
+            triangles, vertices = self._numbers()
+            mesh = self._mesh(Mesh, (triangles, vertices, progress))
             edges = np.frombuffer(self._constrained_edges(), np.uint32).reshape(-1, 2)
         fields = {}
         for name in self._field_names:
@@ -422,6 +440,11 @@ class Editor(_core.Editor):
         mesh._set_fields(None, fields)
         mesh._set_constraints(vertices[edges], np.full(len(edges), _NONE, np.uint32))
         return mesh
+
+    def _numbers(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Room for the new number of each triangle and vertex."""
+        info = self.describe()
+        return np.empty(info.triangle_range, np.uint32), np.empty(info.vertex_range, np.uint32)
 
     def triangle(self, triangle: int) -> tuple[int, int, int] | None:
         """The vertices of a triangle; None if there is none of that number (any more)."""
@@ -457,7 +480,14 @@ class Editor(_core.Editor):
             raise KeyError(f"the editor has no field {field!r}; {there}")
         return number
 
-    def locate(self, xy: ArrayLike, threads: int = 0) -> EditorLocations:
+    def locate(
+        self,
+        xy: ArrayLike,
+        threads: int = 0,
+        *,
+        hints: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> EditorLocations:
         """Find the triangles that contain points, as the mesh is now.
 
         Parameters
@@ -466,15 +496,32 @@ class Editor(_core.Editor):
             The points, see `Locator.locate`.
         threads : int, optional
             How many threads answer; 0 lets the library choose.
+        hints : array_like of int, optional
+            Triangles where searches begin, see `Locator.locate`; those that edits have replaced
+            lead to their heirs.
+        progress : callable, optional
+            As of `Locator.locate`.
 
         Returns
         -------
         EditorLocations
         """
         points, shape = _arrays.queries(xy, "xy", 2)
+        first = None if hints is None else _arrays.hints(hints, shape)
+        return self._locate_rows(points, first, shape, threads, progress)
+
+    def _locate_rows(
+        self,
+        points: NDArray[np.float64],
+        hints: NDArray[np.uint32] | None,
+        shape: tuple[int, ...],
+        threads: int,
+        progress: Progress | None,
+    ) -> EditorLocations:
+        """Locate points as the library takes them; the hints are written."""
         records = np.empty(len(points), LOCATION)
         with self._lock:
-            self._locate(points, records, threads)
+            self._locate(points, records, hints, threads, progress)
             edits = self._edits
         return EditorLocations(self, records.reshape(shape), edits)
 
@@ -511,13 +558,17 @@ class EditorLocations(Locations):
         self.editor = editor
         self._edits = edits
 
-    def interpolate(self, values: ArrayLike | str) -> NDArray[np.float64]:
+    def interpolate(
+        self, values: ArrayLike | str, threads: int = 0, *, progress: Progress | None = None
+    ) -> NDArray[np.float64]:
         """Interpolate a field of the editor.
 
         Parameters
         ----------
         values : str
             Name of a field.
+        threads, progress
+            Not used: one thread does it.
 
         Raises
         ------

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import warnings
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,17 +16,21 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from meshwalk._core import Progress
+
 mesh_formats: tuple[str, ...] = _core.MESH_FORMATS
 """Names of the formats that `write` takes."""
 
 
-def read(path: str | os.PathLike[str]) -> Mesh:
+def read(path: str | os.PathLike[str], *, progress: Progress | None = None) -> Mesh:
     """Read a mesh from a file, gzipped or not.
 
     Parameters
     ----------
     path : str or path-like
         OFF, OBJ, PLY, STL or Triangle's ``.node``/``.ele``: recognised by content, else by name.
+    progress : callable, optional
+        As of `Locator`.
 
     Returns
     -------
@@ -52,28 +57,29 @@ def read(path: str | os.PathLike[str]) -> Mesh:
     >>> meshwalk.read(name).fields["z"]
     array([7., 8., 9.])
     """
-    xyz, triangles, has_z, fields = read_arrays(path)
+    xyz, triangles, has_z, fields = read_arrays(path, progress)
     return Mesh(xyz if has_z else xyz[:, :2], triangles, fields)
 
 
 def read_arrays(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str], progress: Progress | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32], bool, dict[str, NDArray[np.float64]]]:
     """x, y, z; triangles; whether the file has z; further values at the vertices by name."""
-    points, triangles, has_z, fields, _ = _read(_arrays.path(path))
+    name = _arrays.path(path)
+    try:
+        points, triangles, has_z, fields, _ = _core.read_mesh(name, progress)
+    except OSError as error:
+        raise _found(error, name) from None
     return (
         np.frombuffer(points, np.float64).reshape(-1, 3),
         np.frombuffer(triangles, np.uint32).reshape(-1, 3),
         bool(has_z),
-        {name: np.frombuffer(values, np.float64) for name, values in fields.items()},
+        _columns(fields),
     )
 
 
-def _read(name: bytes) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]:
-    try:
-        return _core.read_mesh(name)
-    except OSError as error:
-        raise _found(error, name) from None
+def _columns(fields: dict[str, memoryview]) -> dict[str, NDArray[np.float64]]:
+    return {name: np.frombuffer(values, np.float64) for name, values in fields.items()}
 
 
 def _found(error: OSError, name: bytes) -> OSError:
@@ -87,6 +93,8 @@ def read_points(
     path: str | os.PathLike[str],
     columns: str | None = None,
     classes: Iterable[int] = (),
+    *,
+    progress: Progress | None = None,
 ) -> tuple[NDArray[np.float64], list[str]]:
     r"""Read points from a table of text or from LAS; from LAZ where laspy is installed.
 
@@ -101,6 +109,8 @@ def read_points(
         of LAS and LAZ x, y, z.
     classes : iterable of int, optional
         Of LAS and LAZ: only points of these classes; by default all.
+    progress : callable, optional
+        As of `Locator`; not of LAZ, nor of a pipe.
 
     Returns
     -------
@@ -140,7 +150,7 @@ def read_points(
     if name.lower().endswith(b".laz"):
         return _read_laz(name, columns, wanted)
     try:
-        values, names = _core.read_points(name, columns, bytes(wanted))
+        values, names = _core.read_points(name, columns, bytes(wanted), progress)
     except OSError as error:
         raise _found(error, name) from None
     return np.frombuffer(values, np.float64).reshape(-1, len(names)), names
@@ -162,7 +172,108 @@ def _read_laz(
     return np.column_stack(table), names
 
 
-def write(path: str | os.PathLike[str], mesh: Mesh, format: str | None = None) -> None:
+class SkippedRingWarning(UserWarning):
+    """A ring of a file has fewer than three different points, and is left out."""
+
+
+class Constraints(NamedTuple):
+    """What a file has for `constrained_delaunay`: the answer of `read_constraints`."""
+
+    points: NDArray[np.float64]
+    """x, y of each point, shape (n, 2); and z, NaN where there is none, if the file has any."""
+    segments: NDArray[np.int32] | NDArray[np.int64]
+    """The two points of each segment, shape (k, 2)."""
+    holes: NDArray[np.float64]
+    """A point in each part that is to be removed, shape (h, 2)."""
+    polygons: NDArray[np.int32] | NDArray[np.int64]
+    """The polygon that each segment bounds, -1 for a line, shape (k,)."""
+    records: NDArray[np.uint32]
+    """Where each segment comes from: the number of a line or feature, shape (k,)."""
+    record: str
+    """What `records` counts: ``"line"``, from 1, or ``"feature"``, from 0."""
+    fields: dict[str, NDArray[np.float64]]
+    """Further values at the points by name."""
+
+
+def read_constraints(
+    path: str | os.PathLike[str], *, progress: Progress | None = None
+) -> Constraints:
+    r"""Read points, lines and polygons from GeoJSON or from Triangle's ``.poly``, gzipped or not.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file, which is recognised by content.
+    progress : callable, optional
+        As of `Locator`.
+
+    Returns
+    -------
+    Constraints
+        Its first four members are the first arguments of `constrained_delaunay`.
+
+    Raises
+    ------
+    OSError
+        The file cannot be opened or read; ``FileNotFoundError`` where there is none.
+    InputError
+        It is malformed, or of another format; GeoJSON, where the library was built without Jansson.
+
+    Warns
+    -----
+    SkippedRingWarning
+        A ring of a polygon has fewer than three different points.
+
+    Examples
+    --------
+    >>> import meshwalk, os, tempfile
+    >>> name = os.path.join(tempfile.mkdtemp(), "square.poly")
+    >>> with open(name, "w") as file:
+    ...     _ = file.write("4 2 0 0\n1 0 0\n2 6 0\n3 6 6\n4 0 6\n4 0\n")
+    ...     _ = file.write("1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+    >>> given = meshwalk.read_constraints(name)
+    >>> given.segments.tolist()
+    [[0, 1], [1, 2], [2, 3], [3, 0]]
+    >>> meshwalk.constrained_delaunay(*given[:4])
+    <Mesh: 4 vertices, 2 triangles>
+    """
+    name = _arrays.path(path)
+    try:
+        raw = _core.read_constraints(name, progress)
+    except OSError as error:
+        raise _found(error, name) from None
+    xyz = np.frombuffer(raw[0], np.float64).reshape(-1, 3)
+    numbers = [np.frombuffer(part, np.uint32) for part in raw[2:5]]
+    _warn_of_rings(np.frombuffer(raw[8], np.uint32).reshape(-1, 3))
+    return Constraints(
+        points=xyz if raw[1] else xyz[:, :2],
+        segments=_arrays.numbers(numbers[0].reshape(-1, 2)),
+        holes=np.frombuffer(raw[5], np.float64).reshape(-1, 2),
+        polygons=_arrays.numbers(numbers[1]),
+        records=numbers[2],
+        record=raw[7],
+        fields=_columns(raw[6]),
+    )
+
+
+def _warn_of_rings(skipped: NDArray[np.uint32]) -> None:
+    if len(skipped):
+        feature, polygon, ring = skipped[0]
+        warnings.warn(
+            f"{len(skipped)} rings have fewer than three different points and are left out; the"
+            f" first is ring {ring} of polygon {polygon} of feature {feature}",
+            SkippedRingWarning,
+            stacklevel=3,
+        )
+
+
+def write(
+    path: str | os.PathLike[str],
+    mesh: Mesh,
+    format: str | None = None,
+    *,
+    progress: Progress | None = None,
+) -> None:
     """Write a mesh to a file, which appears when it is complete.
 
     Parameters
@@ -174,6 +285,8 @@ def write(path: str | os.PathLike[str], mesh: Mesh, format: str | None = None) -
         values at the vertices (PLY, ``.node``, VTK, CSV).
     format : str, optional
         One of `mesh_formats`; by default the ending of the path says it.
+    progress : callable, optional
+        As of `Locator`.
 
     Raises
     ------
@@ -200,4 +313,5 @@ def write(path: str | os.PathLike[str], mesh: Mesh, format: str | None = None) -
         points[:, 2] = heights
     named = [(_arrays.field_name(name), values) for name, values in fields.items()]
     triangles = mesh.triangles.astype(np.uint32, copy=False)
-    _core.write_mesh(_arrays.path(path), format, points, heights is not None, triangles, named)
+    name, has_z = _arrays.path(path), heights is not None
+    _core.write_mesh(name, format, points, has_z, triangles, named, progress)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy.sparse import csr_array
 
+    from meshwalk._core import Progress
     from meshwalk._mesh import Mesh
     from meshwalk._surface import Surface
 
@@ -110,14 +111,25 @@ class Locations:
         """The shape of the points, without their coordinates."""
         return self.records.shape
 
-    def interpolate(self, values: ArrayLike | str) -> NDArray[Any]:
+    def interpolate(
+        self,
+        values: ArrayLike | str,
+        threads: int = 0,
+        *,
+        progress: Progress | None = None,
+    ) -> NDArray[Any]:
         """Interpolate values at the vertices, linearly in each triangle.
 
         Parameters
         ----------
         values : array_like, shape (n_vertices, ...), or str
             Values at the vertices of the mesh, or the name of one of its fields. Masked values
-            count as NaN.
+            count as NaN. Values of a vertex side by side are the fastest; fields one after the
+            other are taken as they lie, too, such as ``zeta.T`` of ``zeta[time, vertex]``.
+        threads : int, optional
+            How many threads work on it; 0 lets the library choose. The answers are the same.
+        progress : callable, optional
+            As of `Locator.locate`.
 
         Returns
         -------
@@ -138,8 +150,10 @@ class Locations:
                [0., 1.]])
         """
         if isinstance(values, str):
-            return self._interpolate_array(self._field(values))
-        return self._interpolate_array(_arrays.values(values, "values", self.mesh.vertex_count))
+            array: NDArray[Any] = self._field(values)
+        else:
+            array = _arrays.values(values, "values", self.mesh.vertex_count)
+        return self._interpolate_array(array, threads, progress)
 
     def operator(self) -> csr_array:
         """The interpolation as a sparse matrix: values at the points are ``operator @ values``.
@@ -220,24 +234,27 @@ class Locations:
             raise KeyError(f"the mesh has no field {name!r}; {there}")
         return fields[name]
 
-    def _interpolate_array(self, values: NDArray[Any]) -> NDArray[Any]:
+    def _interpolate_array(
+        self, values: NDArray[Any], threads: int, progress: Progress | None
+    ) -> NDArray[Any]:
         narrow = values.dtype.kind == "f" and values.dtype.itemsize <= 4
         kind = np.float32 if narrow else np.float64
-        columns = values.reshape(len(values), math.prod(values.shape[1:]))
+        inner = values.shape[1:]
+        # Fields in time, transposed, lie field by field, and do so still in the other order.
+        by_field = values.flags.f_contiguous and len(inner) > 1
+        flat = (len(values), math.prod(inner))
+        table = _arrays.columns(values.reshape(flat, order="F" if by_field else "C"), kind)
         records = np.ascontiguousarray(self.records).reshape(-1)
-        shape = self.shape + values.shape[1:]
-        if _arrays.rows_lie_side_by_side(columns):
-            out = np.empty((records.size, columns.shape[1]), kind)
-            table = np.require(columns, kind, ("A",))
-            self.mesh._interpolate_table(table, narrow, records, out)
-            return out.reshape(shape)
-        # Values lie time by time: so does the result.
-        by_column = np.empty((columns.shape[1], records.size), kind)
-        one = np.empty(records.size)
-        for k, column in enumerate(columns.T):
-            self.mesh._interpolate(np.ascontiguousarray(column, np.float64), records, one)
-            by_column[k] = one
-        return by_column.T.reshape(shape)
+        in_rows = _arrays.lies_in_rows(table)
+        out = np.empty((records.size, flat[1]) if in_rows else (flat[1], records.size), kind)
+        self.mesh._interpolate_table(table, narrow, records, out, threads, progress)
+        result = out if in_rows else out.T
+        if not by_field:
+            return result.reshape(self.shape + inner)
+        # The inner axes were counted from the first on.
+        result = result.reshape(self.shape + inner[::-1])
+        here = len(self.shape)
+        return result.transpose(*range(here), *reversed(range(here, result.ndim)))
 
     def __getitem__(self, index: Any) -> Locations:
         chosen = self.records[index]

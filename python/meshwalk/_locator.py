@@ -150,7 +150,7 @@ class Locator(_core.Locator):
         self,
         xy: ArrayLike,
         tolerance: float = 0,
-        hints: None = None,
+        hints: ArrayLike | None = None,
         threads: int = 0,
         *,
         walk: str = "auto",
@@ -169,8 +169,11 @@ class Locator(_core.Locator):
         tolerance : float, optional
             Points outside at most so far from the mesh are ``Where.NEAR``, with the nearest
             triangle. Needs a locator with ``border=True``.
-        hints : None
-            Not in this version.
+        hints : array_like of int, optional
+            For each point a triangle where its search begins, such as `triangle` of the answer
+            before; of the shape of the answer. -1 is no hint, and a number that no triangle has is
+            none either. Good ones save time where a mesh is large; the answers are the same. A
+            `Cursor` keeps them from call to call.
         threads : int, optional
             How many threads answer; 0 lets the library choose. The answers are the same.
         walk, start : str, optional
@@ -196,11 +199,10 @@ class Locator(_core.Locator):
         >>> [meshwalk.Where(where).name for where in hit.where]
         ['NEAR', 'OUTSIDE']
         """
-        if hints is not None:
-            raise NotImplementedError("hints are not in this version")
         points, shape = _arrays.queries(xy, "xy", 2)
+        first = None if hints is None else _arrays.hints(hints, shape)
         records = np.empty(len(points), LOCATION)
-        self._locate(points, records, walk, start, tolerance, lanes, threads, progress)
+        self._locate(points, records, first, walk, start, tolerance, lanes, threads, progress)
         return Locations(self.mesh, records.reshape(shape))
 
     def nearest_border(self, x: float, y: float) -> NearestBorder:

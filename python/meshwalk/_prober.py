@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from meshwalk._core import Progress
+
 TOUCH = _arrays.record_type(
     _core.TOUCH_LAYOUT,
     {
@@ -53,11 +55,8 @@ class TouchState(enum.IntEnum):
     """A coordinate is NaN or infinite, or the motion is zero."""
 
 
-class Touches:
-    """What probes touch: the answer of `Prober.probe`, of the shape of the points.
-
-    The attributes are views of the library's own answers.
-    """
+class _Found:
+    """What several queries of a surface found: views of the library's own answers."""
 
     __slots__ = ("records", "surface")
 
@@ -67,13 +66,33 @@ class Touches:
 
     @property
     def triangle(self) -> NDArray[np.int32]:
-        """The triangle touched, -1 for none."""
+        """The triangle found, -1 for none."""
         return self.records["triangle"]
 
     @property
     def distance(self) -> NDArray[np.float64]:
-        """From the point along the motion to what is touched: negative behind it; NaN for none."""
+        """How far it is; NaN for none."""
         return self.records["distance"]
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """The point found as weights of the triangle's vertices, shape (..., 3); NaN for none."""
+        return self.records["weights"]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the points, without their coordinates."""
+        return self.records.shape
+
+
+class Touches(_Found):
+    """What probes touch: the answer of `Prober.probe`, of the shape of the points.
+
+    `distance` is from the point along the motion, negative behind it. The attributes are views of
+    the library's own answers.
+    """
+
+    __slots__ = ()
 
     @property
     def state(self) -> NDArray[np.uint8]:
@@ -85,58 +104,24 @@ class Touches:
         """Inside of the triangle, on an edge or at a vertex: the numbers of `Where`."""
         return self.records["where"]
 
-    @property
-    def weights(self) -> NDArray[np.float64]:
-        """Weights of the three vertices of the triangle, shape (..., 3); NaN for none."""
-        return self.records["weights"]
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of the points, without their coordinates."""
-        return self.records.shape
-
     def __repr__(self) -> str:
         counts = np.bincount(self.state.ravel(), minlength=len(TouchState))
         kinds = ", ".join(f"{counts[s]} {s.name.lower()}" for s in TouchState if counts[s])
         return f"<Touches: {self.records.size} probes{'; ' if kinds else ''}{kinds}>"
 
 
-class NearestPoints:
+class NearestPoints(_Found):
     """The points of a surface that are nearest: the answer of `Prober.nearest`.
 
     The attributes are views of the library's own answers.
     """
 
-    __slots__ = ("records", "surface")
-
-    def __init__(self, surface: Surface, records: NDArray[Any]) -> None:
-        self.surface = surface
-        self.records = records
-
-    @property
-    def triangle(self) -> NDArray[np.int32]:
-        """The triangle that has the nearest point, -1 for none."""
-        return self.records["triangle"]
-
-    @property
-    def distance(self) -> NDArray[np.float64]:
-        """How far it is; NaN for none."""
-        return self.records["distance"]
+    __slots__ = ()
 
     @property
     def point(self) -> NDArray[np.float64]:
         """The nearest point, shape (..., 3); NaN for none."""
         return self.records["point"]
-
-    @property
-    def weights(self) -> NDArray[np.float64]:
-        """The same point as weights of the triangle's vertices, shape (..., 3)."""
-        return self.records["weights"]
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of the points, without their coordinates."""
-        return self.records.shape
 
     def __repr__(self) -> str:
         found = int((self.triangle >= 0).sum())
@@ -152,6 +137,10 @@ class Prober(_core.Prober):
         Any surface: open or closed, in pieces.
     boxes : bool, optional
         Build boxes over the triangles, for ``certain=True`` and `nearest`.
+    threads : int, optional
+        How many threads build them; 0 lets the library choose.
+    progress : callable, optional
+        As of `Locator`.
 
     Raises
     ------
@@ -182,11 +171,18 @@ class Prober(_core.Prober):
     if TYPE_CHECKING:
         surface: Surface
 
-    def __new__(cls, surface: Surface, boxes: bool = False) -> Self:
+    def __new__(
+        cls,
+        surface: Surface,
+        boxes: bool = False,
+        *,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> Self:
         if not isinstance(surface, Surface):
             raise TypeError(f"surface must be a meshwalk.Surface, not {type(surface).__name__}")
         with surface._lock:
-            prober = _core.prober_from_surface(cls, surface, boxes)
+            prober = _core.prober_from_surface(cls, surface, boxes, threads, progress)
             prober._boxes = boxes
             surface._kept.add(prober)
         return prober
@@ -201,6 +197,7 @@ class Prober(_core.Prober):
         start: Literal["auto", "last", "sample", "random"] = "auto",
         iterations: int = 0,
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> Touches:
         """Find the triangles that lines through points touch, on either side of the points.
 
@@ -223,6 +220,8 @@ class Prober(_core.Prober):
             Walks at most, from different first triangles; 0 means 10.
         threads : int, optional
             How many threads answer; 0 lets the library choose. The answers are the same.
+        progress : callable, optional
+            As of `Locator.locate`.
 
         Returns
         -------
@@ -236,10 +235,16 @@ class Prober(_core.Prober):
         queries[:, :3] = rows
         queries[:, 3:] = ways
         records = np.empty(len(rows), TOUCH)
-        self._probe(queries, records, max_distance, certain, start, iterations, threads)
+        self._probe(queries, records, max_distance, certain, start, iterations, threads, progress)
         return Touches(self.surface, records.reshape(shape))
 
-    def nearest(self, points: ArrayLike, max_distance: float = np.inf) -> NearestPoints:
+    def nearest(
+        self,
+        points: ArrayLike,
+        max_distance: float = np.inf,
+        *,
+        progress: Progress | None = None,
+    ) -> NearestPoints:
         """Find the points of the surface that are nearest to points.
 
         Parameters
@@ -248,6 +253,8 @@ class Prober(_core.Prober):
             The points.
         max_distance : float, optional
             Look no farther.
+        progress : callable, optional
+            As of `Locator.locate`.
 
         Returns
         -------
@@ -260,7 +267,7 @@ class Prober(_core.Prober):
         """
         rows, shape = _arrays.queries(points, "points", 3)
         records = np.empty(len(rows), NEAREST)
-        self._nearest(rows, records, max_distance)
+        self._nearest(rows, records, max_distance, progress)
         return NearestPoints(self.surface, records.reshape(shape))
 
     def __repr__(self) -> str:

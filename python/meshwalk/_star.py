@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from meshwalk._core import Progress
+
 
 class StarInfo(NamedTuple):
     """What a star keeps beside its surface: the answer of `Star.describe`."""
@@ -41,6 +43,8 @@ class Star(_core.Star):
         A closed polyhedron, star-shaped about the centre: each ray meets it once.
     centre : array_like, shape (3,), optional
         Where the rays begin; the origin by default.
+    progress : callable, optional
+        As of `Locator`.
 
     Raises
     ------
@@ -71,7 +75,13 @@ class Star(_core.Star):
     if TYPE_CHECKING:
         surface: Surface
 
-    def __new__(cls, surface: Surface, centre: ArrayLike = (0, 0, 0)) -> Self:
+    def __new__(
+        cls,
+        surface: Surface,
+        centre: ArrayLike = (0, 0, 0),
+        *,
+        progress: Progress | None = None,
+    ) -> Self:
         if not isinstance(surface, Surface):
             raise TypeError(f"surface must be a meshwalk.Surface, not {type(surface).__name__}")
         place, _ = _arrays.queries(centre, "centre", 3)
@@ -80,7 +90,7 @@ class Star(_core.Star):
         x, y, z = (float(value) for value in place[0])
         with surface._lock:
             try:
-                star = _core.star_from_surface(cls, surface, x, y, z)
+                star = _core.star_from_surface(cls, surface, x, y, z, progress)
             except InputError as error:
                 weld = surface._options[0]
                 found = check_star(surface.points, surface.triangles, (x, y, z), weld=weld)
@@ -98,6 +108,7 @@ class Star(_core.Star):
         *,
         walk: str = "auto",
         start: str = "auto",
+        progress: Progress | None = None,
     ) -> Locations:
         """Find the facets that rays from the centre meet.
 
@@ -112,6 +123,8 @@ class Star(_core.Star):
             How many threads answer; 0 lets the library choose. The answers are the same.
         walk, start : str, optional
             By which walk, and from which first facet. The answers are the same.
+        progress : callable, optional
+            As of `Locator.locate`.
 
         Returns
         -------
@@ -128,7 +141,7 @@ class Star(_core.Star):
         else:
             rows, shape = _arrays.queries(points, "points", 3)
         records = np.empty(len(rows), LOCATION)
-        self._locate(rows, records, walk, start, threads)
+        self._locate(rows, records, walk, start, threads, progress)
         return Locations(self.surface, records.reshape(shape))
 
     def describe(self) -> StarInfo:

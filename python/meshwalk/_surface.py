@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from meshwalk._core import Progress
+
 
 class SurfaceInfo(NamedTuple):
     """What kind of surface it is: the answer of `Surface.describe`."""
@@ -77,6 +79,8 @@ class Surface(_core.Surface):
     tolerant : bool, optional
         Take also triangles with a vertex twice, vertices that are not finite, and edges of three
         triangles.
+    progress : callable, optional
+        As of `Locator`.
 
     Raises
     ------
@@ -120,11 +124,12 @@ class Surface(_core.Surface):
         *,
         weld: bool = False,
         tolerant: bool = False,
+        progress: Progress | None = None,
     ) -> Self:
         rows, _ = _arrays.vertices(points, "points", (3,))
         numbers = _arrays.triangles(triangles, "triangles", _core.MAX_TRIANGLES)
         try:
-            surface = _core.surface_from_arrays(cls, rows, numbers, tolerant, weld)
+            surface = _core.surface_from_arrays(cls, rows, numbers, tolerant, weld, progress)
         except InputError as error:
             error.defect = next(iter(check_surface(rows, numbers, weld=weld).defects), None)
             raise
@@ -304,30 +309,27 @@ class Surface(_core.Surface):
         """
         return SurfaceInfo(**self._describe())
 
-    def _interpolate(
-        self, values: NDArray[np.float64], records: NDArray[Any], out: NDArray[np.float64]
-    ) -> None:
-        """As the library does it in the plane: a weight of 0 ignores even NaN."""
-        there = records["triangle"] >= 0
-        corners = self.triangles[records["triangle"][there]]
-        weights = records["weights"][there]
-        total = np.zeros(len(weights))
-        for k in range(3):
-            total += np.where(weights[:, k] != 0, weights[:, k] * values[corners[:, k]], 0)
-        out.fill(np.nan)
-        out[there] = total
-
     def _interpolate_table(
         self,
         values: NDArray[Any],
         narrow: bool,
         records: NDArray[Any],
         out: NDArray[Any],
+        threads: int,
+        progress: Progress | None,
     ) -> None:
-        one = np.empty(len(records))
+        """As the library does it in the plane: a weight of 0 ignores even NaN."""
+        there = records["triangle"] >= 0
+        corners = self.triangles[records["triangle"][there]]
+        weights = records["weights"][there]
+        out.fill(np.nan)
+        columns = out.T if _arrays.lies_in_rows(values) else out
         for k in range(values.shape[1]):
-            self._interpolate(values[:, k], records, one)
-            out[:, k] = one
+            total = np.zeros(len(weights))
+            for c in range(3):
+                part = weights[:, c] * values[corners[:, c], k]
+                total += np.where(weights[:, c] != 0, part, 0)
+            columns[k, there] = total
 
     def __len__(self) -> int:
         """Number of triangles."""

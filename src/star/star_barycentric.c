@@ -1,4 +1,4 @@
-/* star_barycentric.c - Wu's barycentric walk [Wu et al. 2007; thesis App. F, sec. 2].
+/* star_barycentric.c - Wu's barycentric walk [Wu, He, Tian 2005; thesis App. F, sec. 2].
  *
  * The ray meets the plane of the facet at a point. Its barycentric coordinates are proportional to
  * the three determinants of the edges opposite to the corners. The determinants have the sign that

@@ -1,4 +1,4 @@
-/* star_octahedron.c - descends the subdivisions of a regular octahedron [Wu et al. 2007; thesis
+/* star_octahedron.c - descends the subdivisions of a regular octahedron [Wu, He, Tian 2005; thesis
  * App. F, sec. 7].
  *
  *            2              A triangle has four children. Their new corners are the middles of its

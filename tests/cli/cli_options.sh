@@ -75,7 +75,16 @@ for c in info check; do
     run $c --as surface --lonlat a; refused 2 "'--lonlat' wants --as star"
     run $c --weld a; refused 2 "'--weld' wants --as surface"
 done
-run check --fix weld a; refused 2 "unknown option '--fix'"
+run check --fix weld a; refused 2 "check: -o MESH is missing"
+run check --fix wled a -o b.off; refused 2 "unknown repair 'wled'; did you mean 'weld'\?"
+run check --fix weld, a -o b.off; refused 2 "unknown repair ''"
+run check --fix weld a -o b; refused 2 "b: the name tells no format"
+run check --fix weld --numbers b.off a -o b.off; refused 2 "--output and --numbers cannot both go to b.off"
+run check --fix all --as star --lonlat a -o b.off; refused 2 "--fix mends no mesh of --lonlat"
+for words in '--numbers n.csv' '--tolerance 1' '--format ply'; do
+    # shellcheck disable=SC2086 # words
+    run check $words a; refused 2 "about --fix"
+done
 
 # Numbers are taken as a whole or not at all.
 for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5 1e-400 0.1E-400 2e-324 ".$(printf '%0400d' 1)"; do

@@ -143,6 +143,40 @@ holds "all walks take more room than one" test "$(wc -c <all.svg)" -gt $((4 * $(
 holds "the stages of the straight walk have colours" test "$(fills straight.svg)" -ge 8
 run walk --from 0.1,0.2 --to 3.9,9 --walk all row.off -o all.png; exits 0
 holds "what is outside is said once" test "$(grep -c outside "$logs/err")" == 1
+# Step by step: a chunk fcTL for each triangle, numbers that count up, checksums that are right; the list with -o only.
+chunks() { # chunks FILE: the types of its chunks, with the number of those that have one; fails where a checksum is wrong
+    python3 - "$1" <<'EOF'
+import struct, sys, zlib
+data, at = open(sys.argv[1], "rb").read(), 8
+assert data[:8] == b"\x89PNG\r\n\x1a\n"
+frame = b""
+while at < len(data):
+    size, kind = struct.unpack(">I4s", data[at:at + 8])
+    body = data[at + 8:at + 8 + size]
+    assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(kind + body)
+    print(kind.decode(), struct.unpack(">I", body[:4])[0] if kind in (b"acTL", b"fcTL", b"fdAT") else "")
+    if kind == b"IHDR": width, height = struct.unpack(">II", body[:8])
+    if kind in (b"fcTL", b"IEND") and frame: assert len(zlib.decompress(frame)) == height * (4 * width + 1); frame = b""
+    if kind == b"fcTL": assert struct.unpack(">IIII", body[4:20]) == (width, height, 0, 0)
+    if kind == b"fdAT": frame += body[4:]
+    at += 12 + size
+EOF
+}
+run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off --animate row.apng; exits 0; prints ''; says_nothing
+holds "the chunks are right" chunks row.apng >row.chunks
+holds "eight frames" test "$(grep -c fcTL row.chunks)" == 8
+holds "eight are announced" grep -qx 'acTL 8' row.chunks
+holds "numbers count up" test "$(grep -E '^f' row.chunks | cut -d' ' -f2 | xargs)" == "$(seq 0 $(($(grep -cE '^f' row.chunks) - 1)) | xargs)"
+holds "the picture of those who show no frames comes first" test "$(cut -d' ' -f1 row.chunks | uniq | head -4 | xargs)" == 'IHDR acTL IDAT fcTL'
+run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off --animate two.png -o two.csv; exits 0; prints ''
+holds "the list is there, too" test "$(<two.csv)" == "$(list 0 1 2 3 4 5 6 7)"
+run walk --as star --lonlat --from 45,30 --to -135,-30 octahedron.off --animate star.png; exits 0
+holds "frames of a polyhedron" chunks star.png >star.chunks
+run walk --from 9,9 --to 9,8 row.off --animate none.png; exits 0
+run walk --from 1,2 --to 3,4 row.off --animate steps.gif; refused 2 "'--animate' wants a .png or .apng file"; absent steps.gif
+run walk --from 1,2 --to 3,4 row.off --walk all --animate all.png -o all.svg; refused 2 "'--animate' wants one walk"
+run walk --from 1,2 --to 3,4 row.off --animate same.png -o same.png; refused 2 "'--animate' wants another file"
+run walk --from 1,2 --to 3,4 row.off --animate absent/a.png; exits 4; says 'absent/a.png'
 # Of a mesh with 80,000 triangles, lines near the walk.
 awk 'BEGIN { srand(1); for (i = 0; i < 40000; i++) print rand(), rand() }' >points.xyz
 run triangulate -q points.xyz -o large.ply; exits 0

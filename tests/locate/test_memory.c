@@ -25,6 +25,19 @@ static mw_status check_job(const mw_arrays *view, mw_error *error)
     return status;
 }
 
+/* In the plane, then in space, where a point takes three of the coordinates. */
+static mw_status mend_job(const mw_arrays *view, mw_error *error)
+{
+    mw_mended mended;
+    mw_arrays space = *view;
+    mw_status status = mw_mend_arrays(view, NULL, &mended, error);
+    mw_mended_release(&mended);
+    space.point_count = space.point_count * 2 / 3;
+    if (!status) status = mw_mend_arrays(&space, &(mw_mend_options){.space = 1}, &mended, error);
+    mw_mended_release(&mended);
+    return status;
+}
+
 static mw_mesh *make(const mw_arrays *view, mw_status *status, mw_error *error)
 {
     mw_mesh *mesh;
@@ -149,6 +162,7 @@ static void exhaust(mesh_job *run, const arrays *a)
 static void exhaust_all(arrays *a)
 {
     exhaust(check_job, a);
+    exhaust(mend_job, a);
     exhaust(describe_job, a);
     exhaust(tile_job, a);
     exhaust(locator_job, a);

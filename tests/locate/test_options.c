@@ -89,6 +89,12 @@ TAKER(take_batch, mw_query_options, {
     mw_location at;
     return mw_locate_batch(all->locator, (double[2]){1, 1}, 1, 0, options, &at, NULL, error);
 })
+TAKER(take_interpolation, mw_interpolate_options, {
+    mw_location at = {.triangle = MW_NONE};
+    double value = 0;
+    mw_value_table table = {.values = all->plane.points, .count = 1};
+    return mw_interpolate_table(all->mesh, &table, &at, 1, options, &value, error);
+})
 TAKER(take_editor, mw_editor_options, {
     mw_editor *out;
     mw_status status = mw_editor_create(all->mesh, options, &out, error);
@@ -188,6 +194,7 @@ static const taker takers[] = {
     ROW(take_index, mw_index_options),
     ROW(take_query, mw_query_options),
     ROW(take_batch, mw_query_options),
+    ROW(take_interpolation, mw_interpolate_options),
     ROW(take_editor, mw_editor_options),
     ROW(take_surface, mw_surface_options),
     ROW(take_star, mw_star_options),

@@ -99,3 +99,44 @@ def test_laz_needs_laspy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setitem(sys.modules, "laspy", None)
     with pytest.raises(ImportError, match=r"laspy\[lazrs\]"):
         meshwalk.read_points(tmp_path / "points.laz")
+
+
+def test_constraints(tmp_path: Path) -> None:
+    path = tmp_path / "lake.geojson"
+    path.write_text(
+        """{"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [
+            [[0, 0, 5], [6, 0], [6, 6], [0, 6], [0, 0]], [[2, 2], [4, 2], [4, 4], [2, 2]]]}},
+        {"type": "Feature", "properties": {}, "geometry": {"type": "LineString",
+            "coordinates": [[1, 1], [1, 5]]}},
+        {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",
+            "coordinates": [[[1, 1], [2, 1], [1, 1]]]}}]}"""
+    )
+    with pytest.warns(meshwalk.SkippedRingWarning, match=r"1 rings .* of feature 2"):
+        given = meshwalk.read_constraints(path)
+    assert given.points.shape == (9, 3)
+    assert (given.points[0, 2], np.isnan(given.points[1, 2])) == (5, True)
+    assert given.polygons.tolist() == [0] * 7 + [-1]
+    assert (given.record, given.records.tolist()) == ("feature", [0] * 7 + [1])
+    mesh = meshwalk.constrained_delaunay(*given[:4])
+    assert mesh.describe().area == 36 - 2
+    assert not meshwalk.Locator(mesh).locate_one(3.5, 2.5).inside
+
+
+def test_constraints_of_triangle(tmp_path: Path) -> None:
+    path = tmp_path / "ring.poly"
+    square = "1 0 0 7\n2 6 0 7\n3 6 6 7\n4 0 6 7\n5 2 2 8\n6 4 2 8\n7 3 4 8\n"
+    lines = "1 1 2\n2 2 3\n3 3 4\n4 4 1\n5 5 6\n6 6 7\n7 7 5\n"
+    path.write_text(f"7 2 1 0\n{square}7 0\n{lines}1\n1 3 3\n")
+    given = meshwalk.read_constraints(path)
+    assert given.points.shape == (7, 2)
+    assert given.holes.tolist() == [[3, 3]]
+    assert (given.polygons == -1).all()
+    assert given.record == "line"
+    assert [values.tolist() for values in given.fields.values()] == [[7] * 4 + [8] * 3]
+    assert meshwalk.constrained_delaunay(*given[:4]).describe().area == 36 - 2
+    with pytest.raises(FileNotFoundError):
+        meshwalk.read_constraints(tmp_path / "none.poly")
+    path.write_text("7 2 1 0\n1 0 0 7\n")
+    with pytest.raises(meshwalk.InputError, match="ring"):
+        meshwalk.read_constraints(path)

@@ -21,6 +21,7 @@ POINTS = np.random.default_rng(7).uniform(size=(400, 2))
 TRIANGLES = meshwalk.delaunay(POINTS).triangles
 SQUARE = [[0, 0], [6, 0], [6, 6], [0, 6], [1, 1]]
 RING = [[0, 1], [1, 2], [2, 3], [3, 0]]
+HINT = np.zeros(1, np.uint32)
 
 
 def _use_meshes(folder: Path) -> None:
@@ -28,6 +29,8 @@ def _use_meshes(folder: Path) -> None:
     _ = mesh.points, mesh.triangles, mesh.neighbours, mesh.nbytes, mesh.describe(), mesh.check()
     mesh.write(folder / "mesh.ply")
     meshwalk.read(folder / "mesh.ply")
+    (folder / "line.poly").write_text("2 2 1 0\n1 0 0 3\n2 1 0 4\n1 0\n1 1 2\n1\n1 3 3\n")
+    meshwalk.read_constraints(folder / "line.poly")
     meshwalk.constrained_delaunay(SQUARE, RING, holes=[[9, 9]], polygons=[0] * 4)
     meshwalk.triangulate(POINTS[:20], "greedy")
     locator = meshwalk.Locator(mesh, border=True)
@@ -38,7 +41,12 @@ def _use_meshes(folder: Path) -> None:
     locator.nearest_border(2, 2)
     hit.interpolate("z")
     hit.interpolate(np.zeros((400, 3), np.float32))
-    pickle.loads(pickle.dumps((mesh, locator, hit)))
+    cursor = meshwalk.Cursor(locator)
+    cursor.locate(POINTS)
+    cursor.triangle = cursor.triangle[3:]
+    locator.locate(POINTS, hints=hit.triangle)
+    hit.interpolate(np.zeros((3, 400)).T, progress=lambda stage, done: None)
+    pickle.loads(pickle.dumps((mesh, locator, hit, cursor)))
 
 
 def _use_editors() -> None:
@@ -71,6 +79,7 @@ def _use_surfaces() -> None:
 def _failures(folder: Path) -> list[Callable[[], Any]]:
     mesh = meshwalk.Mesh(POINTS, TRIANGLES)
     locator = meshwalk.Locator(mesh)
+    records = locator.locate(POINTS).records
     editor = meshwalk.Editor(mesh)
     surface = meshwalk.Surface(OCTAHEDRON, FACETS)
     star = meshwalk.Star(surface)
@@ -87,15 +96,22 @@ def _failures(folder: Path) -> list[Callable[[], Any]]:
         lambda: meshwalk.constrained_delaunay(SQUARE, RING, holes=[[np.nan, 0]]),
         lambda: meshwalk.triangulate(POINTS, wrong),
         lambda: meshwalk.read(folder / "none.off"),
+        lambda: meshwalk.read_constraints(folder / "none.poly"),
+        lambda: meshwalk.Star(surface, progress=wrong),
+        lambda: editor.insert_points(POINTS + 0.01, progress=wrong),
+        lambda: prober.probe([[0, 0, 5]], [0, 0, -1], progress=wrong),
         lambda: mesh.write(folder / "mesh.none"),
         lambda: locator.locate(POINTS, walk=wrong),
         lambda: locator.locate(POINTS, -1),
         lambda: locator.locate(POINTS[:, :1]),
         lambda: locator.locate_one(wrong, 1),
         lambda: locator.nearest_border(1, 1),
-        lambda: locator._locate(POINTS, np.empty(3), "auto", "auto", 0, 0, 0, None),
+        lambda: locator._locate(POINTS, np.empty(3), None, "auto", "auto", 0, 0, 0, None),
+        lambda: locator._locate(POINTS, records, HINT, "auto", "auto", 0, 0, 0, None),
+        lambda: locator.locate(POINTS, hints=[1]),
         lambda: mesh._copy_points(np.empty(3)),
-        lambda: mesh._interpolate(np.empty(400), POINTS, np.empty(3)),
+        lambda: mesh._interpolate_table(POINTS, False, records, HINT, 1, None),
+        lambda: locator.locate(POINTS).interpolate(POINTS, progress=wrong),
         lambda: editor.remove(10**7),
         lambda: editor.insert(np.nan, 0),
         lambda: editor.undo(),

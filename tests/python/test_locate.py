@@ -174,6 +174,15 @@ def test_interpolation_of_layouts(scattered: meshwalk.Mesh, random: np.random.Ge
             assert result.dtype == expected.dtype
         by_time = np.ascontiguousarray(values.T)
         np.testing.assert_array_equal(hit.interpolate(by_time.T), expected)
+        np.testing.assert_array_equal(hit.interpolate(by_time.T, threads=1), expected)
+        by_layer = by_time.reshape(7, 2, -1).T  # vertex, layer, time
+        layers = expected.reshape(50, 7, 2).transpose(0, 2, 1)
+        np.testing.assert_array_equal(hit.interpolate(by_layer), layers)
+        square = hit[:48].records.reshape(6, 8)
+        both = meshwalk.Locations(scattered, square).interpolate(by_layer)
+        np.testing.assert_array_equal(both, layers[:48].reshape(6, 8, 2, 7))
+        same = np.broadcast_to(values[:, :1], values.shape)
+        np.testing.assert_array_equal(hit.interpolate(same), np.repeat(expected[:, :1], 14, 1))
         np.testing.assert_array_equal(hit.interpolate(values[::-1][::-1]), expected)
 
 

@@ -306,6 +306,19 @@ static mw_status run_check_damaged(const call_inputs *in, const call_setting *ho
     return check_made(mw_check_arrays(&view, &options, &check, error), &check, sum);
 }
 
+static mw_status run_mend(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    mw_mended mended;
+    mw_arrays view = arrays_view(&in->damaged);
+    mw_mend_options options = {.progress = how->progress};
+    mw_status status = mw_mend_arrays(&view, &options, &mended, error);
+    expect(!status || (!mended.triangles && mended.change_count == 0), "there is a mended mesh");
+    for (size_t i = 0; i < 3 * mended.triangle_count; i++) sum_add(sum, mended.triangles[i]);
+    for (size_t i = 0; i < mended.change_count; i++) sum_add(sum, mended.changes[i].triangle);
+    mw_mended_release(&mended);
+    return status;
+}
+
 static mw_status run_describe(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
 {
     mw_mesh_info info;
@@ -410,6 +423,23 @@ static mw_status run_batch(const call_inputs *in, const call_setting *how, uint6
     mw_query_options options = {.start = MW_START_SORTED, .threads = how->threads, .progress = how->progress};
     mw_status status = mw_locate_batch(in->locator, in->points, in->point_count, 2, &options, at, NULL, error);
     if (!status) sum_add_locations(sum, at, in->point_count);
+    free(at);
+    return status;
+}
+
+static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    enum { VALUES = 3 };
+    size_t n = in->point_count;
+    mw_location *at = malloc(n * sizeof *at);
+    double *result = calloc(VALUES * n, sizeof *result);
+    mw_value_table table = {.values = in->points, .count = VALUES, .step = 2}; /* x, then x of the next vertices */
+    mw_query_options query = {.threads = how->threads};
+    mw_interpolate_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_locate_batch(in->locator, in->points, n, 2, &query, at, NULL, error);
+    if (!status) status = mw_interpolate_table(in->mesh, &table, at, n, &options, result, error);
+    for (size_t i = 0; i < VALUES * n && !status; i++) sum_add(sum, (uint64_t)llrint(result[i] * 1e6));
+    free(result);
     free(at);
     return status;
 }
@@ -682,6 +712,7 @@ const long_call long_calls[] = {
     {"mw_mesh_create, as given", run_mesh_as_given},
     {"mw_check_arrays", run_check},
     {"mw_check_arrays, damaged", run_check_damaged},
+    {"mw_mend_arrays", run_mend},
     {"mw_mesh_describe", run_describe},
     {"mw_locator_create", run_locator},
     {"mw_locator_create, crowded", run_locator_crowded},
@@ -695,6 +726,7 @@ const long_call long_calls[] = {
     {"mw_index_create, triangle buckets", run_index_triangle_buckets},
     {"mw_index_create, kd tree", run_index_kd_tree},
     {"mw_locate_batch", run_batch},
+    {"mw_interpolate_table", run_table},
     {"mw_mesh_borrow", run_borrow},
     {"mw_borrowed_locate_batch", run_borrowed_batch},
     {"mw_editor_create", run_editor},

@@ -6,7 +6,7 @@
  *       / | \        beyond pr is tried: the triangles that qs crosses are removed, which leaves a polygon on either side
  *      r--+--p       of qs, with a chain of vertices from q to s; ears are cut off the chains that have only smaller
  *       \ | /        angles. If T has the edge qs, there is such an ear, other than at q and s, as long as a polygon is left,
- *         q          whichever were cut before [1993, "cake cutting"]. So if ears run out, T does not have it.
+ *         q          whichever were cut before [the latter, "cake cutting"]. So if ears run out, T does not have it.
  *
  * Ears at chain vertices do not depend on s, but for the last of them. So chains grow while the
  * search moves away from q, triangle by triangle and nearest first, as stacks: an ear is cut as

@@ -1,8 +1,8 @@
 /* lmt_diamond.c - edges with the diamond property: candidates for a triangulation of least weight.
  *
  *            apex            An edge pq of a triangulation of least weight has no point in one, at least, of the two
- *           /    \           isosceles triangles with base pq and base angle a = pi / 4.6 [Das, Joseph 1989; Drysdale,
- *         /  r     \         McElfresh, Snoeyink 2001].
+ *           /    \           isosceles triangles with base pq and base angle a = pi / 4.6
+ *         /  r     \         [Das, Joseph 1989; Drysdale, McElfresh, Snoeyink 2001].
  *       p ---------- q       A point r at distance d from p, in direction t, lies in the left triangle of every edge
  *         \        /         from p that leaves between the directions t - a and t and is longer than 2 d cos a, and
  *           \    /           likewise in the right triangle of those between t and t + a. So each point makes two arcs
