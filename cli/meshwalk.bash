@@ -3,14 +3,14 @@
 # Options of a command; all commands share the last ones.
 _meshwalk_options() {
     local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
-    query="$query --columns"
+    query="$query --columns --crs --points-crs"
     query="$query --any"
     local stream='--strict --stats --json --layer --where --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
         info) echo "--as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --keep --split --strict --kind --limit --format --columns --class --json $common" ;;
+        triangulate) echo "--constraints --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -45,6 +45,7 @@ _meshwalk_names() {
             echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
             echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
             ;;
+        --help | -h) echo all ;;
         --fix) echo 'weld orient drop split all' ;;
         --as) echo 'plane surface star' ;;
         --walk)
@@ -72,7 +73,8 @@ _meshwalk_names() {
         --outside) echo 'empty nearest linear' ;;
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
-        --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
+        --points-crs) echo same ;;
+        --kind) echo 'delaunay greedy min-weight min-max-angle regular' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;
         --class)
@@ -107,8 +109,8 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --field | --layer | --where | --attribute | --polygon-layer) return ;;
-        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --field | --layer | --where | --attribute | --polygon-layer) return ;;
+        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

@@ -21,7 +21,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bool sound = mw__point_reader_start(source, &options, &reader, &error) == MW_OK;
     mw_point_reader_close(reader);
     if (!sound) options.columns = NULL;
-    for (options.table = 0; options.table < 2; options.table++) {
+    for (int round = 0; round < 3; round++) {
+        options.table = round == 1;
+        options.texts = round == 2;
         fuzz_points("input.txt", &options, data + skipped, size - skipped);
         fuzz_points("input.node", &options, data + skipped, size - skipped);
     }

@@ -47,6 +47,7 @@ const command bench_command = {
         "(default: "
         "50000, at most half of the vertices). SET is of uniform, clusters, gaussian, arcs and rectangle.",
     .options = bench_command_options,
+    .essential = "sizes queries data rounds format",
     .settings_size = sizeof(bench_settings),
     .run = bench_command_run,
 };

@@ -232,7 +232,7 @@ static int check_fix_write(const check_settings *s, const char *path, const mend
     if (check_arrays(&s->mesh, &arrays, &check, &error) != MW_OK) return fail_mesh(output, &error);
     check_outcome o = check_outcome_of(&s->mesh, &check, file);
     if (!s->mesh.common.quiet) mesh_output_warn(output, s->format, file);
-    int end = mesh_output_write(output, s->format, file, temporary);
+    int end = mesh_output_write(output, s->format, file, temporary, s->mesh.common.quiet);
     check_fix_tell(s, path, m, file, &check, &o, &t);
     mw_check_release(&check);
     bool taken = files_is_standard(output) || (s->numbers && files_is_standard(s->numbers));
@@ -289,6 +289,7 @@ const command check_command = {
         "--fix, a mended mesh is written and told about; then the exit code is 0 if that is an embedding, and 1 if "
         "defects remain. '-' is standard input.",
     .options = tables,
+    .essential = "fix tolerance numbers as output",
     .settings_size = sizeof(check_settings),
     .run = check_run,
 };

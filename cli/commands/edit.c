@@ -242,7 +242,7 @@ static int edit_write_mesh(const edit_settings *s, edit_work *w, bool temporary)
     mw_mesh_destroy(mesh);
     v.file.crs = w->crs;
     w->crs = NULL;
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, temporary);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, temporary, s->common.quiet);
     vertex_table_release(&v);
     return end;
 }
@@ -350,6 +350,7 @@ const command edit_command = {
         "next one. A locate line is answered as the command locate does it: x,y,status,triangle,w0,w1,w2. The mesh "
         "written is numbered anew, without gaps and in the same order. '-' is standard input.",
     .options = tables,
+    .essential = "answers changes numbers log output",
     .settings_size = sizeof(edit_settings),
     .run = edit_run,
 };

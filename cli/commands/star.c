@@ -252,6 +252,7 @@ static int ray_queries_run(ray_queries *r, const char *path)
         .self = r,
     };
     if (s->lonlat) asked.columns = (query_columns){.axes = QUERY_LONLAT, .names = {"lon", "lat"}, .count = 2};
+    if (s->lonlat) asked.ground = GROUND_SPHERE;
     asked.shown = asked.columns.count;
     return query_stream_run(&asked, path);
 }
@@ -292,6 +293,7 @@ const command star_command = {
         "inside, "
         "as that of a sphere does. '-' is standard input.",
     .options = tables,
+    .essential = "centre lonlat columns only-answers output",
     .settings_size = sizeof(star_settings),
     .run = star_run,
 };

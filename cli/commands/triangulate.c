@@ -5,10 +5,12 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
+#include "cli/input/border_peel.h"
 #include "cli/input/constraint_file.h"
 #include "cli/input/missing_values.h"
 #include "cli/input/vertex_table.h"
 #include "cli/output/mesh_output.h"
+#include "cli/output/side_outputs.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -17,9 +19,10 @@
 
 typedef struct triangulate_settings {
     common_settings common;
-    const char *columns, *classes, *constraints;
+    const char *columns, *classes, *constraints, *weight, *hidden;
     int kind, format, keep;
     uint32_t limit;
+    double max_edge;
     bool json, split, strict;
 } triangulate_settings;
 
@@ -58,8 +61,19 @@ static const option triangulate_options[] = {
      "with --constraints, refuse a FILE that has rings of fewer than three different points; without it they are "
      "skipped with a warning",
      NULL},
+    {"max-edge", 0, OPTION_LENGTH, offsetof(triangulate_settings, max_edge), "L",
+     "peel triangles off the border while they have a border edge longer than L; constraints hold them (default: keep "
+     "the convex hull)",
+     NULL},
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
      "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
+    {"weight", 0, OPTION_TEXT, offsetof(triangulate_settings, weight), "COLUMN",
+     "--kind regular: the column of POINTS that has the weights, by its name (z, c4, c5 ... without a header); a "
+     "weight is the "
+     "square of the radius of a circle round the point",
+     NULL},
+    {"hidden", 0, OPTION_TEXT, offsetof(triangulate_settings, hidden), "FILE",
+     "--kind regular: list the points that no triangle has in FILE, by their numbers from 0", NULL},
     {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
      "--kind min-weight: fill faces of up to N corners optimally; min-max-angle: seek the optimum of up to N points; "
      "beyond, a local optimum is made (default: 0, what half a minute finds)",
@@ -68,7 +82,7 @@ static const option triangulate_options[] = {
      "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &mesh_formats},
     {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
      "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first two are x and y, the "
-     "third is z, further ones become fields (default: all, with x, y and z first where a header names them)",
+     "third is z, further ones become fields (default: all that hold numbers; x, y and z are found by their names)",
      NULL},
     {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
      "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)", NULL},
@@ -84,6 +98,9 @@ typedef struct triangulate_work {
     mw_constrained_edges edges;
     mw_constrain_report constrained;
     mw_kind_report kind;
+    double *weights; /* of --kind regular */
+    uint8_t *hidden;
+    border_peel peel;
     double begin;
 } triangulate_work;
 
@@ -93,6 +110,39 @@ static void triangulate_work_release(triangulate_work *w)
     mw_constraint_file_release(&w->constraints);
     mw_constrained_edges_release(&w->edges);
     free(w->duplicate_of);
+    free(w->weights);
+    free(w->hidden);
+}
+
+/* Take all triangles of the mesh but those that --max-edge peels off, and destroy it. */
+static int triangulate_take_mesh(const triangulate_settings *s, const char *path, triangulate_work *w, mw_mesh *mesh)
+{
+    int end = vertex_table_complete(&w->vertices, mesh);
+    if (end == 0 && s->max_edge > 0) end = border_peel_off(mesh, s->max_edge, &w->edges, &w->vertices.file, &w->peel);
+    mw_mesh_destroy(mesh);
+    if (end || w->vertices.file.triangle_count > 0 || w->peel.triangles == 0) return end;
+    complain("%s: no triangle is left: all have longer edges than --max-edge", path);
+    return END_INPUT;
+}
+
+/* Warn of points that only peeled triangles had, and of polygons that leave out most points. */
+static void triangulate_warn_of_points(const triangulate_settings *s, const char *points, const triangulate_work *w)
+{
+    if (s->common.quiet || !points) return;
+    const mw_mesh_file *file = &w->vertices.file;
+    if (w->peel.points > 0)
+        complain("%s: %zu of its %zu points belong to no triangle any more: --max-edge peeled theirs off", points,
+                 w->peel.points, file->point_count);
+    uint8_t *used = w->constrained.triangles_removed ? calloc(file->point_count + 1, 1) : NULL;
+    if (!used) return;
+    size_t inside = 0;
+    for (size_t i = 0; i < 3 * file->triangle_count; i++) used[file->triangles[i]] = 1;
+    for (size_t i = 0; i < w->vertices.points; i++) inside += used[i];
+    free(used);
+    if (2 * inside < w->vertices.points && w->vertices.points > 2)
+        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others; --keep hull keeps "
+                 "their triangles",
+                 points, w->vertices.points - inside, w->vertices.points, s->constraints);
 }
 
 /* The library chooses the part to keep; but segments of a .poly bound a domain, as for Triangle. */
@@ -143,8 +193,7 @@ static int triangulate_with_constraints(const triangulate_settings *s, const cha
     if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->edges, &mesh, &error) !=
         MW_OK)
         return triangulate_fail_constrained(s, points, w, &error);
-    int end = vertex_table_complete(&w->vertices, mesh);
-    mw_mesh_destroy(mesh);
+    int end = triangulate_take_mesh(s, points ? points : s->constraints, w, mesh);
     bool on_a_line = false;
     if (end == 0)
         end = missing_values_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, s->common.threads,
@@ -172,18 +221,51 @@ static void triangulate_warn_if_local(const triangulate_settings *s, const char 
             path, name);
 }
 
+/* The weights of --kind regular, one for each point. */
+static int triangulate_take_weights(const triangulate_settings *s, const char *path, triangulate_work *w)
+{
+    vertex_field field;
+    size_t n = w->vertices.points;
+    if (!s->weight) return 0;
+    if (!vertex_table_find_column(&w->vertices, s->weight, &field)) {
+        complain("%s: --weight: there is no column '%s' beyond x and y%s", path, s->weight,
+                 s->columns ? " among those of --columns" : "");
+        return END_INPUT;
+    }
+    w->weights = malloc((n + 1) * sizeof *w->weights);
+    w->hidden = malloc(n + 1);
+    if (!w->weights || !w->hidden) return fail_memory();
+    for (size_t i = 0; i < n; i++) w->weights[i] = field.values[i * field.stride];
+    return 0;
+}
+
+static int triangulate_write_hidden(const triangulate_settings *s, const triangulate_work *w)
+{
+    text t = {0};
+    if (!s->hidden) return 0;
+    text_string(&t, "point\n");
+    for (size_t i = 0; i < w->vertices.points; i++)
+        if (w->hidden[i]) text_printf(&t, "%zu\n", i);
+    return files_write_text(s->hidden, &t);
+}
+
 static int triangulate_points(const triangulate_settings *s, const char *path, triangulate_work *w)
 {
     mw_error error;
     mw_mesh *mesh;
     const mw_mesh_file *file = &w->vertices.file;
-    mw_kind_options options = {.limit = s->limit, .threads = s->common.threads, .progress = progress_of_call()};
+    int end = triangulate_take_weights(s, path, w);
+    if (end) return end;
+    mw_kind_options options = {.limit = s->limit,
+                               .threads = s->common.threads,
+                               .progress = progress_of_call(),
+                               .weights = w->weights,
+                               .hidden = w->hidden};
     progress_phase("triangulating", path);
     if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
                        &mesh, &error) != MW_OK)
         return fail_mesh(path, &error);
-    int end = vertex_table_complete(&w->vertices, mesh);
-    mw_mesh_destroy(mesh);
+    end = triangulate_take_mesh(s, path, w, mesh);
     if (end == 0) triangulate_warn_if_local(s, path, &w->kind);
     return end;
 }
@@ -203,10 +285,21 @@ static void triangulate_report_kind(report *r, const triangulate_settings *s, co
     report_number(r, "edge_length", kind->edge_length);
     report_number(r, "largest_angle", kind->largest_angle * (180 / acos(-1)));
     report_flag(r, "optimal", kind->optimal);
+    if (s->kind == MW_KIND_REGULAR) report_count(r, "hidden", kind->hidden);
     if (s->kind != MW_KIND_MIN_WEIGHT) return;
     report_count(r, "faces", kind->faces);
     report_count(r, "largest_face", kind->largest_face);
     report_count(r, "local_faces", kind->local_faces);
+}
+
+/* What became of the columns of POINTS: heights come from this one, and fields from these. */
+static void triangulate_report_columns(report *r, const vertex_table *v)
+{
+    if (v->height_name)
+        report_string(r, "heights", v->height_name);
+    else
+        report_missing(r, "heights", "none");
+    report_strings(r, "fields", v->file.field_names, v->file.field_count);
 }
 
 /* Print the report on standard output; on standard error if the mesh goes to standard output. */
@@ -219,6 +312,8 @@ static int triangulate_print_report(const triangulate_settings *s, const triangu
     report_count(&r, "points", made->points);
     report_count(&r, "duplicates", made->duplicates);
     report_count(&r, "triangles", w->vertices.file.triangle_count);
+    if (s->max_edge > 0) report_count(&r, "peeled", w->peel.triangles);
+    triangulate_report_columns(&r, &w->vertices);
     report_rounded(&r, "visited_per_point", made->points ? (double)made->triangles_visited / (double)made->points : 0);
     if (s->constraints)
         triangulate_report_constrained(&r, w);
@@ -245,6 +340,10 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
     if (s->constraints && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--constraints are for --kind delaunay only");
+    if (!s->weight && s->kind == MW_KIND_REGULAR) return triangulate_refuse("--kind regular wants --weight COLUMN");
+    if ((s->weight || s->hidden) && s->kind != MW_KIND_REGULAR)
+        return triangulate_refuse("--weight and --hidden are about --kind regular");
+    if (s->hidden && files_is_standard(s->hidden)) return triangulate_refuse("--hidden wants a file");
     if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
         return triangulate_refuse("--limit is about --kind min-weight and min-max-angle");
     return 0;
@@ -255,6 +354,7 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
 {
     const char *output = s->common.output;
     const char *inputs[2] = {points ? points : s->constraints, s->constraints};
+    const side_output hidden = {.option = "hidden", .path = s->hidden};
     int end = triangulate_check_combination(s, points);
     if (end) return end;
     end = mesh_output_check("triangulate", output, s->format);
@@ -262,12 +362,15 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
     if (s->constraints && mesh_output_is_node(output, s->format))
         end = constraint_file_check_output(s->constraints, output);
     if (end) return end;
-    return files_check_output(output, inputs, points && s->constraints ? 2 : 1);
+    end = files_check_output(output, inputs, points && s->constraints ? 2 : 1);
+    if (end == 0) end = side_outputs_check(&hidden, 1, output, inputs, 1);
+    return end || !s->hidden ? end : files_try_output(s->hidden, NULL);
 }
 
 static int triangulate_read_input(const triangulate_settings *s, const char *points, triangulate_work *w)
 {
-    int end = points ? vertex_table_read(&w->vertices, points, s->columns, s->classes) : 0;
+    const vertex_table_options how = {s->columns, s->classes, s->common.quiet};
+    int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
     if (end || !s->constraints) return end;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
     end = constraint_file_read(s->constraints, options, &w->constraints);
@@ -285,8 +388,10 @@ static int triangulate_run(const void *settings, const char *const *operands)
     if (end == 0) end = triangulate_read_input(s, points, &w);
     if (end == 0)
         end = s->constraints ? triangulate_with_constraints(s, points, &w) : triangulate_points(s, points, &w);
+    if (end == 0) triangulate_warn_of_points(s, points, &w);
     if (end == 0 && !s->common.quiet) mesh_output_warn(s->common.output, s->format, &w.vertices.file);
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary);
+    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary, s->common.quiet);
+    if (end == 0) end = triangulate_write_hidden(s, &w);
     if (end == 0) end = triangulate_print_report(s, &w);
     triangulate_work_release(&w);
     return end;
@@ -303,10 +408,11 @@ const command triangulate_command = {
     .description =
         "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says otherwise. Vertex i of the mesh "
         "is point i, from 0. A point equal to an earlier one is counted in the report, and belongs to no "
-        "triangle. A third column is the height, further columns become fields. With --constraints, "
+        "triangle. A column z, or height, is the height; further columns of numbers become fields. With --constraints, "
         "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
         "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
+    .essential = "columns constraints max-edge class output",
     .settings_size = sizeof(triangulate_settings),
     .run = triangulate_run,
 };

@@ -32,7 +32,27 @@ bool gdal_library_built(void);
     F(GDALDatasetCreateLayer)                                                                                          \
     F(GDALDatasetStartTransaction)                                                                                     \
     F(GDALDatasetCommitTransaction)                                                                                    \
+    F(GDALVersionInfo)                                                                                                 \
+    F(GDALGetDatasetDriver)                                                                                            \
+    F(GDALGetDriverShortName)                                                                                          \
     F(OSRNewSpatialReference)                                                                                          \
+    F(OSRSetFromUserInput)                                                                                             \
+    F(OSRSetAxisMappingStrategy)                                                                                       \
+    F(OSRDemoteTo2D)                                                                                                   \
+    F(OSRIsSameEx)                                                                                                     \
+    F(OSRIsGeographic)                                                                                                 \
+    F(OSRGetName)                                                                                                      \
+    F(OSRGetAuthorityName)                                                                                             \
+    F(OSRGetAuthorityCode)                                                                                             \
+    F(OSRGetPROJVersion)                                                                                               \
+    F(OCTNewCoordinateTransformationOptions)                                                                           \
+    F(OCTCoordinateTransformationOptionsSetBallparkAllowed)                                                            \
+    F(OCTDestroyCoordinateTransformationOptions)                                                                       \
+    F(OCTNewCoordinateTransformationEx)                                                                                \
+    F(OCTClone)                                                                                                        \
+    F(OCTTransformEx)                                                                                                  \
+    F(OCTDestroyCoordinateTransformation)                                                                              \
+    F(OGR_L_GetExtent)                                                                                                 \
     F(OSRExportToWkt)                                                                                                  \
     F(OSRRelease)                                                                                                      \
     F(VSIFree)                                                                                                         \

@@ -1,7 +1,7 @@
 #include "cli/gdal/gdal_points.h"
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
-#include "cli/gdal/gdal_library.h"
+#include "cli/gdal/gdal_crs.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -64,7 +64,7 @@ struct gdal_points {
     OGRLayerH layer;
     size_t coordinates, column_count; /* x, y and perhaps z are the first columns */
     char **names;
-    char *crs; /* WKT; GDAL's memory */
+    char *crs; /* WKT; NULL: not known */
     text header, rows;
     size_t *ends, row_count, row_room; /* where the rows of the block end */
 };
@@ -196,8 +196,7 @@ int gdal_points_open(gdal_points **points, const char *path, const char *layer, 
     p->set = p->gdal->GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!p->set) return points_fail(p, "this is no vector file");
     int end = points_find_layer(p, layer);
-    OGRSpatialReferenceH crs = end ? NULL : p->gdal->OGR_L_GetSpatialRef(p->layer);
-    if (crs) p->gdal->OSRExportToWkt(crs, &p->crs);
+    if (end == 0) p->crs = crs_of_layer(p->set, p->layer);
     if (end == 0) end = points_name_columns(p);
     if (end || !where) return end;
     if (p->gdal->OGR_L_SetAttributeFilter(p->layer, where) == OGRERR_NONE) return 0;
@@ -209,7 +208,7 @@ void gdal_points_close(gdal_points *p)
 {
     if (!p) return;
     if (p->set) p->gdal->GDALClose(p->set);
-    if (p->crs) p->gdal->VSIFree(p->crs);
+    free(p->crs);
     for (size_t i = 0; p->names && i < p->column_count; i++) free(p->names[i]);
     free(p->names);
     text_release(&p->header);

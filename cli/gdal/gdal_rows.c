@@ -2,7 +2,7 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/signals.h"
-#include "cli/gdal/gdal_library.h"
+#include "cli/gdal/gdal_crs.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -291,7 +291,7 @@ static int rows_create_layer(gdal_rows *r)
                                                                                : NULL;
     r->points_needed = strcmp(driver, "FlatGeobuf") == 0;
     gdal->CPLSetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF"); /* it has no name yet */
-    OGRSpatialReferenceH crs = r->form.crs ? gdal->OSRNewSpatialReference(r->form.crs) : NULL;
+    OGRSpatialReferenceH crs = r->form.crs ? crs_parse(gdal, r->form.crs, true) : NULL;
     gdal->CPLErrorReset();
     r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->temporary, 0, 0, 0, GDT_Unknown, NULL);
     if (r->set)

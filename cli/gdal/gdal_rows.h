@@ -21,7 +21,7 @@ typedef struct gdal_rows_form {
     size_t dimensions;   /* of the points: 2 or 3 */
     size_t dropped;      /* so many first columns are not written: the points have them */
     const char *answers; /* the kinds of the last columns: 't' text, 'i' integer, 'r' real */
-    const char *crs;     /* of the points, as WKT; NULL: not known */
+    const char *crs;     /* of the points, see gdal_crs.h; NULL: not known */
     bool quiet;          /* no remarks */
 } gdal_rows_form;
 

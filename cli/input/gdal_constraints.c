@@ -1,7 +1,7 @@
 #include "cli/input/gdal_constraints.h"
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
-#include "cli/gdal/gdal_library.h"
+#include "cli/gdal/gdal_crs.h"
 
 #ifdef MW_GDAL
 
@@ -27,6 +27,7 @@ typedef struct constraint_collector {
     uint32_t polygons; /* of the feature */
     const gdal_constraints_options *options;
     feature_values *values; /* NULL: none are wanted */
+    int layers;             /* read so far */
 } constraint_collector;
 
 /* Make room for one more element after `count`. Returns false if memory runs out. */
@@ -237,6 +238,24 @@ static int collector_read_layer(constraint_collector *c, OGRLayerH layer, const 
     }
 }
 
+/* All layers have one coordinate system. */
+static int collector_note_crs(constraint_collector *c, GDALDatasetH set, OGRLayerH layer, const char *path)
+{
+    char *crs = crs_of_layer(set, layer), names[2][CRS_NAME];
+    if (c->layers++ == 0) {
+        c->file->crs = crs;
+        return 0;
+    }
+    const char *first = c->file->crs;
+    bool same = crs && first ? crs_same(crs, first) : !crs && !first;
+    if (!same)
+        complain("%s: its layers are in different coordinate systems: %s, and %s", path,
+                 first ? crs_name(first, names[0]) : "one that is not known",
+                 crs ? crs_name(crs, names[1]) : "one that is not known");
+    free(crs);
+    return same ? 0 : END_INPUT;
+}
+
 static bool layer_may_have_polygons(OGRLayerH layer)
 {
     switch (gdal.OGR_GT_Flatten(gdal.OGR_L_GetGeomType(layer))) {
@@ -282,7 +301,9 @@ static int collector_read_layers(constraint_collector *c, GDALDatasetH set, cons
     if (one && (c->options->layer ? wanted == 0 : wanted > 1)) return layers_fail(c->options, set, path);
     for (int i = 0; end == 0 && i < count; i++) {
         OGRLayerH layer = gdal.GDALDatasetGetLayer(set, i);
-        if (layer_is_wanted(c->options, layer)) end = collector_read_layer(c, layer, path);
+        if (!layer_is_wanted(c->options, layer)) continue;
+        end = collector_note_crs(c, set, layer, path);
+        if (end == 0) end = collector_read_layer(c, layer, path);
     }
     return end;
 }

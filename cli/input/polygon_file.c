@@ -165,6 +165,8 @@ int polygon_file_read(polygon_file *f, const polygon_file_settings *settings, co
     if (end) return end;
     end = rings_take(&c, settings->path, common);
     if (end == 0) end = polygon_file_prepare(f, &c, settings->path, common);
+    f->crs = c.crs;
+    c.crs = NULL;
     mw_constraint_file_release(&c);
     return end;
 }
@@ -174,6 +176,7 @@ void polygon_file_release(polygon_file *f)
     mw_polygons_destroy(f->polygons);
     free(f->feature);
     feature_values_release(&f->values);
+    free(f->crs);
     *f = (polygon_file){0};
 }
 

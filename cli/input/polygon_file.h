@@ -18,6 +18,7 @@ typedef struct polygon_file {
     mw_polygons *polygons;
     uint32_t *feature; /* per polygon: the feature that it belongs to; ascending */
     feature_values values;
+    char *crs; /* that the file tells; NULL: not known */
 } polygon_file;
 
 /* Read and prepare the polygons. Each polygon is by itself (even-odd rule), and a feature is all that its

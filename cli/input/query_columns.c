@@ -66,15 +66,41 @@ static bool columns_find_set(const query_columns *wanted, const mw_point_table *
     return true;
 }
 
-/* How many sets of names fit: 0, 1 or 2, which stands for more. The first two are kept. */
-static size_t columns_find_sets(const query_columns *wanted, const mw_point_table *table, found_columns found[2])
+/* How many sets of names fit, of the preferred ones: 0, 1 or 2, which stands for more. The first two
+ * are kept. */
+static size_t columns_find_sets(const query_columns *wanted, const mw_point_table *table, query_preference prefer,
+                                found_columns found[2])
 {
     const mw_axis_names *set;
     size_t count = 0;
     if (!table->names) return 0;
-    for (size_t i = 0; count < 2 && (set = mw_axis_names_at(i)); i++)
-        if (columns_find_set(wanted, table, set, &found[count])) count++;
+    for (size_t i = 0; count < 2 && (set = mw_axis_names_at(i)); i++) {
+        bool preferred = prefer == PREFER_NOTHING || set->lonlat == (prefer == PREFER_LONLAT);
+        if (preferred && columns_find_set(wanted, table, set, &found[count])) count++;
+    }
     return count;
+}
+
+/* What is preferred counts only where several sets fit. */
+static size_t columns_find_clear(const query_columns *wanted, const mw_point_table *table, found_columns found[2])
+{
+    found_columns preferred[2];
+    size_t count = columns_find_sets(wanted, table, PREFER_NOTHING, found);
+    if (count < 2 || wanted->prefer == PREFER_NOTHING) return count;
+    if (columns_find_sets(wanted, table, wanted->prefer, preferred) != 1) return count;
+    found[0] = preferred[0];
+    return 1;
+}
+
+/* Do the names of the columns mean longitude and latitude? */
+static bool columns_are_lonlat(const mw_point_table *table, const size_t *index)
+{
+    const mw_axis_names *set;
+    for (size_t s = 0; table->names && (set = mw_axis_names_at(s)); s++)
+        if (set->lonlat && mw_axis_name_matches(table->names[index[0]], set->axis[0]) &&
+            mw_axis_name_matches(table->names[index[1]], set->axis[1]))
+            return true;
+    return false;
 }
 
 /* Files that end in .xyz have x, y and z first, without saying so. */
@@ -183,23 +209,42 @@ static int columns_check_chosen(const query_columns *wanted, const mw_point_read
     return 0;
 }
 
+int query_columns_check_points(const char *path, const mw_point_reader *reader)
+{
+    static const query_columns wanted = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2};
+    mw_error error;
+    mw_point_table table;
+    found_columns found[2] = {0};
+    if (mw_point_reader_table(reader, &table, &error) != MW_OK) return fail_reading(&error);
+    size_t count = columns_find_sets(&wanted, &table, PREFER_NOTHING, found);
+    bool few = table.column_count <= 3 && columns_are_in_order(&wanted, &table);
+    if (!table.names || (count == 1 && !found[0].doubled) || (count == 0 && few)) return 0;
+    return columns_fail_unclear(&wanted, files_is_standard(path) ? "standard input" : path, &table, found, count);
+}
+
 int query_columns_find(const query_columns *wanted, const char *path, mw_point_reader *reader, bool chosen,
-                       size_t index[MAX_QUERY_COLUMNS])
+                       size_t index[MAX_QUERY_COLUMNS], bool *lonlat)
 {
     mw_error error;
     mw_point_table table;
     found_columns found[2] = {0};
     if (mw_point_reader_table(reader, &table, &error) != MW_OK) return fail_reading(&error);
     for (size_t k = 0; k < wanted->count; k++) index[k] = k;
-    if (chosen) return columns_check_chosen(wanted, reader, index);
+    *lonlat = false;
     if (table.column_count == 0) return 0;
+    if (chosen) {
+        int end = columns_check_chosen(wanted, reader, index);
+        *lonlat = end == 0 && columns_are_lonlat(&table, index);
+        return end;
+    }
     const char *file = files_is_standard(path) ? "standard input" : path;
     if (table.column_count < wanted->count) return columns_fail_few(wanted, file, table.column_count);
     bool first = !table.names && wanted->count <= 3 && path_says_xyz(path);
-    size_t count = columns_find_sets(wanted, &table, found);
+    size_t count = columns_find_clear(wanted, &table, found);
     if (count == 1 && !found[0].doubled)
         memcpy(index, found[0].index, wanted->count * sizeof *index);
     else if (!first && (count > 0 || table.column_count > wanted->count || !columns_are_in_order(wanted, &table)))
         return columns_fail_unclear(wanted, file, &table, found, count);
+    *lonlat = columns_are_lonlat(&table, index);
     return mw_point_reader_select(reader, index, wanted->count, &error) == MW_OK ? 0 : fail_reading(&error);
 }

@@ -9,6 +9,7 @@ struct query_source {
     mw_point_reader *reader;
     gdal_points *points;
     size_t width;
+    bool lonlat;
 };
 
 static int source_open_table(query_source *s, const char *path, const query_source_settings *settings,
@@ -22,7 +23,7 @@ static int source_open_table(query_source *s, const char *path, const query_sour
         return END_USAGE;
     }
     if (mw_point_reader_open(path, &options, &s->reader, &error) != MW_OK) return fail_reading(&error);
-    return query_columns_find(wanted, path, s->reader, settings->columns, index);
+    return query_columns_find(wanted, path, s->reader, settings->columns, index, &s->lonlat);
 }
 
 static int source_open_points(query_source *s, const char *path, const query_source_settings *settings,
@@ -77,7 +78,12 @@ size_t query_source_coordinates(const query_source *s)
 
 const char *query_source_crs(const query_source *s)
 {
-    return s->points ? gdal_points_crs(s->points) : NULL;
+    return s->points ? gdal_points_crs(s->points) : mw_point_reader_crs(s->reader);
+}
+
+bool query_source_is_lonlat(const query_source *s)
+{
+    return s->lonlat;
 }
 
 int query_source_read(query_source *s, double *values, size_t capacity, size_t *count)

@@ -7,6 +7,7 @@
 typedef struct query_source_settings {
     const char *columns;       /* --columns; NULL: not given */
     const char *layer, *where; /* of a file that GDAL reads; NULL: not given */
+    const char *crs;           /* --points-crs; NULL: not given */
 } query_source_settings;
 
 typedef struct query_source query_source;
@@ -23,8 +24,11 @@ void query_source_table(const query_source *source, mw_point_table *table);
 /* How many first columns of the table are the coordinates of points of a vector file: 0 for a table. */
 size_t query_source_coordinates(const query_source *source);
 
-/* The coordinate system of the queries, as WKT; NULL: not known. */
+/* The coordinate system that the file tells, as WKT or "EPSG:n"; NULL: none. */
 const char *query_source_crs(const query_source *source);
+
+/* Do the names of the columns mean longitude and latitude? */
+bool query_source_is_lonlat(const query_source *source);
 
 /* Read up to `capacity` queries, the wanted columns of each. *count is 0 at the end. Returns 0, or an
  * exit code after a complaint. */

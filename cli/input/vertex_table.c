@@ -1,11 +1,16 @@
 #include "cli/input/vertex_table.h"
+#include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/frame/text.h"
 #include "cli/input/las_classes.h"
+#include "cli/input/query_columns.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 void vertex_table_release(vertex_table *v)
 {
@@ -18,6 +23,7 @@ void vertex_table_release(vertex_table *v)
     free(file->fields);
     free(file->points);
     free(file->triangles);
+    free(v->height_name);
     free(file->crs);
     *v = (vertex_table){0};
 }
@@ -69,19 +75,104 @@ static double *mesh_file_add_field(mw_mesh_file *file, const char *name)
     return names[count - 1] ? fields[count - 1] : NULL;
 }
 
+/* --- columns ---------------------------------------------------------------------------------- */
+
+/* How the columns of POINTS are used. */
+typedef struct point_columns {
+    const char *path;
+    mw_point_reader *reader;
+    size_t height; /* the value that is the height; SIZE_MAX: none */
+    bool quiet;
+} point_columns;
+
+static bool name_means_height(const char *name)
+{
+    static const char *const names[] = {"height", "elevation", "elev", "ele", "altitude", "alt", "h"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (mw_axis_name_matches(name, names[i])) return true;
+    return false;
+}
+
+static bool name_means_z(const char *name)
+{
+    const mw_axis_names *set;
+    for (size_t i = 0; (set = mw_axis_names_at(i)); i++)
+        if (mw_axis_name_matches(name, set->axis[2])) return true;
+    return false;
+}
+
+/* The only one of the values from number 2 on whose name fits; SIZE_MAX if there is none, or several. */
+static size_t columns_only(const mw_point_reader *reader, bool (*fits)(const char *name))
+{
+    size_t found = SIZE_MAX, count = 0;
+    for (size_t k = 2; k < mw_point_reader_width(reader); k++)
+        if (fits(mw_point_reader_column(reader, k)) && count++ == 0) found = k;
+    return count == 1 ? found : SIZE_MAX;
+}
+
+/* Which value is the height? The third of those that the user has chosen, or that have no names; else
+ * one that is called z, or height; else the only one there is, if it follows x and y in the file. */
+static size_t columns_find_height(const mw_point_reader *reader, bool chosen)
+{
+    mw_error error;
+    mw_point_table table = {0};
+    size_t width = mw_point_reader_width(reader);
+    if (width < 3) return SIZE_MAX;
+    if (mw_point_reader_table(reader, &table, &error) != MW_OK || !table.names || chosen) return 2;
+    if (name_means_z(mw_point_reader_column(reader, 2))) return 2;
+    size_t height = columns_only(reader, name_means_height);
+    if (height != SIZE_MAX) return height;
+    size_t x = mw_point_reader_place(reader, 0), y = mw_point_reader_place(reader, 1);
+    size_t third = mw_point_reader_place(reader, 2);
+    return width == 3 && third > x && third > y ? 2 : SIZE_MAX;
+}
+
+/* Tell which columns become no fields since they hold texts, and where the first of these stands. */
+static void columns_tell_texts(const point_columns *c)
+{
+    enum { MOST = 6 };
+    text names = {0};
+    size_t count = 0;
+    int64_t first = INT64_MAX, line;
+    for (size_t k = 2; k < mw_point_reader_width(c->reader); k++) {
+        if (mw_point_reader_texts(c->reader, k, &line) == 0) continue;
+        if (line < first) first = line;
+        if (count++ < MOST)
+            text_printf(&names, "%s'%s'", count > 1 ? ", " : "", mw_point_reader_column(c->reader, k));
+        else if (count == MOST + 1)
+            text_string(&names, ", ...");
+    }
+    if (count > 0 && !names.failed)
+        complain("%s: column%s %.*s become%s no field%s: texts stand there, the first in line %" PRId64, c->path,
+                 count > 1 ? "s" : "", (int)names.size, names.bytes, count > 1 ? "" : "s", count > 1 ? "s" : "", first);
+    text_release(&names);
+}
+
+static int columns_fail_height(const point_columns *c)
+{
+    int64_t line = 0;
+    mw_point_reader_texts(c->reader, c->height, &line);
+    complain("%s:%" PRId64 ": column '%s', the height, holds no number there; --columns chooses another", c->path, line,
+             mw_point_reader_column(c->reader, c->height));
+    return END_INPUT;
+}
+
 /* Make points x, y, z and fields of the columns. */
-static int point_rows_split(vertex_table *v, point_rows *r, const mw_point_reader *reader)
+static int point_rows_split(vertex_table *v, point_rows *r, const point_columns *c)
 {
     mw_mesh_file *file = &v->file;
     size_t n = r->count, width = r->width;
     file->point_count = n;
-    file->has_z = width >= 3;
-    for (size_t k = 3; k < width; k++) {
-        double *field = mesh_file_add_field(file, mw_point_reader_column(reader, k));
+    file->has_z = c->height != SIZE_MAX;
+    if (file->has_z && mw_point_reader_texts(c->reader, c->height, NULL) > 0) return columns_fail_height(c);
+    if (!c->quiet) columns_tell_texts(c);
+    for (size_t k = 2; k < width; k++) {
+        if (k == c->height || mw_point_reader_texts(c->reader, k, NULL) > 0) continue;
+        double *field = mesh_file_add_field(file, mw_point_reader_column(c->reader, k));
         if (!field) return fail_memory();
         for (size_t i = 0; i < n; i++) field[i] = r->values[i * width + k];
     }
-    if (width == 3) {
+    if (width == 3 && c->height == 2) {
         file->points = r->values;
         r->values = NULL;
         return 0;
@@ -89,27 +180,40 @@ static int point_rows_split(vertex_table *v, point_rows *r, const mw_point_reade
     if (n > SIZE_MAX / (3 * sizeof(double)) - 1) return fail_memory();
     file->points = malloc((n + 1) * 3 * sizeof(double));
     if (!file->points) return fail_memory();
-    for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < 3; k++) file->points[3 * i + k] = k < width ? r->values[i * width + k] : 0;
+    for (size_t i = 0; i < n; i++) {
+        const double *row = r->values + i * width;
+        const double xyz[3] = {row[0], row[1], file->has_z ? row[c->height] : 0};
+        memcpy(file->points + 3 * i, xyz, sizeof xyz);
+    }
     return 0;
 }
 
-int vertex_table_read(vertex_table *v, const char *path, const char *columns, const char *classes)
+static int point_rows_take(vertex_table *v, point_columns *c, bool chosen)
+{
+    point_rows r = {.width = mw_point_reader_width(c->reader)};
+    int end = chosen ? 0 : query_columns_check_points(c->path, c->reader);
+    c->height = columns_find_height(c->reader, chosen);
+    if (end == 0) end = point_rows_read(&r, c->reader);
+    if (end == 0) end = point_rows_split(v, &r, c);
+    if (end == 0 && c->height != SIZE_MAX && !(v->height_name = strdup(mw_point_reader_column(c->reader, c->height))))
+        end = fail_memory();
+    free(r.values);
+    return end;
+}
+
+int vertex_table_read(vertex_table *v, const char *path, const vertex_table_options *how)
 {
     mw_error error;
-    mw_point_reader_options options = {.columns = columns};
-    mw_point_reader *reader;
-    int end = classes ? las_classes_parse(classes, options.classes) : 0;
+    mw_point_reader_options options = {.columns = how->columns, .texts = 1};
+    point_columns c = {.path = files_is_standard(path) ? "standard input" : path, .quiet = how->quiet};
+    int end = how->classes ? las_classes_parse(how->classes, options.classes) : 0;
     if (end) return end;
     progress_phase("reading", path);
-    if (mw_point_reader_open(path, &options, &reader, &error) != MW_OK) return fail_reading(&error);
-    point_rows r = {.width = mw_point_reader_width(reader)};
-    end = point_rows_read(&r, reader);
-    if (end == 0) end = point_rows_split(v, &r, reader);
-    const char *crs = mw_point_reader_crs(reader);
+    if (mw_point_reader_open(path, &options, &c.reader, &error) != MW_OK) return fail_reading(&error);
+    end = point_rows_take(v, &c, how->columns != NULL);
+    const char *crs = mw_point_reader_crs(c.reader);
     if (end == 0 && crs && !(v->file.crs = strdup(crs))) end = fail_memory();
-    free(r.values);
-    mw_point_reader_close(reader);
+    mw_point_reader_close(c.reader);
     v->points = v->file.point_count;
     v->point_fields = v->file.field_count;
     v->point_heights = v->file.has_z;
@@ -218,4 +322,15 @@ vertex_field vertex_table_field(const vertex_table *v, size_t number)
 {
     if (number == 0) return (vertex_field){v->file.points + 2, 3, v->point_heights};
     return (vertex_field){v->file.fields[number - 1], 1, number - 1 < v->point_fields};
+}
+
+bool vertex_table_find_column(const vertex_table *v, const char *column, vertex_field *field)
+{
+    *field = vertex_table_field(v, 0);
+    if (v->height_name && strcasecmp(column, v->height_name) == 0) return true;
+    for (size_t i = 0; i < v->point_fields; i++) {
+        *field = vertex_table_field(v, i + 1);
+        if (strcasecmp(column, v->file.field_names[i]) == 0) return true;
+    }
+    return false;
 }

@@ -11,12 +11,19 @@ typedef struct vertex_table {
     size_t points;       /* the number of vertices from POINTS, the first ones */
     size_t point_fields; /* the number of fields that POINTS have, the first ones */
     bool point_heights;  /* do POINTS have heights? */
+    char *height_name;   /* the column of POINTS that the heights come from; NULL: none */
 } vertex_table;
 
 /* The functions with a result return 0, or an exit code after a complaint. */
 
-/* Read POINTS; `columns` and `classes` are the options of these names, and may be NULL. */
-int vertex_table_read(vertex_table *v, const char *path, const char *columns, const char *classes);
+/* How POINTS are read. */
+typedef struct vertex_table_options {
+    const char *columns, *classes; /* the options of these names; NULL: not given */
+    bool quiet;                    /* do not tell which columns become no fields */
+} vertex_table_options;
+
+/* Read POINTS. */
+int vertex_table_read(vertex_table *v, const char *path, const vertex_table_options *how);
 /* Append the points of constraints, and renumber the constraints' segments accordingly. */
 int vertex_table_append(vertex_table *v, mw_constraint_file *constraints);
 /* Append the vertices that the mesh has beyond these, and take its triangles. */
@@ -34,6 +41,8 @@ typedef struct vertex_field {
 
 /* Field 0 is the height, the others are those of the file. */
 size_t vertex_table_field_count(const vertex_table *v);
+/* The values that POINTS have in the column of a name. False: there is none, beyond x and y. */
+bool vertex_table_find_column(const vertex_table *v, const char *column, vertex_field *field);
 vertex_field vertex_table_field(const vertex_table *v, size_t number);
 
 #endif

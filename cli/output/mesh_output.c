@@ -3,6 +3,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
+#include "cli/output/prj_output.h"
 
 #include <string.h>
 #include <strings.h>
@@ -47,6 +48,14 @@ bool mesh_output_is_node(const char *output, int format)
     return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
 }
 
+/* PLY holds the coordinate system itself. */
+static bool mesh_output_is_ply(const char *output, int format)
+{
+    if (format != FORMAT_BY_ENDING) return strncmp(mesh_format_name(format), "ply", 3) == 0;
+    const char *ending = strrchr(output, '.');
+    return ending && strcasecmp(ending, ".ply") == 0;
+}
+
 static bool format_holds_fields(const char *format)
 {
     static const char *const names[] = {"ply", "ply-ascii", "node", "ele", "vtk", "csv"};
@@ -64,14 +73,18 @@ void mesh_output_warn(const char *output, int format, const mw_mesh_file *file)
              file->field_count > 1 ? " are" : " is");
 }
 
-int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary)
+int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary, bool quiet)
 {
     mw_error error;
+    bool ply = mesh_output_is_ply(output, format);
+    int end = ply ? 0 : prj_output_check(output, file->crs, quiet);
+    if (end) return end;
     progress_phase("writing", NULL);
     if (temporary) signals_hold(true);
     const mw_file_options watched = {.progress = progress_of_call()};
     mw_status status =
         mw_write_mesh(output, file, format == FORMAT_BY_ENDING ? NULL : mesh_format_name(format), &watched, &error);
     if (temporary) signals_hold(false);
-    return status == MW_OK ? 0 : fail_writing(&error);
+    if (status != MW_OK) return fail_writing(&error);
+    return ply ? 0 : prj_output_write(output, file->crs, quiet);
 }

@@ -3,7 +3,10 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
+#include "cli/input/mesh_crs.h"
 #include "cli/stream/statistics.h"
+
+#include <stdlib.h>
 
 static const char *walk_name(int i)
 {
@@ -99,6 +102,12 @@ const option point_query_options[] = {
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
      "calls so, by names that the manual page lists, or the only two)",
      NULL},
+    {"crs", 0, OPTION_TEXT, offsetof(point_query_settings, crs), "CRS",
+     "the coordinate system of MESH, or of polygons, as EPSG:2056 (default: what their file tells)", NULL},
+    {"points-crs", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.crs), "CRS",
+     "that of POINTS, or 'same' as MESH (default: what POINTS tell; columns called lon and lat are WGS 84). "
+     "Points in another system than MESH are transformed",
+     NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
      "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
     {0},
@@ -184,19 +193,22 @@ int point_query_begin(point_query *q, const point_query_settings *settings, cons
     int end = files_check_output(settings->stream.common.output, inputs, count);
     if (end == 0) end = query_stream_check_output(&settings->stream);
     if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
-    return end ? end : point_query_check_fill(settings);
+    if (end == 0) end = point_query_check_fill(settings);
+    return end ? end : query_crs_check(settings->crs, settings->stream.source.crs);
 }
 
-int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path)
+int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, const char *crs)
 {
     double at[2];
     q->mesh = mesh;
     q->path = path;
+    int end = mesh_crs_settle(path, q->settings->crs, crs, q->settings->stream.common.quiet, &q->crs);
+    if (end) return end;
     for (uint32_t v = 0; v < mw_mesh_vertex_count(mesh); v++) {
         mw_mesh_vertex(mesh, v, at);
         extent_add(&q->extent, at, 1, 2);
     }
-    int end = point_query_make_locator(q, path, false, true);
+    end = point_query_make_locator(q, path, false, true);
     return end ? end : point_query_make_index(q);
 }
 
@@ -212,7 +224,8 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
     bool area = files_has_area(&file);
     extent_add(&q->extent, file.points, file.point_count, 3);
     if (!settings->stream.common.quiet) extent_warn_of_seam(path, &q->extent, &file);
-    end = point_query_make_mesh(q, path, &file, area);
+    end = mesh_crs_settle(path, settings->crs, file.crs, settings->stream.common.quiet, &q->crs);
+    if (end == 0) end = point_query_make_mesh(q, path, &file, area);
     if (end == 0 && load) end = load(q->own, path, &file, self);
     mw_mesh_file_release(&file);
     if (end == 0) end = point_query_make_locator(q, path, border, area);
@@ -224,6 +237,7 @@ void point_query_release(point_query *q)
     mw_index_destroy(q->index);
     mw_locator_destroy(q->locator);
     mw_mesh_destroy(q->own);
+    free(q->crs);
 }
 
 /* What the callbacks of the query stream need. */
@@ -324,6 +338,9 @@ int point_query_run(const point_query *q, const char *points, const char *const 
         .begin = q->begin,
         .doing = "locating",
         .columns = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2},
+        .ground = GROUND_PLANE,
+        .mesh = q->path,
+        .mesh_crs = q->crs,
         .shown = 2,
         .answers = answers,
         .kinds = kinds,

@@ -10,6 +10,7 @@
 
 typedef struct point_query_settings {
     query_stream_settings stream;
+    const char *crs; /* of the mesh; NULL: not given */
     double tolerance;
     uint32_t sample, steps, cells, layers;
     int walk, start, arithmetic; /* mw_walk_kind, mw_start_kind, mw_arithmetic */
@@ -38,6 +39,7 @@ typedef struct point_query {
     mw_locator *locator;
     mw_index *index;          /* NULL if the start has none */
     const char *path;         /* of the mesh */
+    char *crs;                /* its coordinate system; NULL: not known */
     extent extent;            /* of its vertices */
     double begin;             /* monotonic_seconds when the command began */
     point_query_tally *tally; /* NULL: tell how many points got which mw_where */
@@ -61,9 +63,10 @@ void point_query_release(point_query *q);
 
 /* The same in two steps, for a mesh that comes from elsewhere. First what is asked for is checked, before
  * long work: `inputs` are the files that are read. Then the mesh is prepared, which has to outlive the
- * query; `path` is the file that it comes from. */
+ * query; `path` is the file that it comes from, and
+ * `crs` the coordinate system that this tells, or NULL. */
 int point_query_begin(point_query *q, const point_query_settings *settings, const char *const *inputs, int count);
-int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path);
+int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, const char *crs);
 
 /* Write the header, then the row of every point with its answer, in order. `answers` are the names of
  * the answer's cells; NULL ends them; `kinds` tell what they hold, as in query_stream.h. Returns the exit

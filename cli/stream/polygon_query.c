@@ -131,7 +131,7 @@ int polygon_query_run(const point_query_settings *settings, const polygon_file_s
     if (end) return end;
     end = point_query_begin(&q, settings, inputs, 2);
     if (end == 0) end = polygon_file_read(&file, polygons, &settings->stream.common);
-    if (end == 0) end = point_query_prepare(&q, mw_polygons_mesh(file.polygons), polygons->path);
+    if (end == 0) end = point_query_prepare(&q, mw_polygons_mesh(file.polygons), polygons->path, file.crs);
     q.tally = rows_tally;
     if (end == 0) end = rows_run(&q, &(polygon_rows){&file, &counts, details}, points);
     point_query_release(&q);

@@ -6,6 +6,7 @@
 #include "cli/frame/signals.h"
 #include "cli/gdal/gdal_rows.h"
 #include "cli/output/csv_row.h"
+#include "cli/output/prj_output.h"
 #include "cli/stream/query_header.h"
 #include "cli/stream/statistics.h"
 #include "src/base/threads.h"
@@ -13,6 +14,7 @@
 #include <inttypes.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define CHUNK ((size_t)1 << 12) /* rows that one thread makes at a time */
 #define CHUNKS (QUERY_BLOCK_SIZE / CHUNK)
@@ -43,7 +45,9 @@ typedef struct query_pipeline {
     size_t width, index[MAX_QUERY_COLUMNS]; /* values of a query, and their columns in the table */
     bool rows_wanted;
     char decimal; /* how answers are written; 0: not decided yet */
+    query_crs crs;
     double *values;
+    double *moved; /* the same in the coordinate system of the mesh; may be `values` */
     char *answers;
     text chunk[CHUNKS];
     uint64_t unanswered[CHUNKS];
@@ -67,7 +71,7 @@ static void pipeline_write_row(const query_pipeline *p, size_t i, bool *answered
     const query_stream *s = p->stream;
     pipeline_begin_row(p, i, out);
     size_t begin = out->size;
-    *answered = s->row(s->self, p->values + i * p->width, p->answers + i * s->answer_size, out);
+    *answered = s->row(s->self, p->moved + i * p->width, p->answers + i * s->answer_size, out);
     if (!s->settings->only_answers) csv_row_adapt(out, begin, p->table.separator, p->decimal);
     csv_row_end(out);
 }
@@ -132,10 +136,20 @@ static int pipeline_write_block(query_pipeline *p, size_t count)
     return pipeline_write_chunks(p, chunks);
 }
 
+/* Bring the queries into the coordinate system of the mesh. */
+static void pipeline_move_block(query_pipeline *p, size_t count)
+{
+    if (p->moved == p->values) return;
+    memcpy(p->moved, p->values, count * p->width * sizeof *p->values);
+    p->crs.lost +=
+        gdal_transform_points(p->crs.transform, p->moved, count, p->width, p->stream->settings->common.threads);
+}
+
 static int pipeline_answer_block(query_pipeline *p, size_t count)
 {
-    query_block block = {.values = p->values, .stride = p->width, .count = count, .block = p->statistics.blocks};
+    query_block block = {.values = p->moved, .stride = p->width, .count = count, .block = p->statistics.blocks};
     double begin = monotonic_seconds();
+    pipeline_move_block(p, count);
     int end = p->stream->answer(p->stream->self, &block, p->answers);
     p->statistics.answering += monotonic_seconds() - begin;
     p->statistics.queries += count;
@@ -175,10 +189,16 @@ static int pipeline_open_rows(query_pipeline *p, const text *header)
         .dimensions = s->shown,
         .dropped = only ? s->shown : query_source_coordinates(p->source),
         .answers = s->kinds,
-        .crs = query_source_crs(p->source),
+        .crs = p->crs.of_rows,
         .quiet = s->settings->common.quiet,
     };
     return gdal_rows_open(&p->rows, s->settings->common.output, &form);
+}
+
+/* The coordinate system of the rows, if it is more than a guess. */
+static const char *pipeline_told_crs(const query_pipeline *p)
+{
+    return p->crs.told ? p->crs.of_rows : NULL;
 }
 
 static int pipeline_write_header(query_pipeline *p)
@@ -190,6 +210,8 @@ static int pipeline_write_header(query_pipeline *p)
     else
         query_header_write(&header, &p->table, &s->columns, p->index, s->answers);
     int end = header.failed ? fail_memory() : 0;
+    if (end == 0 && !p->rows_wanted)
+        end = prj_output_check(s->settings->common.output, pipeline_told_crs(p), s->settings->common.quiet);
     if (end == 0 && p->rows_wanted)
         end = pipeline_open_rows(p, &header);
     else if (end == 0)
@@ -216,11 +238,18 @@ static int pipeline_run_blocks(query_pipeline *p)
 static int pipeline_open_source(query_pipeline *p)
 {
     const query_stream *s = p->stream;
-    int end = query_source_open(&p->source, p->path, &s->settings->source, &s->columns, p->index);
+    query_crs_settings crs = {.ground = s->ground,
+                              .mesh = files_is_standard(s->mesh) ? "standard input" : s->mesh,
+                              .mesh_crs = s->mesh_crs,
+                              .option = s->settings->source.crs,
+                              .quiet = s->settings->common.quiet};
+    query_columns columns = s->columns;
+    columns.prefer = query_crs_prefers(&crs);
+    int end = query_source_open(&p->source, p->path, &s->settings->source, &columns, p->index);
     if (end) return end;
     p->width = s->columns.count;
     query_source_table(p->source, &p->table);
-    return 0;
+    return query_crs_open(&p->crs, &crs, p->path, p->source);
 }
 
 /* The queries and the output are open. */
@@ -229,9 +258,11 @@ static int pipeline_run(query_pipeline *p)
     mw_error error;
     const query_stream *s = p->stream;
     if (p->out) signals_set_temporary(mw_output_temporary(p->out));
-    p->values = malloc(QUERY_BLOCK_SIZE * p->width * sizeof *p->values);
+    size_t bytes = QUERY_BLOCK_SIZE * p->width * sizeof *p->values;
+    p->values = malloc(bytes);
+    p->moved = p->crs.transform ? malloc(bytes) : p->values;
     p->answers = malloc(QUERY_BLOCK_SIZE * s->answer_size);
-    int end = p->values && p->answers ? pipeline_run_blocks(p) : fail_memory();
+    int end = p->values && p->moved && p->answers ? pipeline_run_blocks(p) : fail_memory();
     progress_phase("writing", NULL);
     if (p->out && mw_output_close(p->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
     int closed = gdal_rows_close(p->rows, end == 0);
@@ -239,8 +270,16 @@ static int pipeline_run(query_pipeline *p)
     signals_set_temporary(NULL);
     for (size_t k = 0; k < CHUNKS; k++) text_release(&p->chunk[k]);
     free(p->answers);
+    if (p->moved != p->values) free(p->moved);
     free(p->values);
     return end;
+}
+
+static void pipeline_remark_lost(const query_pipeline *p)
+{
+    if (p->crs.lost == 0 || p->stream->settings->common.quiet) return;
+    complain("%s: remark: %" PRIu64 " points have no place in the coordinate system of the mesh; their status is bad",
+             files_is_standard(p->path) ? "standard input" : p->path, p->crs.lost);
 }
 
 static int pipeline_print_statistics(const query_pipeline *p)
@@ -273,6 +312,9 @@ int query_stream_run(const query_stream *s, const char *path)
     p->rows_wanted = gdal_rows_known(output);
     if (end == 0 && !p->rows_wanted && mw_output_open(output, &p->out, &error) != MW_OK) end = fail_writing(&error);
     if (end == 0) end = pipeline_run(p);
+    if (end == 0) pipeline_remark_lost(p);
+    if (end == 0 && !p->rows_wanted) end = prj_output_write(output, pipeline_told_crs(p), settings->common.quiet);
+    query_crs_close(&p->crs);
     query_source_close(p->source);
     if (end == 0 && settings->stats) end = pipeline_print_statistics(p);
     if (end == 0 && settings->strict && p->statistics.unanswered) end = END_UNANSWERED;

@@ -8,6 +8,7 @@
 #include "cli/frame/report.h"
 #include "cli/frame/text.h"
 #include "cli/input/query_source.h"
+#include "cli/stream/query_crs.h"
 
 #define QUERY_BLOCK_SIZE ((size_t)1 << 18) /* queries in memory at a time */
 
@@ -29,7 +30,8 @@ typedef struct query_block {
 
 /* What a command does for its stream. `self` is the command's own data.
  *   _answer  answers a block; returns 0, or an exit code after a complaint
- *   _row     writes the cells of one answer, each behind a comma; returns false if there is none.
+ *   _row     writes the cells of one answer, each behind a comma; returns false if there is none. The
+ *            query is in the coordinate system of the mesh, as for _answer.
  *            Several threads call it at the same time
  *   _report  adds to the report of --stats, which has the number of points and the times already */
 typedef int query_stream_answer(void *self, const query_block *block, void *answers);
@@ -41,10 +43,12 @@ typedef struct query_stream {
     double begin;      /* monotonic_seconds when the command began */
     const char *doing; /* for the progress: "locating" */
     query_columns columns;
-    size_t shown;               /* columns of the query that --only-answers writes */
-    const char *const *answers; /* names of the answers' columns; NULL ends them */
-    const char *kinds;          /* what these hold: 't' text, 'i' integer, 'r' real */
-    size_t answer_size;         /* bytes of the answer to one query */
+    query_ground ground;
+    const char *mesh, *mesh_crs; /* on GROUND_PLANE: its path, and its coordinate system or NULL */
+    size_t shown;                /* columns of the query that --only-answers writes */
+    const char *const *answers;  /* names of the answers' columns; NULL ends them */
+    const char *kinds;           /* what these hold: 't' text, 'i' integer, 'r' real */
+    size_t answer_size;          /* bytes of the answer to one query */
     query_stream_answer *answer;
     query_stream_row *row;
     query_stream_report *report;

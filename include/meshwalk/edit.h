@@ -1,11 +1,17 @@
-/* edit.h - a planar mesh that changes between two queries.
+/**
+ * @file edit.h
+ * A planar mesh that changes between two queries.
  *
- * An editor holds a triangulation of its own, made from a mesh, and changes it by local edits: what an edit costs depends on the
- * triangles it touches, not on the mesh. Between two edits the editor's locator answers as any locator does, by every walk, and
- * exactly; nothing is rebuilt. Numbers are handles: an edit renumbers nothing that it does not touch, and the numbers of what it frees are
- * not used again before mw_editor_compact.
+ * An editor copies a mesh and changes its copy by local edits. The cost of an edit depends on the
+ * triangles that it touches, not on the size of the mesh. Between two edits the editor's locator
+ * answers queries exactly, by every walk, and nothing is rebuilt.
  *
- * Edits and queries alternate: any number of threads may query, with a cursor each, while no edit is under way. */
+ * Numbers of vertices and triangles are handles. An edit renumbers only what it touches. Freed
+ * numbers are not used again before mw_editor_compact().
+ *
+ * Threads: any number of threads may query the editor's locator, each with its own cursor, while no
+ * edit is running. Edits and queries must not overlap.
+ */
 #ifndef MESHWALK_EDIT_H
 #define MESHWALK_EDIT_H
 
@@ -15,212 +21,480 @@
 extern "C" {
 #endif
 
+/** A mesh that changes, with its locator. Opaque. */
 typedef struct mw_editor mw_editor;
 
-/* Whether an editor keeps its mesh Delaunay, its border and constraints respected. */
+/** Whether an editor keeps its mesh Delaunay. Borders and constrained edges are never flipped. */
 typedef enum mw_delaunay_mode {
-    MW_DELAUNAY_AUTO = 0, /* a mesh that is Delaunay is kept so                */
-    MW_DELAUNAY_MAKE,     /* one that is not is made so first, by flips        */
-    MW_DELAUNAY_NEVER     /* no edge is flipped unless it is asked for         */
+    MW_DELAUNAY_AUTO = 0, /**< keep the mesh Delaunay if it is Delaunay at first */
+    MW_DELAUNAY_MAKE,     /**< make the mesh Delaunay at first, by flips, and keep it so */
+    MW_DELAUNAY_NEVER     /**< flip no edge except by MW_EDIT_FLIP */
 } mw_delaunay_mode;
 
-/* All zero = choose. */
+/** Options of an editor. Zero-initialised options select the defaults. */
 typedef struct mw_editor_options {
-    mw_delaunay_mode delaunay;
-    int log; /* 1: keep the list of all edits (mw_editor_log)                                                       */
-    size_t
-        undo; /* so many edits can be undone, 400 to 1000 bytes each; SIZE_MAX: all                                   */
-    const uint32_t *constrained_edges; /* two vertices each, as mw_constrained_edges.edge: edges of the mesh that are
-                                          not to be flipped away */
-    size_t constrained_edge_count;
-    uint32_t
-        threads; /* of mw_editor_mesh, mw_editor_compact, and of the order of many points; 0: as many as processors */
-    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
-    uint32_t reserved[5];
+    mw_delaunay_mode delaunay; /**< whether the mesh is kept Delaunay */
+    int log;                   /**< 1: keep a list of all edits, for mw_editor_log() */
+    /** How many edits can be undone; each takes 400 to 1000 bytes. SIZE_MAX: all. */
+    size_t undo;
+    /** Edges that must not be flipped away: two vertices per edge, as in mw_constrained_edges.edge.
+     * Every pair must be an edge of the mesh. Read during mw_editor_create() only. */
+    const uint32_t *constrained_edges;
+    size_t constrained_edge_count; /**< number of those edges */
+    /** Threads used by mw_editor_mesh(), mw_editor_compact() and mw_edit_insert_points(); 0: one
+     * per processor. Results do not depend on it. */
+    uint32_t threads;
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[5];        /**< must be zero */
 } mw_editor_options;
 
-/* Take a mesh, which is copied with its fields and may be destroyed.
- *   options  NULL = all zero
- *   out      owned by the caller (mw_editor_destroy); NULL on failure
- * The border is fixed as constraints are, unless the mesh fills its convex hull: then the hull grows and shrinks with the points.
- * MW_ERROR_INPUT: the mesh is no embedding, has flat triangles, or vertices that are used at one place (the error names the first); a
- * constraint is no edge of the mesh. MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY. */
+/**
+ * Create an editor from a mesh.
+ *
+ * The mesh and its fields are copied; the caller may destroy the mesh afterwards. If the mesh fills
+ * its convex hull, the hull grows and shrinks with the vertices. Otherwise the border edges are
+ * fixed like constrained edges.
+ *
+ * @param mesh     the mesh to copy
+ * @param options  NULL selects the defaults
+ * @param out      receives the editor, owned by the caller; NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_INPUT if the mesh is no embedding, has triangles without area, has two
+ *         used vertices with equal coordinates, or if a constrained edge is no edge of the mesh
+ *         (the error names the first); MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY,
+ *         MW_CANCELLED.
+ *
+ * Thread-safe for a const mesh. Time and memory: about linear in the triangles.
+ */
 MW_API mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options, mw_editor **out,
                                   mw_error *error);
-MW_API void mw_editor_destroy(mw_editor *editor); /* NULL is allowed */
 
-/* --- edits --------------------------------------------------------------------------------------------------------- */
+/** Destroy an editor with its locator and indices. NULL is allowed. */
+MW_API void mw_editor_destroy(mw_editor *editor);
 
+/* --- edits ------------------------------------------------------------------------------------ */
+
+/** The kinds of edits. mw_edit_insert() and the functions after it explain each. */
 typedef enum mw_edit_kind {
-    MW_EDIT_INSERT = 0, /* a vertex at x, y                                                                   */
-    MW_EDIT_REMOVE,     /* `vertex`                                                                           */
-    MW_EDIT_MOVE,       /* `vertex` to x, y                                                                   */
-    MW_EDIT_FLIP,       /* the edge from `vertex` to `other`                                                  */
-    MW_EDIT_CONSTRAIN,  /* the straight way from `vertex` to `other` becomes an edge that stays, or several   */
-    MW_EDIT_RELEASE,    /* the constraints on the straight way from `vertex` to `other` end                   */
-    MW_EDIT_VALUE,      /* `field` of `vertex` becomes `value`                                                */
+    MW_EDIT_INSERT = 0, /**< insert a vertex at (x, y) */
+    MW_EDIT_REMOVE,     /**< remove `vertex` */
+    MW_EDIT_MOVE,       /**< move `vertex` to (x, y) */
+    MW_EDIT_FLIP,       /**< flip the edge from `vertex` to `other` */
+    MW_EDIT_CONSTRAIN,  /**< constrain the segment from `vertex` to `other` */
+    MW_EDIT_RELEASE,    /**< release the constraints along the segment from `vertex` to `other` */
+    MW_EDIT_VALUE,      /**< set `field` of `vertex` to `value` */
     MW_EDIT_KIND_COUNT
 } mw_edit_kind;
 
-/* One edit, as it is asked for, logged and replayed. Members that its kind does not name are not read. */
+/** One edit, as requested, logged and replayed. Members that its kind does not name are ignored. */
 typedef struct mw_edit {
     mw_edit_kind kind;
     uint32_t vertex, other;
-    uint32_t field; /* number of a field (mw_editor_field_by_name)                                             */
+    uint32_t field; /**< number of a field, from mw_editor_field_by_name() */
     double x, y;
-    double value; /* MW_EDIT_INSERT: of `field` at the new vertex; NaN: interpolated, as the other fields are */
+    /** MW_EDIT_VALUE: the new value. MW_EDIT_INSERT: the value of `field` at the new vertex; NaN:
+     * interpolated, as all other fields are. */
+    double value;
 } mw_edit;
 
-/* A triangle that an edit made, freed, or gave other vertices (or the same in another order). */
+/** A triangle that an edit made, freed, or gave other vertices or another order of vertices. */
 typedef struct mw_changed_triangle {
     uint32_t triangle;
-    uint32_t
-        before[3]; /* its vertices before the edit; MW_NONE if it was made. mw_editor_triangle tells those after it */
+    /** Its vertices before the edit, or MW_NONE if the edit made it. mw_editor_triangle() has those
+     * after the edit. */
+    uint32_t before[3];
 } mw_changed_triangle;
 
-/* What an edit changed. Triangles round a vertex that was moved keep their vertices, and are not
- * listed unless flipped. Holes keep their numbers. */
+/**
+ * What an edit changed.
+ *
+ * Triangles round a moved vertex keep their vertices; they are listed only if an edge was flipped.
+ * Holes keep their numbers.
+ */
 typedef struct mw_change {
-    mw_changed_triangle *triangle; /* `made` ones, then `reused`, then `freed`; each in order of number. Owned by
-                                      the editor, until its next edit                                             */
-    size_t made, reused, freed;
-    uint32_t vertex; /* the one inserted, removed or moved; where there was one at the place to insert at, that one */
-    uint32_t vertices_made;  /* new ones: `vertex`, and (mw_edit_insert_points) those next in number                  */
-    uint32_t vertices_freed; /* gone: `vertex`, and (what mw_edit_undo takes back) those next in number               */
-    uint32_t flips; /* edges exchanged to make the mesh Delaunay again: as many as one after another would be to
-                         put a vertex in; none where a small star is filled at once                               */
-    uint32_t constrained_edges; /* MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE: edges on the way                            */
+    /** First the made triangles, then the reused ones, then the freed ones, each in ascending
+     * order. Owned by the editor, valid until its next edit. */
+    mw_changed_triangle *triangle;
+    size_t made, reused, freed; /**< how many of each kind `triangle` holds */
+    /** The inserted, removed or moved vertex. If a vertex already was at the point to insert: that
+     * vertex. */
+    uint32_t vertex;
+    uint32_t vertices_made;  /**< new vertices: numbered from `vertex` on */
+    uint32_t vertices_freed; /**< removed vertices: numbered from `vertex` on */
+    /** Flips that made the mesh Delaunay again. An insertion counts the flips that inserting step
+     * by step would need. Filling a small cavity at once counts none. */
+    uint32_t flips;
+    uint32_t constrained_edges; /**< MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE: edges along the segment */
     uint32_t reserved[6];
 } mw_change;
 
-/* Carry out an edit. `change` may be NULL or is filled. On failure nothing has changed. Not thread-safe; queries have to wait.
- *   insert     A place inside a triangle or on an edge splits it; the halves of a constraint are constraints. Outside of a mesh
- *              that fills its hull the hull grows. Where a vertex is there is nothing to do. New triangles get new numbers, but for one,
- *              or two on an edge.
- *   remove     Its triangles are replaced by two less, which keep the lower numbers. On the hull of a mesh that fills it the hull
- *              shrinks. A vertex on the border or on constraints can go only where two of them meet and are in line.
- *   move       In place while no triangle round the vertex turns over; else by removing and inserting, the vertex keeps its number and
- *              values. A vertex on a constraint, or on a border that is fixed, keeps its triangles: the move is refused where
- *              one of them would turn over or lose its area, cover other vertices or triangles, or where an edge of it would
- *              cross an edge or meet a vertex; any other move is done. Where the hull of a mesh that fills it would not
- *              stay convex, new triangles fill it.
- *   flip       Needs two triangles that make a strictly convex quadrilateral. Ends keeping the mesh Delaunay, unless four points lie on a
- *              circle.
- *   constrain  May not cross a constraint, nor leave the mesh. Vertices on the way part it.
- *   release    All of the way has to be constraints, none of it border.
- * While the mesh is kept Delaunay, edges that are no longer so are flipped, exactly [Lawson 1977]; constraints and border stay. An edit
- * takes time in proportion to the triangles it touches: about six for spread points. To insert, the place is located first,
- * from where the edit before was if that is near, else by the locator's guide.
- * MW_ERROR_INPUT: any of the above, with the vertex or triangle in the way; a place that is not finite or outside of a mesh that does not
- * fill its hull; a vertex that is not there, or that no triangle has; nothing would be left. MW_ERROR_LIMIT: no more numbers before
- * mw_editor_compact; MW_ERROR_MEMORY; MW_ERROR_ARGUMENT: NULL, an unknown kind or field. */
+/**
+ * Apply one edit. Equivalent to the function of its kind below.
+ *
+ * @param editor  the editor
+ * @param edit    the edit
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure, with the vertex or triangle concerned
+ * @return MW_OK, or the error of the kind; on failure the mesh is unchanged. All kinds:
+ *         MW_ERROR_ARGUMENT if a pointer is NULL or the kind or field is unknown; MW_ERROR_INPUT if
+ *         a vertex does not exist or belongs to no triangle, a coordinate is not finite, or no
+ *         triangle would be left; MW_ERROR_LIMIT if all numbers are used (mw_editor_compact() frees
+ *         some); MW_ERROR_MEMORY.
+ *
+ * If the mesh is kept Delaunay, edges that are no longer Delaunay are flipped, decided exactly
+ * [Lawson 1977]. Not thread-safe: no other call on the editor or its locator may run.
+ */
 MW_API mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error);
 
-/* The same, each kind by itself. */
+/**
+ * Insert a vertex at (x, y).
+ *
+ * A point inside a triangle or on an edge splits it; the halves of a constrained edge are
+ * constrained. A point outside a mesh that fills its convex hull extends the hull. Inserting at an
+ * existing vertex changes nothing. All fields are interpolated. New triangles get new numbers,
+ * except one (inside a triangle) or two (on an edge), which reuse the numbers of the split
+ * triangles.
+ *
+ * @param editor  the editor
+ * @param x, y    finite coordinates, in mesh units
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_edit_apply(); also MW_ERROR_INPUT if the point is outside a mesh whose border is
+ *         fixed.
+ *
+ * Time: the walk to the point, from the previous edit if that was near, else from the locator's
+ * guide; then proportional to the triangles in conflict, about six for spread points. Not
+ * thread-safe.
+ */
 MW_API mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change *change, mw_error *error);
+
+/**
+ * Remove a vertex. Its triangles are replaced by two fewer, which keep the lowest numbers.
+ *
+ * On the hull of a mesh that fills its convex hull the hull shrinks. A vertex on the border or on
+ * constrained edges can be removed only if it has exactly two such edges and they are collinear.
+ *
+ * @param editor  the editor
+ * @param vertex  the vertex
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_edit_apply(); also MW_ERROR_INPUT for fixed edges as above.
+ *
+ * Time: O(d log d) for a vertex of degree d. Not thread-safe.
+ */
 MW_API mw_status mw_edit_remove(mw_editor *editor, uint32_t vertex, mw_change *change, mw_error *error);
+
+/**
+ * Move a vertex to (x, y). The vertex keeps its number and its values.
+ *
+ * The vertex moves in place as long as no triangle round it turns over; otherwise it is removed and
+ * inserted again. A vertex on a constrained edge or on a fixed border takes its triangles along. If
+ * the hull of a mesh that fills its convex hull would not stay convex, new triangles fill the gap.
+ *
+ * @param editor  the editor
+ * @param vertex  the vertex
+ * @param x, y    finite coordinates, in mesh units
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_edit_apply(); also MW_ERROR_INPUT if a vertex with fixed edges would turn a
+ *         triangle over or flatten it, cover other vertices or triangles, or let an edge cross an
+ *         edge or meet a vertex.
+ *
+ * Time: O(d) in place, else as a removal and an insertion. Not thread-safe.
+ */
 MW_API mw_status mw_edit_move(mw_editor *editor, uint32_t vertex, double x, double y, mw_change *change,
                               mw_error *error);
+
+/**
+ * Flip the edge between two vertices. Its two triangles must form a strictly convex quadrilateral.
+ *
+ * Afterwards the mesh is no longer kept Delaunay, unless the four vertices are cocircular.
+ *
+ * @param editor    the editor
+ * @param from, to  the ends of the edge
+ * @param change    NULL, or receives what the edit changed
+ * @param error     NULL, or receives the message of a failure
+ * @return as mw_edit_apply(); also MW_ERROR_INPUT if there is no such edge, it is fixed, or the
+ *         quadrilateral is not strictly convex.
+ *
+ * Time: O(d) for the degree of `from`. Not thread-safe.
+ */
 MW_API mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
+
+/**
+ * Constrain the segment between two vertices: make it an edge, or a chain of edges, that stays.
+ *
+ * Vertices on the segment divide it. The segment must not cross a constrained edge or leave the
+ * mesh.
+ *
+ * @param editor    the editor
+ * @param from, to  the ends of the segment
+ * @param change    NULL, or receives what the edit changed
+ * @param error     NULL, or receives the message of a failure
+ * @return as mw_edit_apply(); also MW_ERROR_INPUT if the segment crosses a constrained edge or
+ *         leaves the mesh.
+ *
+ * Time: O(m log m) for m crossed triangles, expected. Not thread-safe.
+ */
 MW_API mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
+
+/**
+ * Release the constraints along the segment between two vertices. The edges may be flipped again.
+ *
+ * @param editor    the editor
+ * @param from, to  the ends of the segment
+ * @param change    NULL, or receives what the edit changed
+ * @param error     NULL, or receives the message of a failure
+ * @return as mw_edit_apply(); also MW_ERROR_INPUT if a part of the segment is not constrained, or
+ *         is a fixed border edge.
+ *
+ * Time: O(m) for the edges along the segment, and the flips. Not thread-safe.
+ */
 MW_API mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
+
+/**
+ * Set the value of a field at a vertex.
+ *
+ * @param editor  the editor
+ * @param field   number of a field, from mw_editor_field_by_name()
+ * @param vertex  the vertex
+ * @param value   any value, also NaN
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_edit_apply().
+ *
+ * Time: O(1). Not thread-safe.
+ */
 MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t vertex, double value, mw_error *error);
 
-/* Insert n points as one edit, quicker than one by one. They go in in the order in which they come where that is along a curve, each near the
- * one before, and along a Hilbert curve otherwise; mesh and numbers are those that insertions in that order lead to. It is one edit to undo,
- * and n in the log. Fields are interpolated. Quickest where nobody asks what changed: `change` NULL, no undo, no index but the guide.
- *   points    x and y of each, `stride` doubles from one to the next (0: 2)
- *   vertices  NULL, or n numbers: the vertex at each point
- * change->vertex is the first of the new vertices, which have numbers one after another; MW_NONE if there was a vertex at each point. If
- * any point cannot be inserted nothing has changed, and the error tells one; `vertices` are undefined then. MW_ERROR_INPUT, MW_ERROR_LIMIT,
- * MW_ERROR_MEMORY as for an insertion; MW_ERROR_ARGUMENT: NULL, or a stride of 1. */
+/**
+ * Insert n points as one edit. Faster than inserting them one by one.
+ *
+ * Points that come along a curve, each near the previous one, are inserted in that order. Other
+ * points are inserted along a Hilbert curve. The result, numbers included, is that of single
+ * insertions in that order. The whole is one edit to undo and n entries of the log. All fields are
+ * interpolated. It is fastest without a change report: `change` NULL, no undo, and no index except
+ * the locator's guide.
+ *
+ * @param editor    the editor
+ * @param points    x and y of each point, in mesh units
+ * @param n         number of points
+ * @param stride    doubles from one point to the next; 0 means 2
+ * @param vertices  NULL, or receives n numbers: the vertex at each point
+ * @param change    NULL, or receives what the edit changed. change->vertex is the first new vertex;
+ *                  new vertices are numbered consecutively. MW_NONE if no vertex was new.
+ * @param error     NULL, or receives the message of a failure, naming a point
+ * @return MW_OK; MW_ERROR_INPUT, MW_ERROR_LIMIT, MW_ERROR_MEMORY as for an insertion;
+ *         MW_ERROR_ARGUMENT if a pointer is NULL or the stride is 1; MW_CANCELLED. On failure the
+ *         mesh is unchanged and `vertices` is unspecified.
+ *
+ * Not thread-safe.
+ */
 MW_API mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n, size_t stride,
                                        uint32_t *vertices, mw_change *change, mw_error *error);
 
-/* Take back the last edit that is not: everything is as it was before it, numbers too. `change` tells what that changed.
- * MW_ERROR_INPUT: there is none, or none kept (options.undo). MW_ERROR_MEMORY: nothing has changed. */
+/**
+ * Undo the latest edit that has not been undone. Restores the mesh and all numbers.
+ *
+ * @param editor  the editor
+ * @param change  NULL, or receives what undoing changed
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_INPUT if there is no edit to undo, or it was not kept
+ *         (mw_editor_options.undo); MW_ERROR_MEMORY, and nothing has changed.
+ *
+ * Time: as the edit. Not thread-safe.
+ */
 MW_API mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error);
 
-/* The edits since the editor was made or compacted, those that were undone left out: applied in this order to the same mesh
- * they give the same one, numbers too. NULL and 0 without options.log. Owned by the editor, until its next edit. */
+/**
+ * The edits since the editor was created or compacted, without those that were undone.
+ *
+ * Applied in this order to the same mesh, they give the same mesh with the same numbers.
+ *
+ * @param editor  the editor
+ * @param count   receives the number of edits
+ * @return the edits, owned by the editor and valid until its next edit; NULL and 0 without
+ *         mw_editor_options.log.
+ *
+ * Time: O(1).
+ */
 MW_API const mw_edit *mw_editor_log(const mw_editor *editor, size_t *count);
 
-/* Number everything anew, without gaps and in the same order, and lay it out in memory along a curve. Undo and log begin anew;
- * cursors and indices stay valid, though cursors begin elsewhere; holes are numbered anew. O(n). triangles, vertices: NULL, or arrays of as many numbers as
- * the ranges below: the new one of each, MW_NONE for those that are gone. MW_ERROR_MEMORY: nothing has changed. */
+/**
+ * Renumber vertices and triangles without gaps, in the same order, and lay them out along a curve
+ * in memory.
+ *
+ * Undo and log start again. Cursors and indices stay valid; a cursor's next query starts anew.
+ * Holes are renumbered.
+ *
+ * @param editor     the editor
+ * @param triangles  NULL, or an array of mw_editor_info.triangle_range numbers: receives the new
+ *                   number of each triangle, MW_NONE for freed ones
+ * @param vertices   the same for vertices, mw_editor_info.vertex_range numbers
+ * @param error      NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_MEMORY or MW_CANCELLED, and nothing has changed.
+ *
+ * Time: O(n). Not thread-safe.
+ */
 MW_API mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint32_t *vertices, mw_error *error);
 
-/* --- what is there now ------------------------------------------------------------------------------------------------ */
+/* --- the present mesh ------------------------------------------------------------------------- */
 
+/** Sizes and counts of an editor. */
 typedef struct mw_editor_info {
-    uint32_t vertices, triangles;          /* that are there                                                      */
-    uint32_t vertex_range, triangle_range; /* all numbers are below these                                         */
-    uint32_t constrained_edges;            /* edges that are fixed, but for the border                            */
-    int delaunay;                          /* 1: the mesh is kept Delaunay                                        */
-    int convex;                            /* 1: it fills its convex hull, which grows and shrinks; 0: its border is
-                                              fixed. Decided when the editor is made                              */
-    size_t undoable;                       /* edits that can be undone                                            */
-    size_t bytes;                          /* memory in use by the editor                                           */
-    size_t undo_bytes;                     /* of it, for undo and the log                                         */
-    size_t index_bytes;                    /* of it, of indices and the locator's guide                           */
-    uint64_t edits;                        /* carried out since the editor was made, those undone too             */
-    uint64_t refreshes;                    /* times an index or the guide was built anew                          */
+    uint32_t vertices, triangles;          /**< existing ones */
+    uint32_t vertex_range, triangle_range; /**< all numbers are below these */
+    uint32_t constrained_edges;            /**< constrained edges, without the border */
+    int delaunay;                          /**< 1: the mesh is kept Delaunay */
+    /** 1: the mesh fills its convex hull, which grows and shrinks. 0: its border is fixed. Decided
+     * when the editor is created. */
+    int convex;
+    size_t undoable;    /**< edits that can be undone */
+    size_t bytes;       /**< memory used by the editor, in bytes */
+    size_t undo_bytes;  /**< of these, for undo and the log */
+    size_t index_bytes; /**< of these, for indices and the locator's guide */
+    uint64_t edits;     /**< edits applied since the editor was created, undone ones included */
+    uint64_t refreshes; /**< how often an index or the guide was rebuilt */
     uint32_t reserved[8];
 } mw_editor_info;
+
+/** Fill `info` with sizes and counts of the editor. O(1), or O(indices) for the bytes. */
 MW_API void mw_editor_describe(const mw_editor *editor, mw_editor_info *info);
 
-/* The vertices of a triangle, counter-clockwise unless the caller's mesh had it clockwise; the place of a vertex. 0: there is none of
- * that number (any more), and nothing is written; else 1. */
+/**
+ * The vertices of a triangle: counter-clockwise, unless the triangle was clockwise in the caller's
+ * mesh.
+ *
+ * @param editor    the editor
+ * @param triangle  any number
+ * @param vertices  receives three vertices; unchanged if there is no such triangle
+ * @return 1, or 0 if no triangle has that number.
+ *
+ * Time: O(1).
+ */
 MW_API int mw_editor_triangle(const mw_editor *editor, uint32_t triangle, uint32_t vertices[3]);
+
+/**
+ * The coordinates of a vertex.
+ *
+ * @param editor  the editor
+ * @param vertex  any number
+ * @param point   receives x and y; unchanged if there is no such vertex
+ * @return 1, or 0 if no vertex has that number.
+ *
+ * Time: O(1).
+ */
 MW_API int mw_editor_vertex(const mw_editor *editor, uint32_t vertex, double point[2]);
 
-/* The lowest triangle that has a vertex; MW_NONE if no triangle has. */
+/** The lowest triangle that has a vertex as a corner; MW_NONE if none has. O(degree). */
 MW_API uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex);
 
-/* The vertices joined to one by an edge, counter-clockwise round it; on a border from the first to the last. Writes at most
- * `capacity` of them and returns how many there are; 0 for a vertex that is not there or in no triangle. */
+/**
+ * The vertices that edges join to a vertex, counter-clockwise; on a border from the first to the
+ * last.
+ *
+ * @param editor      the editor
+ * @param vertex      any number
+ * @param neighbours  receives at most `capacity` vertices; may be NULL if `capacity` is 0
+ * @param capacity    room in `neighbours`
+ * @return how many there are, also if `capacity` is less; 0 if the vertex does not exist or
+ *         belongs to no triangle.
+ *
+ * Time: O(degree).
+ */
 MW_API size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours,
                                           size_t capacity);
 
+/** What kind of edge joins two vertices. */
 typedef enum mw_edge_kind {
-    MW_EDGE_NONE = 0,      /* no edge of the mesh */
-    MW_EDGE_UNCONSTRAINED, /* an inner edge that may be flipped away */
-    MW_EDGE_CONSTRAINED,
-    MW_EDGE_BORDER
+    MW_EDGE_NONE = 0,      /**< no edge of the mesh */
+    MW_EDGE_UNCONSTRAINED, /**< an inner edge that may be flipped away */
+    MW_EDGE_CONSTRAINED,   /**< an inner edge that stays */
+    MW_EDGE_BORDER         /**< an edge of one triangle */
 } mw_edge_kind;
 
-/* What kind of edge joins two vertices. */
+/** What kind of edge joins two vertices, given by any two numbers. O(degree). */
 MW_API mw_edge_kind mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to);
 
-/* The number of a field of the mesh by its name, MW_NONE if there is none. Its value at a vertex; NaN for a vertex that is not there.
- * Linear interpolation of a field as mw_interpolate does it. */
+/** The number of a field by its name; MW_NONE if there is none. O(fields). */
 MW_API uint32_t mw_editor_field_by_name(const mw_editor *editor, const char *name);
+
+/** The value of a field at a vertex; NaN if the field or the vertex does not exist. O(1). */
 MW_API double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex);
+
+/**
+ * Interpolate a field linearly at n locations, as mw_interpolate() does.
+ *
+ * @param editor     the editor
+ * @param field      number of a field
+ * @param locations  n locations from the editor's locator, made since its last edit
+ * @param n          number of locations
+ * @param result     receives n values; NaN without a triangle
+ */
 MW_API void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_location *locations, size_t n,
                                   double *result);
 
-/* A mesh of what is there now, numbered as by mw_editor_compact, with the fields; owned by the caller. triangles, vertices: as there.
- * Vertices that no triangle has stay. MW_ERROR_MEMORY. */
+/**
+ * Copy the present mesh, numbered as mw_editor_compact() would number it, with all fields.
+ *
+ * Vertices of no triangle are kept.
+ *
+ * @param editor     the editor
+ * @param triangles  NULL, or receives the new number of each triangle, as in mw_editor_compact()
+ * @param vertices   the same for vertices
+ * @param out        receives the mesh, owned by the caller (mw_mesh_destroy()); NULL on failure
+ * @param error      NULL, or receives the message of a failure
+ * @return MW_OK, MW_ERROR_MEMORY, MW_CANCELLED.
+ *
+ * Time: O(n).
+ */
 MW_API mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t *vertices, mw_mesh **out,
                                 mw_error *error);
 
-/* The constraints that are there now, two vertices each, released by the caller with free(); NULL when out of memory. */
+/**
+ * The constrained edges, two vertices each.
+ *
+ * @param editor  the editor
+ * @param count   receives the number of edges
+ * @return an array that the caller releases with free(); NULL if memory runs out.
+ *
+ * Time: O(n).
+ */
 MW_API uint32_t *mw_editor_constrained_edges(const mw_editor *editor, size_t *count);
 
-/* --- location in between ---------------------------------------------------------------------------------------------- */
+/* --- location between edits ------------------------------------------------------------------- */
 
-/* The locator of what is there now: the same one as long as the editor lives. Its cursors survive edits: one whose triangle
- * is gone begins at one that took its place. Pockets and holes are filled; their numbers stay until mw_editor_compact. It has no border index and
- * no stored areas. The triangle of a location is a number of the editor's. */
+/**
+ * The locator of the present mesh: the same object as long as the editor lives.
+ *
+ * Its cursors survive edits: if a cursor's last triangle is gone, the next query starts in a
+ * triangle that replaced it. Pockets and holes are filled; holes keep their numbers until
+ * mw_editor_compact(). The locator has no border index and no stored areas. Its locations have the
+ * editor's triangle numbers.
+ *
+ * @return the locator, owned by the editor. Queries are thread-safe while no edit runs.
+ */
 MW_API const mw_locator *mw_editor_locator(const mw_editor *editor);
 
-/* Build an index (mw_index_create), or build it anew. The editor owns it and keeps it up: grids and layers follow
- * each edit at O(1) expected, and are built anew when there are twice as many vertices as when they were built, or half; for
- * layers [Devillers 2002] a new vertex rises with the same chance as at first, and one that goes leaves all layers.
- * MW_START_CURVE is built anew only here: after edits it leads less near. The locator's own guide is built anew when there are three times
- * as many vertices, or half, or a quarter as many outside the extent of that time, and after two insertions for every vertex, other edits
- * counting twice. *index stays valid until the editor is destroyed; there is one for each start.
- * Options as for mw_index_create, NULL = all zero. Errors as there. */
+/**
+ * Build or rebuild an index for the editor's locator, as mw_index_create() does.
+ *
+ * The editor owns the index and keeps it up to date. Grids and layers follow each edit at O(1)
+ * expected cost; they are rebuilt when the number of vertices has doubled or halved since they were
+ * built. In layers a new vertex rises with the usual chance [Devillers 2002], and a removed vertex
+ * leaves all layers. MW_START_CURVE and the published starts (buckets, k-d tree) are rebuilt only
+ * by this function; after edits their start is less near, and answers stay exact. The locator's own
+ * guide is rebuilt when the number of vertices has tripled or halved, when a quarter as many lie
+ * outside its extent, and after two insertions per vertex; other edits count twice.
+ *
+ * @param editor   the editor
+ * @param start    the start to build an index for; one index per start
+ * @param options  as for mw_index_create(); NULL selects the defaults
+ * @param index    receives the index, valid until the editor is destroyed
+ * @param error    NULL, or receives the message of a failure
+ * @return as mw_index_create().
+ *
+ * Not thread-safe.
+ */
 MW_API mw_status mw_editor_index(mw_editor *editor, mw_start_kind start, const mw_index_options *options,
                                  const mw_index **index, mw_error *error);
 

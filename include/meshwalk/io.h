@@ -127,8 +127,17 @@ typedef struct mw_point_reader_options {
     const char *columns;  /* NULL = see mw_point_reader_open; else names or 1-based numbers, "x,y", "lon,lat,z" */
     uint8_t classes[256]; /* LAS: 1 = take points of this class; all zero = take all */
     uint32_t table;       /* 1 = keep the text of every row; see mw_point_reader_table */
-    uint32_t reserved[3];
+    uint32_t texts; /* 1 = with `columns` NULL, cells of further columns may be texts; see mw_point_reader_texts */
+    uint32_t reserved[2];
 } mw_point_reader_options;
+
+/** Tell the coordinate system that a .prj file beside a file names: the name without .gz and without its ending, and
+ * .prj. The readers of meshes, points and constraints do this by themselves.
+ * @param path  name of the file, which need not exist; "-" has none beside it
+ * @param crs   a text on one line, WKT or "EPSG:n", released by the caller with free(); NULL = there is no such file, or
+ *              it names no system
+ * @return MW_OK; MW_ERROR_ARGUMENT: NULL; MW_ERROR_MEMORY. Thread-safe. */
+MW_API mw_status mw_read_prj(const char *path, char **crs, mw_error *error);
 
 /** Names that files give to the coordinates of a point, as "lon", "lat" and "z". */
 typedef struct mw_axis_names {
@@ -218,6 +227,13 @@ MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *c
  * @param column  number of the value within a point, from 0
  * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value. Thread-safe. */
 MW_API size_t mw_point_reader_place(const mw_point_reader *reader, size_t column);
+
+/** Tell how many cells that were read held a text where a number belongs. Such a cell is a missing value, NaN, in
+ * columns beyond x, y and z of a reader that was opened with `texts`; elsewhere it ends the reading with an error.
+ * @param column  number of the value within a point, from 0
+ * @param line    line of the first of these cells, from 1; unchanged if there is none. NULL is allowed
+ * @return how many; 0 also if there is no such value. Thread-safe on different readers. */
+MW_API uint64_t mw_point_reader_texts(const mw_point_reader *reader, size_t column, int64_t *line);
 
 /** Give the text of a row: as it stands in the file, without its line end, whatever its cells hold.
  * @param row     number of the row in the block that mw_point_reader_read gave last, from 0

@@ -1,10 +1,18 @@
-/* predicates.h - exact geometric predicates.
+/**
+ * @file predicates.h
+ * Exact geometric predicates.
  *
- * Each returns a double whose *sign* is the sign of the determinant taken over the real numbers that the given doubles
- * stand for, for all finite doubles; its magnitude approximates the determinant. A filter decides nearly every call,
- * exact expansion arithmetic [Shewchuk 1997] the rest, and big integers where coordinates are out of its range, which
- * docs/guarantees.md states. With a coordinate that is NaN or infinite the result is 0. Rounding must be to nearest,
- * and tiny numbers must not be flushed to zero: both are so unless a program asks for something else. Thread-safe. */
+ * Each function returns a double. Its sign is the sign of the determinant over the real numbers
+ * that the given doubles represent, for all finite doubles. Its magnitude approximates the
+ * determinant. If a coordinate is NaN or infinite, the result is 0.
+ *
+ * A floating-point filter decides nearly every call. Exact expansion arithmetic decides the others
+ * [Shewchuk 1997], and big integers decide where coordinates leave the range of expansions, which
+ * docs/guarantees.md states.
+ *
+ * The rounding mode must be to nearest and subnormal numbers must not be flushed to zero; both hold
+ * unless a program changes them. Thread-safe. No allocation.
+ */
 #ifndef MESHWALK_PREDICATES_H
 #define MESHWALK_PREDICATES_H
 
@@ -14,16 +22,34 @@
 extern "C" {
 #endif
 
-/* Each argument is an array of 2 (3 for orient3d) coordinates. */
-
-/* > 0: c lies to the left of the directed line a->b; < 0: to the right; 0: on it. Twice the signed area of abc. */
+/**
+ * On which side of a directed line a point lies.
+ *
+ * @param a, b  two points of the line: x, y
+ * @param c     the point to test: x, y
+ * @return positive if c lies to the left of the line from a to b, negative if to the right, 0 if on
+ *         the line. The magnitude approximates twice the area of the triangle a b c.
+ */
 MW_API double mw_orient2d(const double a[2], const double b[2], const double c[2]);
 
-/* > 0: d lies above the plane through a, b, c as seen from the side where a, b, c turn counter-clockwise, that is, on
- * that side; < 0: on the other; 0: in the plane. (The classic routine of the 1997 paper has the opposite sign.) */
+/**
+ * On which side of a plane a point lies.
+ *
+ * @param a, b, c  three points of the plane: x, y, z
+ * @param d        the point to test: x, y, z
+ * @return positive if d lies on the side from which a, b, c appear counter-clockwise, negative if
+ *         on the other side, 0 if in the plane. Shewchuk's orient3d has the opposite sign.
+ */
 MW_API double mw_orient3d(const double a[3], const double b[3], const double c[3], const double d[3]);
 
-/* For a, b, c counter-clockwise: > 0: d lies inside their circle; < 0: outside; 0: on it. */
+/**
+ * Whether a point lies inside a circle.
+ *
+ * @param a, b, c  three points of the circle, counter-clockwise: x, y
+ * @param d        the point to test: x, y
+ * @return positive if d lies inside the circle, negative if outside, 0 if on it. For clockwise
+ *         a, b, c the sign is reversed.
+ */
 MW_API double mw_incircle(const double a[2], const double b[2], const double c[2], const double d[2]);
 
 #ifdef __cplusplus

@@ -1,15 +1,21 @@
-/* probe.h - which triangle of a surface a probe touches [thesis App. G].
+/**
+ * @file probe.h
+ * Which triangle of a surface a probe touches, and the point of a surface nearest to a point
+ * [thesis App. G].
  *
- * A query is a point q, where the probe is, and a motion vector m: together the *line* through q along m. It touches
- * a triangle where it meets it on either side of q, at most max_distance away, m pointing at the triangle's front. A
- * triangle that the line only lies in, edge on, is not touched. What is decided is decided exactly, on the doubles
- * given.
+ * A probe is a point q and a motion vector m; together they give the line through q along m. The
+ * probe touches a triangle if the line meets it at most max_distance away from q, on either side,
+ * with m pointing at the triangle's front. A triangle that lies along the line, edge on, is not
+ * touched. Decisions are exact for the given doubles.
  *
- * Two modes. As published: walks over the surface along planes through the line, from a few first triangles; fast,
- * needs nothing beside the surface, and honest: a touch it tells of is one (the first it found), but where its
- * iterations end without one it says MW_TOUCH_LIMIT, which does not mean that there is none. Certain: complete; of
- * several touches the one at the smallest |distance|, of those the lowest-numbered triangle; MW_TOUCH_NONE means
- * that there is none. It needs boxes over the triangles (mw_prober_options.boxes). */
+ * Two modes exist.
+ * - *As published*: walks over the surface along planes through the line, from a few first
+ *   triangles. Fast, and needs nothing but the surface. A reported touch is a touch, the first
+ *   that was found. Without one the state is MW_TOUCH_LIMIT, which does not mean that there is
+ * none. - *Certain*: complete. Of several touches the answer is the one with the smallest absolute
+ *   distance, then with the lowest triangle. MW_TOUCH_NONE means that there is none. Needs boxes
+ *   over the triangles (mw_prober_options.boxes).
+ */
 #ifndef MESHWALK_PROBE_H
 #define MESHWALK_PROBE_H
 
@@ -19,111 +25,148 @@
 extern "C" {
 #endif
 
-/* A surface prepared for probes. Const while it is queried. */
+/** A surface prepared for probes. Opaque; any number of threads may query one prober. */
 typedef struct mw_prober mw_prober;
 
+/** Options of a prober. Zero-initialised options select the defaults. */
 typedef struct mw_prober_options {
-    int boxes;                   /* 1: build boxes over the triangles, for certain probes and mw_nearest_on_surface */
-    uint32_t threads;            /* that make the boxes; 0: as many as processors */
-    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
-    uint32_t reserved[4];
+    /** 1: build boxes over the triangles, for certain probes and mw_nearest_on_surface(). */
+    int boxes;
+    uint32_t threads;            /**< threads that build the boxes; 0: one per processor */
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
 } mw_prober_options;
 
-/* surface: must outlive the prober. options: NULL = all zero. out: owned by the caller (mw_prober_destroy); NULL on
- * failure. MW_ERROR_ARGUMENT: NULL; MW_ERROR_INPUT: the surface has no triangle; MW_ERROR_MEMORY. O(1) without
- * boxes. */
+/**
+ * Prepare a surface for probes.
+ *
+ * @param surface  the surface, which must outlive the prober
+ * @param options  NULL selects the defaults
+ * @param out      receives the prober, owned by the caller (mw_prober_destroy()); NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_INPUT if the surface has no triangle;
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
+ *
+ * Thread-safe. O(1) without boxes, O(n log n) with boxes.
+ */
 MW_API mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options, mw_prober **out,
                                   mw_error *error);
-MW_API void mw_prober_destroy(mw_prober *prober); /* NULL is allowed */
+/** Destroy a prober. NULL is allowed. */
+MW_API void mw_prober_destroy(mw_prober *prober);
 
-/* Bring the boxes up to date with a surface that has changed, during its update. Not needed without boxes.
- *   moved  no vertex moved farther than that since the last update: then the boxes are taken to be so much larger, in
- *          O(1), and fitted anew only when that sum grows too large for them; negative or NaN: not known, fit them now,
- *          O(n). After flips of edges: not known
- *   threads  0: as many as processors
- * Boxes not brought up to date: certain probes get MW_TOUCH_BAD. */
+/**
+ * Bring the boxes up to date with a changed surface, during its update. Not needed without boxes.
+ *
+ * Until this is done, certain probes return MW_TOUCH_BAD.
+ *
+ * @param prober   the prober
+ * @param moved    an upper bound of the distance that any vertex moved since the last update: the
+ *                 boxes are enlarged by it, in O(1), and fitted again when the sum of enlargements
+ *                 becomes too large. Negative or NaN: unknown, fit now, O(n). Use that after flips
+ *                 of edges.
+ * @param threads  number of threads; 0: one per processor
+ *
+ * Not thread-safe.
+ */
 MW_API void mw_prober_update(mw_prober *prober, double moved, uint32_t threads);
 
+/** Sizes of a prober. */
 typedef struct mw_prober_info {
-    size_t bytes;       /* all its memory, surface not counted */
-    size_t box_bytes;   /* of it, the boxes                    */
-    uint64_t fits;      /* times that the boxes were fitted    */
-    double fit_seconds; /* that the last of them took        */
+    size_t bytes;       /**< memory in bytes, without the surface */
+    size_t box_bytes;   /**< of these, for the boxes */
+    uint64_t fits;      /**< how often the boxes were fitted */
+    double fit_seconds; /**< how long the last fit took */
 } mw_prober_info;
+
+/** Fill `info` with the sizes of a prober. O(1). */
 MW_API void mw_prober_describe(const mw_prober *prober, mw_prober_info *info);
 
+/** The outcome of a probe. */
 typedef enum mw_touch_state {
-    MW_TOUCH_HIT = 0, /* touches `triangle`                                                                */
-    MW_TOUCH_NONE,    /* surely touches nothing within the distance                                        */
-    MW_TOUCH_LIMIT,   /* nothing was found within the limit of iterations: there may be something          */
-    MW_TOUCH_BAD,     /* a coordinate is NaN or infinite, the motion is zero, or boxes are not up to date  */
+    MW_TOUCH_HIT = 0, /**< touches `triangle` */
+    MW_TOUCH_NONE,    /**< touches nothing within the distance, for certain */
+    MW_TOUCH_LIMIT,   /**< no touch found within the limit of iterations; there may be one */
+    MW_TOUCH_BAD,     /**< not finite, a motion of zero, or boxes that are not up to date */
     MW_TOUCH_STATE_COUNT
 } mw_touch_state;
 
-/* "hit", "none", "limit", "bad"; NULL for another number. */
+/** "hit", "none", "limit" or "bad"; NULL for any other number. */
 MW_API const char *mw_touch_state_name(mw_touch_state state);
 
+/** What a probe touched. */
 typedef struct mw_touch {
-    double distance; /* from q along m to the point touched, in units of length: negative where it lies behind q. Off by
-                          less than 2^-40 of itself where it is a normal double; infinite beyond the largest double (the
-                          state is MW_TOUCH_HIT still); NaN but for MW_TOUCH_HIT */
-    double
-        weight[3]; /* barycentric weights of the point touched: >= 0, sum 1 up to rounding, exactly 0 for the vertices
-                          off an edge that the line meets; NaN but for MW_TOUCH_HIT */
-    uint32_t
-        triangle;  /* the caller's number, or MW_NONE. Of triangles touched in one place the lowest-numbered of those
-                          that are linked there; in certain mode of all */
-    uint8_t state; /* mw_touch_state */
-    uint8_t where; /* mw_where: MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD but for MW_TOUCH_HIT */
-    uint8_t local; /* edge or vertex of the triangle, 255 else */
+    /** From q along m to the touched point, in mesh units; negative behind q. Off by less than
+     * 2^-40 of itself if it is a normal double; infinite beyond the largest double. NaN without a
+     * touch. */
+    double distance;
+    /** Barycentric weights of the touched point: at least 0, sum 1 up to rounding, exactly 0 for a
+     * vertex off an edge that the line meets. NaN without a touch. */
+    double weight[3];
+    /** The caller's number, or MW_NONE. If several triangles are touched at one place: the lowest
+     * of those linked there; in certain mode the lowest of all. */
+    uint32_t triangle;
+    uint8_t state; /**< mw_touch_state */
+    uint8_t where; /**< mw_where: MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD without a touch */
+    uint8_t local; /**< the edge or vertex of the triangle; 255 otherwise */
     uint8_t reserved;
 } mw_touch;
 
+/** How the first triangle of a walk is chosen. */
 typedef enum mw_probe_start {
-    MW_PROBE_START_AUTO = 0, /* as LAST where that triangle is nearer to the point than the nearest of a sample is
-                                likely to be, else SAMPLE                                               */
-    MW_PROBE_START_LAST,     /* the triangle touched last by this cursor, if any, and if m points at its front;
-                                else, and in further iterations, SAMPLE                                 */
-    MW_PROBE_START_SAMPLE,   /* the nearest of k random triangles whose fronts m points at [thesis App. G, Alg. 1] */
-    MW_PROBE_START_RANDOM,   /* a random triangle whose front m points at                               */
+    /** LAST if that triangle is probably nearer to q than the best of a sample; else SAMPLE. */
+    MW_PROBE_START_AUTO = 0,
+    /** The triangle that this cursor touched last, if m points at its front. Otherwise, and in
+     * further iterations, SAMPLE. */
+    MW_PROBE_START_LAST,
+    /** The nearest of k random triangles at whose fronts m points [thesis App. G, Alg. 1]. */
+    MW_PROBE_START_SAMPLE,
+    MW_PROBE_START_RANDOM, /**< a random triangle at whose front m points */
     MW_PROBE_START_COUNT
 } mw_probe_start;
-/* "auto", "last", "sample", "random"; NULL for another number. */
+
+/** "auto", "last", "sample" or "random"; NULL for any other number. */
 MW_API const char *mw_probe_start_name(mw_probe_start start);
 
-/* All zero = choose. */
+/** How to answer probes. Zero-initialised options select the defaults. */
 typedef struct mw_probe_options {
-    double max_distance; /* > 0, in units of length; 0 = no limit                                                  */
-    int certain;         /* 1: complete; the prober has boxes                                                      */
+    double max_distance; /**< greater than 0, in mesh units; 0: unlimited */
+    int certain;         /**< 1: complete answers; the prober needs boxes */
     mw_probe_start start;
-    uint32_t samples;    /* k of Alg. 1; 0 = 2 times the cube root, rounded down, of the number of vertices. At most
-                            the number of triangles                                                                */
-    uint32_t iterations; /* walks at most, from different first triangles; 0 = 10                                  */
-    uint32_t race;       /* walks that run at a time in threads, 256 at most; the first to find stops the others. 0 or
-                            1: one. In a race the triangle found may differ from run to run where the line touches
-                            several. In certain mode nothing races                                                 */
-    uint32_t threads;    /* batches without a race: 0: as many as processors                                          */
-    uint64_t seed;
-    int counters;                /* 1: fill the counters */
-    const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
-    uint32_t reserved[5];
+    /** k of Alg. 1; 0: 2 times the cube root of the number of vertices, rounded down. At most the
+     * number of triangles. */
+    uint32_t samples;
+    uint32_t iterations; /**< most walks, from different first triangles; 0: 10 */
+    /** Number of walks that run at a time in threads, at most 256; the first touch stops the
+     * others. 0 or 1: one. In a race the triangle may differ between runs if the line touches
+     * several. Certain probes do not race. */
+    uint32_t race;
+    uint32_t threads;            /**< batches without a race: threads; 0: one per processor */
+    uint64_t seed;               /**< seed of random choices */
+    int counters;                /**< 1: count what probes do */
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[5];        /**< must be zero */
 } mw_probe_options;
 
-/* What probes did, summed over queries. Of a race, what all its walks did: that depends on the run. */
+/** What probes did, summed over queries. A race counts all its walks; that depends on the run. */
 typedef struct mw_probe_counters {
     uint64_t queries, hits;
-    uint64_t samples;                  /* triangles looked at for a first one                                       */
-    uint64_t triangles, triangles_max; /* visited by walks                                                          */
-    uint64_t tests, tests_max;         /* orientation tests of walks and of the choice of first triangles           */
-    uint64_t intersections;            /* triangles that the line meets: their distance was computed                */
+    uint64_t samples;                  /**< triangles sampled for a first one */
+    uint64_t triangles, triangles_max; /**< triangles visited by walks; most in one query */
+    uint64_t tests, tests_max;         /**< orientation tests of walks and of first triangles */
+    uint64_t intersections;            /**< triangles that the line meets: distances computed */
     uint64_t iterations, iterations_max;
-    uint64_t boxes, box_triangles; /* certain mode: boxes looked at, and triangles in them */
+    uint64_t boxes, box_triangles; /**< certain mode: boxes tested, and triangles in them */
 } mw_probe_counters;
+
+/** Add `more` to `sum`, for instance the counts of several threads. */
 MW_API void mw_probe_counters_add(mw_probe_counters *sum, const mw_probe_counters *more);
 
-/* What a probe changes: one per thread, a plain value. Its members are private. */
+/**
+ * The state of a series of probes: one per thread, a plain value that may be copied. Members other
+ * than `counters` are private.
+ */
 typedef struct mw_probe_cursor {
-    mw_probe_counters counters; /* of all queries so far, if they count */
+    mw_probe_counters counters; /**< of all queries so far, if enabled */
     mw_probe_options options;   /* resolved */
     const mw_prober *prober;
     uint64_t random;
@@ -131,50 +174,120 @@ typedef struct mw_probe_cursor {
     uint32_t reserved[5];
 } mw_probe_cursor;
 
-/* options: NULL = all zero. MW_ERROR_ARGUMENT: an unknown start, `certain` without boxes, a distance that is
- * negative or NaN. */
+/**
+ * Initialise a cursor.
+ *
+ * @param prober   the prober that the cursor will serve
+ * @param options  NULL selects the defaults
+ * @param cursor   receives the initial state
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for an unknown start, `certain` without boxes, or a distance
+ *         that is negative or NaN.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options, mw_probe_cursor *cursor,
                                       mw_error *error);
 
-/* One probe. Never fails, and allocates nothing. Thread-safe with one cursor per thread. With options.race it makes that
- * many threads, fewer where the system refuses them. */
+/**
+ * Answer one probe.
+ *
+ * @param prober  the prober
+ * @param cursor  a cursor of this prober
+ * @param point   q: x, y, z
+ * @param motion  m: x, y, z, not zero, of any length
+ * @return what the probe touches.
+ *
+ * Thread-safe with one cursor per thread. No allocation. With mw_probe_options.race the call
+ * creates that many threads, fewer if the system refuses them.
+ */
 MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                          const double motion[3]);
 
-/* n probes: x, y, z, mx, my, mz of query i at queries[i * stride]; stride in doubles, 0 = 6. Results in input order;
- * the same for every number of threads, without a race. Each begins as the start says; MW_PROBE_START_LAST: with the
- * triangle of the query before it in its chunk of 4,096. Of a shared surface, each query is answered as a whole, but
- * an update may come between two of a batch. MW_ERROR_ARGUMENT as mw_probe_cursor_init. */
+/**
+ * Answer n probes.
+ *
+ * Results are in the order of the queries and, without a race, equal for every number of threads.
+ * With MW_PROBE_START_LAST each query starts at the triangle of the previous query of its chunk of
+ * 4,096. On a shared surface an update may come between two queries of a batch.
+ *
+ * @param prober    the prober
+ * @param queries   x, y, z of q, then of m, of query i at queries[i * stride]
+ * @param n         number of queries
+ * @param stride    doubles from one query to the next; 0 means 6
+ * @param options   NULL selects the defaults
+ * @param touches   receives n answers; unspecified on failure
+ * @param counters  NULL, or receives the sums over the batch (if enabled by the options)
+ * @param error     NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT as mw_probe_cursor_init(); MW_ERROR_MEMORY, MW_CANCELLED.
+ *
+ * Thread-safe.
+ */
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
                                 const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
                                 mw_error *error);
 
-/* The triangles that the walks of a probe visit, in order; iteration[i] (may be NULL, else of `capacity`) is the
- * number of the walk, from 0, that triangles[i] is of. Within a walk each triangle is linked to the one before it;
- * where a border made the walk go back, to the walk's first. One query by the cursor, without a race, whose answer
- * goes to *touch (may be NULL). In certain mode the boxes answer, and the only walk is a short one, of 64 triangles
- * at most, from the triangle touched last: none of them need be the answer, and there are none where nothing was
- * touched yet, where m does not point at that triangle's front, or where the start is SAMPLE or RANDOM. Writes at
- * most `capacity` and returns how many there were. */
+/**
+ * The triangles that the walks of one probe visit, in order. The query runs without a race.
+ *
+ * Within a walk each triangle is linked to the previous one; where a border turned the walk back,
+ * to the walk's first triangle. In certain mode the boxes answer. The only walk then is a short
+ * one, of at most 64 triangles, from the triangle touched last; it need not contain the answer. It
+ * is missing if nothing was touched yet, if m does not point at that triangle's front, or if the
+ * start is SAMPLE or RANDOM.
+ *
+ * @param prober     the prober
+ * @param cursor     a cursor of this prober
+ * @param point      q: x, y, z
+ * @param motion     m: x, y, z
+ * @param triangles  receives at most `capacity` triangles
+ * @param iteration  NULL, or receives per triangle the number of its walk, from 0
+ * @param capacity   room in `triangles` and `iteration`
+ * @param touch      NULL, or receives the answer
+ * @return how many triangles were visited, also if `capacity` is less.
+ *
+ * Thread-safe with one cursor per thread.
+ */
 MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                             const double motion[3], uint32_t *triangles, uint32_t *iteration, size_t capacity,
                             mw_touch *touch);
 
-/* The point of the surface nearest to a point q: the proxy of haptic rendering. Distances are rounded, and the least
- * of them decides; of several triangles at the same rounded distance the lowest-numbered is the answer. A distance
- * is off by less than 2^-48 of how far the farthest corner of its triangle is from q (and 2^-1070), wherever the
- * origin is: mostly by less than 2^-48 of itself, but not where q is that near the surface and next to an edge, nor
- * in very thin triangles. The point is rounded to its own coordinates beyond that, and lies in the box round its
- * triangle; a corner is exactly that. Triangles without area own no nearest point. */
+/**
+ * The point of a surface nearest to a point: the proxy of haptic rendering.
+ *
+ * The point is rounded to its own coordinates and lies in the box round its triangle; a corner is
+ * exact.
+ */
 typedef struct mw_nearest_surface_point {
-    uint32_t triangle; /* the caller's number; MW_NONE where the point is not finite, or no usable triangle in reach */
-    double distance;   /* infinite beyond the largest double; this and what follows NaN without a triangle           */
-    double point[3];
-    double weight[3];
+    /** The caller's number; MW_NONE if the query is not finite or no usable triangle is in reach.
+     * */
+    uint32_t triangle;
+    /** In mesh units; infinite beyond the largest double. NaN, as what follows, without a
+     * triangle. */
+    double distance;
+    double point[3];  /**< x, y, z */
+    double weight[3]; /**< barycentric weights of the point in its triangle */
 } mw_nearest_surface_point;
 
-/* max_distance: look no farther (INFINITY: anywhere); triangle is MW_NONE where there is none. MW_ERROR_ARGUMENT:
- * the prober has no boxes, or they are not up to date; the distance is negative or NaN. Thread-safe. */
+/**
+ * Find the point of the surface nearest to a point.
+ *
+ * Distances are rounded and the smallest decides; of triangles at the same rounded distance the
+ * lowest is the answer. A distance is off by less than 2^-48 of the distance from q to the
+ * farthest corner of its triangle (and 2^-1070), wherever the origin is. That is mostly less than
+ * 2^-48 of the distance itself; exceptions are points very near the surface next to an edge, and
+ * very thin triangles. Triangles without area contain no nearest point.
+ *
+ * @param prober        a prober with boxes
+ * @param point         q: x, y, z
+ * @param max_distance  search no farther, in mesh units; INFINITY: unlimited
+ * @param nearest       receives the answer
+ * @param error         NULL, or receives the message of a failure
+ * @return MW_OK, also without a triangle; MW_ERROR_ARGUMENT if the prober has no boxes, they are
+ *         not up to date, or the distance is negative or NaN.
+ *
+ * Thread-safe. O(log n) typically.
+ */
 MW_API mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
                                        mw_nearest_surface_point *nearest, mw_error *error);
 

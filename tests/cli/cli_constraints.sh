@@ -252,4 +252,10 @@ for file in "$data"/*.poly "$data"/*.geojson*; do
     run check real.off; exits 0
     run info real.off; prints_line '^convex +yes$'
 done
+# A polygon that leaves out most points is remarked on.
+for x in 0 1 2 3 4 5; do for y in 0 1 2 3 4 5; do echo "$x $y 1"; done; done >many.xyz
+printf '{"type":"Polygon","coordinates":[[[0,0],[2,0],[2,2],[0,2],[0,0]]]}' >small.json
+run triangulate many.xyz --constraints small.json -o small.off; exits 0
+says '^meshwalk: many\.xyz: 27 of its 36 points lie outside of the polygons in small\.json.*--keep hull'
+run triangulate many.xyz --constraints small.json --keep hull -o small.off; exits 0; says_nothing
 finish

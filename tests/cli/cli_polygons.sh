@@ -27,7 +27,7 @@ points='id;x;y
 10;9;9
 11;;
 '
-run_on "$points" locate --polygons parcels.geojson -; exits 0; says_nothing
+run_on "$points" locate --points-crs same --polygons parcels.geojson -; exits 0; says_nothing
 prints 'id;x;y;status;feature;others
 1;0,5;0,5;inside;0;
 2;2;1,25;outside;-1;
@@ -155,7 +155,7 @@ printf '5 2 0 0\n1 0 0\n2 2 2\n3 2 0\n4 0 2\n5 5 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 
 run_on $'0 0\n' locate --polygons crossing.poly -; refused 3 'crossing.poly: segments .* cross near 1 1'
 
 # Attributes, by GDAL.
-run_on "$points" locate --polygons parcels.geojson --attribute id,use,area,n -
+run_on "$points" locate --points-crs same --polygons parcels.geojson --attribute id,use,area,n -
 if grep -Eq 'built without GDAL|cannot be loaded' "$logs/err"; then
     refused 3 'parcels.geojson: '
     finish

@@ -467,14 +467,55 @@ static void test_many(void **state)
     files_clear();
 }
 
+/* Texts in columns beyond the coordinates are missing values, if the caller wants that, and are counted. */
+static void test_texts(void **state)
+{
+    (void)state;
+    const char *text = "x,y,z,a,b,c\n1,2,3,4,NA,6\n1,2,,x,5,6\n1,2,3,-,5,7e\n\n1,2,3,\"y\",5,6 7\n";
+    mw_point_reader_options options = {.texts = 1};
+    mw_point_reader *reader;
+    mw_error error;
+    double values[6 * 8];
+    size_t count;
+    int64_t line = -1;
+    files_write("p.txt", (bytes){text, strlen(text)});
+    assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_OK);
+    assert_int_equal(mw_point_reader_width(reader), 6);
+    assert_int_equal(mw_point_reader_read(reader, values, 8, &count, &error), MW_OK);
+    assert_int_equal(count, 4);
+    assert_true(isnan(values[4]) && isnan(values[6 + 2]) && isnan(values[6 + 3]) && values[18 + 4] == 5);
+    assert_true(values[5] == 6 && isnan(values[12 + 5]) && isnan(values[18 + 5]));
+    const uint64_t texts[] = {0, 0, 0, 2, 0, 2};
+    for (size_t k = 0; k < 6; k++) assert_int_equal(mw_point_reader_texts(reader, k, NULL), texts[k]);
+    assert_int_equal(mw_point_reader_texts(reader, 6, &line), 0);
+    assert_int_equal(line, -1);
+    mw_point_reader_texts(reader, 3, &line);
+    assert_int_equal(line, 3);
+    mw_point_reader_texts(reader, 5, &line);
+    assert_int_equal(line, 4);
+    mw_point_reader_close(reader);
+    /* not in coordinates, and not in columns that the caller has chosen */
+    files_write("p.txt", (bytes){"x,y,z\n1,2,3\n1,2,a\n", 18});
+    assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, 8, &count, &error), MW_ERROR_INPUT);
+    assert_int_equal(error.line, 3);
+    mw_point_reader_close(reader);
+    files_write("p.txt", (bytes){"x,y,b\n1,2,3\n1,2,a\n", 18});
+    options.columns = "x,y,b";
+    assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, 8, &count, &error), MW_ERROR_INPUT);
+    mw_point_reader_close(reader);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_separators), cmocka_unit_test(test_decimal_commas), cmocka_unit_test(test_odd_numbers),
-        cmocka_unit_test(test_headers),    cmocka_unit_test(test_selection),      cmocka_unit_test(test_nothing),
-        cmocka_unit_test(test_node),       cmocka_unit_test(test_missing),        cmocka_unit_test(test_quotes),
-        cmocka_unit_test(test_table),      cmocka_unit_test(test_axis_names),     cmocka_unit_test(test_malformed),
-        cmocka_unit_test(test_arguments),  cmocka_unit_test(test_other_kinds),    cmocka_unit_test(test_many),
+        cmocka_unit_test(test_texts),      cmocka_unit_test(test_headers),        cmocka_unit_test(test_selection),
+        cmocka_unit_test(test_nothing),    cmocka_unit_test(test_node),           cmocka_unit_test(test_missing),
+        cmocka_unit_test(test_quotes),     cmocka_unit_test(test_table),          cmocka_unit_test(test_axis_names),
+        cmocka_unit_test(test_malformed),  cmocka_unit_test(test_arguments),      cmocka_unit_test(test_other_kinds),
+        cmocka_unit_test(test_many),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -3,7 +3,6 @@
 #include "io/constraints/geojson.h"
 #include "io/constraints/poly.h"
 #include "io/mesh/mesh_builder.h"
-#include "io/text/crs_text.h"
 #include "io/text/file_head.h"
 #include "io/text/number_text.h"
 
@@ -82,7 +81,7 @@ mw_status mw_read_constraints(const char *path, const mw_file_options *options, 
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
     status = mw__job_end(&job, constraint_read_path(path, &job, file, error), error);
-    if (!status && !file->crs) status = mw__crs_beside(path, &file->crs, error);
+    if (!status && !file->crs) status = mw_read_prj(path, &file->crs, error);
     if (status) mw_constraint_file_release(file);
     return status;
 }

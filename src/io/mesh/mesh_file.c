@@ -5,7 +5,6 @@
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/node_ele.h"
 #include "io/text/byte_source.h"
-#include "io/text/crs_text.h"
 #include "io/text/file_head.h"
 
 #include <inttypes.h>
@@ -61,7 +60,7 @@ mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
     status = mw__job_end(&job, mesh_read_path(path, &job, file, error), error);
-    if (!status && !file->crs) status = mw__crs_beside(path, &file->crs, error);
+    if (!status && !file->crs) status = mw_read_prj(path, &file->crs, error);
     if (status) mw_mesh_file_release(file);
     return status;
 }

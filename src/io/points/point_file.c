@@ -5,7 +5,6 @@
 #include "io/mesh/mesh_formats.h"
 #include "io/points/las.h"
 #include "io/points/point_table.h"
-#include "io/text/crs_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -58,6 +57,7 @@ mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options
     }
     reader->source = source;
     reader->table = options && options->table;
+    reader->texts_allowed = options && options->texts && !options->columns;
     reader->separator = ',';
     reader->decimal = '.';
     mw_status status = point_reader_start(reader, options ? options : &none, error);
@@ -77,7 +77,7 @@ mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *
     mw_status status = options ? MW_RESERVED_CHECK(mw_point_reader_options, options, error) : MW_OK;
     if (!status) status = mw__source_open(&source, path, error);
     if (!status) status = mw__point_reader_start(source, options, out, error);
-    if (!status && !(*out)->crs) status = mw__crs_beside(path, &(*out)->crs, error);
+    if (!status && !(*out)->crs) status = mw_read_prj(path, &(*out)->crs, error);
     if (status && *out) mw_point_reader_close(*out), *out = NULL;
     return status;
 }
@@ -146,6 +146,13 @@ mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
     return reader->select(reader, columns, count, error);
 }
 
+uint64_t mw_point_reader_texts(const mw_point_reader *reader, size_t column, int64_t *line)
+{
+    if (!reader->texts || column >= reader->width || reader->texts[column].count == 0) return 0;
+    if (line) *line = reader->texts[column].line;
+    return reader->texts[column].count;
+}
+
 const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length)
 {
     *length = 0;
@@ -160,6 +167,7 @@ void mw_point_reader_close(mw_point_reader *reader)
     mw__table_header_release(&reader->header);
     mw__row_texts_release(&reader->rows);
     free(reader->state);
+    free(reader->texts);
     free(reader->crs);
     free(reader);
 }

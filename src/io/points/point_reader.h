@@ -8,6 +8,12 @@
 
 #include <meshwalk/io.h>
 
+/* The cells of a column that hold texts where numbers belong. */
+typedef struct mw_text_cells {
+    uint64_t count;
+    int64_t line; /* of the first */
+} mw_text_cells;
+
 struct mw_point_reader {
     mw_source source;
     size_t width;
@@ -22,6 +28,8 @@ struct mw_point_reader {
     char decimal;           /* '.' or ',' */
     bool table, begun;      /* keeps the rows' texts; has read something */
     mw_row_texts rows;      /* of the block read last */
+    bool texts_allowed;     /* in values that no coordinate is */
+    mw_text_cells *texts;   /* per value; NULL: none are allowed */
     char *crs;              /* NULL: not known */
 };
 

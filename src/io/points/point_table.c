@@ -19,6 +19,8 @@ typedef struct point_table {
     bool point, comma;       /* decimal points, decimal commas were seen: a table has one of them */
     bool header;             /* the file names its columns */
     size_t columns;          /* of every row */
+    size_t optional;         /* values from this number on may be texts */
+    mw_text_cells *texts;    /* these, per value; NULL if none may be */
     uint64_t expected, done; /* rows announced (UINT64_MAX: none are) and read */
     uint16_t slot[];         /* for each column: its position among the values, or UNUSED */
 } point_table;
@@ -83,6 +85,16 @@ static mw_status table_select_named(mw_point_reader *reader, const char *selecti
     return MW_OK;
 }
 
+/* Values from number `first` on may be texts, if the caller wants that. */
+static mw_status table_allow_texts(mw_point_reader *reader, size_t first, mw_error *error)
+{
+    point_table *t = reader->state;
+    if (!reader->texts_allowed) return MW_OK;
+    t->texts = reader->texts = mw__calloc(reader->width, sizeof *t->texts);
+    t->optional = first;
+    return t->texts ? MW_OK : mw__fail_memory(error);
+}
+
 /* All columns with numbers, those that the header calls x, y, z first. */
 static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
 {
@@ -94,11 +106,12 @@ static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
             mw_status status = found[k] < c->count ? table_take_column(reader, found[k], error) : MW_OK;
             if (status) return status;
         }
+    size_t coordinates = reader->width ? reader->width : 3;
     for (size_t i = 0; i < c->count; i++) {
         mw_status status = c->numbers[i] && t->slot[i] == UNUSED ? table_take_column(reader, i, error) : MW_OK;
         if (status) return status;
     }
-    if (reader->width >= 2) return MW_OK;
+    if (reader->width >= 2) return table_allow_texts(reader, coordinates, error);
     return mw__source_fail_at(&reader->source, (uint64_t)reader->source.line + 1, error,
                               "%zu column%s of numbers; a point needs two", reader->width,
                               reader->width == 1 ? "" : "s");
@@ -188,16 +201,43 @@ static MW_INLINE char *table_read_cell(point_table *t, char *p, double *value)
     return *end == '"' ? end + 1 : NULL;
 }
 
-/* Read the values of a row; false if something is wrong with it. */
-static bool table_parse_row(point_table *t, char *p, double *values)
+/* Skip a cell that holds a text. Returns its end, or NULL if a number belongs there. */
+static char *table_skip_text(point_table *t, char *p, size_t slot, int64_t line, double *value)
+{
+    if (!t->texts || slot < t->optional) return NULL;
+    mw_text_cells *texts = &t->texts[slot];
+    if (texts->count++ == 0) texts->line = line;
+    *value = NAN;
+    return p + (mw__delimited_skip(p, t->separator) - p);
+}
+
+/* Read a cell of a table where texts may stand in some columns. What looks like a decimal mark in a text
+ * is none. */
+static char *table_read_cell_or_text(point_table *t, char *p, size_t slot, int64_t line, double *value)
+{
+    bool point = t->point, comma = t->comma;
+    char *end = table_read_cell(t, p, value);
+    char *after = end ? table_skip_gap(end, t->separator) : NULL;
+    if (after && (!*after || *after == t->separator || (t->separator == ' ' && after > end))) return end;
+    t->point = point;
+    t->comma = comma;
+    return table_skip_text(t, p, slot, line, value);
+}
+
+/* Read the values of a row, which begins in that line; false if something is wrong with it. */
+static bool table_parse_row(point_table *t, char *p, int64_t line, double *values)
 {
     for (size_t i = 0; i < t->columns; i++) {
         p = table_skip_gap(p, t->separator);
         if (t->separator == ' ' && !*p) return false;
-        if (t->slot[i] == UNUSED)
+        size_t slot = t->slot[i];
+        if (slot == UNUSED)
             p += mw__delimited_skip(p, t->separator) - p;
-        else if (!(p = table_read_cell(t, p, &values[t->slot[i]])))
-            return false;
+        else if (t->texts)
+            p = table_read_cell_or_text(t, p, slot, line, &values[slot]);
+        else
+            p = table_read_cell(t, p, &values[slot]);
+        if (!p) return false;
         char *after = table_skip_gap(p, t->separator);
         if (i + 1 < t->columns) {
             if (t->separator == ' ' ? after == p : *after != t->separator) return false;
@@ -237,7 +277,8 @@ static mw_status table_read_rows(mw_point_reader *reader, double *values, size_t
         status = table_keep_row(reader, row, error);
         if (status) return status;
         t->done++;
-        if (!table_parse_row(t, row, values + *count * reader->width)) return table_explain_row(reader, row, error);
+        if (!table_parse_row(t, row, (int64_t)reader->source.line, values + *count * reader->width))
+            return table_explain_row(reader, row, error);
         ++*count;
     }
     if (t->comma) reader->decimal = ',';
@@ -286,7 +327,7 @@ static mw_status table_make(mw_point_reader *reader, char separator, mw_error *e
 mw_status mw__point_table_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
 {
     char separator = ' ';
-    reader->header = (mw_table_header){.expected = UINT64_MAX, .marks = reader->table};
+    reader->header = (mw_table_header){.expected = UINT64_MAX, .marks = reader->table, .texts = reader->texts_allowed};
     bool node = mw__path_ends(reader->source.path, ".node");
     mw_status status = node ? mw__table_header_of_node(&reader->source, &reader->header, error)
                             : mw__table_header_detect(&reader->source, &reader->header, &separator, error);

@@ -76,7 +76,8 @@ static void header_note_numbers(mw_table_header *c, const char *row, char separa
     bool more = true;
     for (size_t i = 0; i < c->count && mw__delimited_cell(&row, separator, &more, &cell); i++) {
         bool named = c->names && *c->names[i];
-        bool missing = cell.length == 0 || (named && mw__axis_name_known(c->names[i]) && mw__cell_is_missing(cell));
+        bool words = c->texts || (named && mw__axis_name_known(c->names[i]));
+        bool missing = cell.length == 0 || (words && mw__cell_is_missing(cell));
         c->numbers[i] = missing ? named : mw__cell_is_number(cell, separator);
     }
 }

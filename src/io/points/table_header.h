@@ -11,6 +11,7 @@ typedef struct mw_table_header {
     bool *numbers;     /* the first row has a number there (or nothing, in a named column) */
     uint64_t expected; /* rows, if they are announced; else UINT64_MAX */
     bool marks;        /* set before: # may begin the first cell of a row */
+    bool texts;        /* set before: texts may stand among the numbers of a column */
 } mw_table_header;
 
 /* Look at the header, if there is one, and at the first row of data, which stays unread. A header is a

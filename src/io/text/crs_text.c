@@ -2,6 +2,7 @@
 #include "io/text/descriptor.h"
 
 #include <fcntl.h>
+#include <meshwalk/io.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,9 +84,10 @@ static size_t crs_read_bytes(int fd, char *bytes, size_t room)
     return size;
 }
 
-mw_status mw__crs_beside(const char *path, char **crs, mw_error *error)
+mw_status mw_read_prj(const char *path, char **crs, mw_error *error)
 {
-    *crs = NULL;
+    if (crs) *crs = NULL;
+    if (!path || !crs) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_prj: NULL");
     int fd = strcmp(path, "-") == 0 ? -1 : crs_open_beside(path);
     if (fd < 0) return MW_OK;
     char *bytes = mw__alloc(MW_CRS_LIMIT + 1, 1);

@@ -11,8 +11,4 @@
  * by the caller with free(); NULL if the text is empty, too long, or holds control characters. */
 mw_status mw__crs_copy(const char *bytes, size_t size, char **crs, mw_error *error);
 
-/* Read the .prj file beside `path`: the name without .gz and without its ending, and .prj. *crs is NULL
- * if there is none, or if it holds no WKT; "-" has none. */
-mw_status mw__crs_beside(const char *path, char **crs, mw_error *error);
-
 #endif

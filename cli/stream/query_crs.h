@@ -1,0 +1,41 @@
+/* query_crs.h - the coordinate systems of queries and of what they ask: told, compared, transformed. */
+#ifndef MW_CLI_STREAM_QUERY_CRS_H
+#define MW_CLI_STREAM_QUERY_CRS_H
+
+#include "cli/gdal/gdal_transform.h"
+#include "cli/input/query_source.h"
+
+/* What a command asks about, as far as coordinate systems go. */
+typedef enum query_ground {
+    GROUND_SPACE,  /* a surface in space: coordinates are taken as they are */
+    GROUND_SPHERE, /* directions by longitude and latitude, of whatever datum */
+    GROUND_PLANE,  /* a mesh, which may have a coordinate system */
+} query_ground;
+
+typedef struct query_crs_settings {
+    query_ground ground;
+    const char *mesh, *mesh_crs; /* the path of the mesh, and its system; NULL: not known */
+    const char *option;          /* --points-crs; NULL: not given */
+    bool quiet;
+} query_crs_settings;
+
+typedef struct query_crs {
+    gdal_transform *transform; /* NULL: the queries are taken as they stand */
+    const char *of_rows;       /* the system of the queries as they stand; NULL: not known */
+    bool told;                 /* that system is told by a file or an option, not supposed */
+    uint64_t lost;             /* queries without a place in the system of the mesh */
+} query_crs;
+
+/* Refuse options before anything is read. Returns 0, or an exit code after a complaint. */
+int query_crs_check(const char *mesh_option, const char *points_option);
+
+/* Which columns the options and the mesh's system mean, if several fit. */
+query_preference query_crs_prefers(const query_crs_settings *settings);
+
+/* Decide how the queries of `source` come into the system of the mesh. What is supposed and what is
+ * not known is told on standard error. Returns 0, or an exit code after a complaint; close it in both
+ * cases. The texts of `settings` and of the source last until then. */
+int query_crs_open(query_crs *c, const query_crs_settings *settings, const char *points, const query_source *source);
+void query_crs_close(query_crs *c);
+
+#endif
