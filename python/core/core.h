@@ -150,6 +150,7 @@ int star_init(PyObject *module, core_state *state);
 int prober_init(PyObject *module, core_state *state);
 int editor_init(PyObject *module, core_state *state);
 int check_init(PyObject *module);
+int borrowed_init(PyObject *module);
 int layouts_init(PyObject *module);
 int triangulation_init(PyObject *module);
 int files_init(PyObject *module);
