@@ -1,8 +1,6 @@
 /* borrowed.c - location in arrays that stay the caller's: a view of them for each call. */
 #include "core.h"
 
-#include <meshwalk/borrow.h>
-
 /* What a call has: arrays, points and room for where they lie. */
 typedef struct borrowed_call {
     buffer_mesh mesh;
