@@ -29,7 +29,8 @@ static int main_print_help(void)
         text_printf(&t, "  %-12s   meshwalk %s [options] %s\n", "", commands[i]->name, commands[i]->operands);
     }
     text_string(&t, "\noptions:\n"
-                    "      --help            print this help; 'meshwalk COMMAND --help' tells about a command\n"
+                    "      --help            print this help; 'meshwalk COMMAND --help' tells about a command,\n"
+                    "                        'meshwalk COMMAND --help all' about all its options\n"
                     "      --version         print the version\n\n");
     help_wrap(&t,
               "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. Constraints: GeoJSON, "
@@ -49,10 +50,10 @@ static int main_print_version(void)
     return files_write_text(NULL, &t);
 }
 
-static int command_print_help(const command *c)
+static int command_print_help(const command *c, bool all)
 {
     text t = {0};
-    help_of_command(&t, c);
+    help_of_command(&t, c, all);
     return files_write_text(NULL, &t);
 }
 
@@ -66,7 +67,7 @@ static int command_run(const command *c, int count, char **arguments)
     int end = options_parse(c, count, arguments, settings, operands);
     const common_settings *common = settings;
     if (end == 0 && common->help) {
-        end = command_print_help(c);
+        end = command_print_help(c, common->help_all);
     } else if (end == 0 && common->threads > MAX_THREADS) {
         complain("option '--threads' wants at most %d", MAX_THREADS);
         end = END_USAGE;

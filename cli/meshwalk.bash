@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info) echo "--as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --keep --split --strict --max-edge --kind --limit --format --columns --class --crs --points-crs --constraints-crs --json $common" ;;
+        triangulate) echo "--constraints --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -45,6 +45,7 @@ _meshwalk_names() {
             echo 'cgal cgal-hierarchy cgal-walk cgal-jump cgal-sorted cgal-last'
             echo 'embree-single embree-packets embree-sorted embree-coherent geos boost scipy matplotlib'
             ;;
+        --help | -h) echo all ;;
         --fix) echo 'weld orient drop split all' ;;
         --as) echo 'plane surface star' ;;
         --walk)
@@ -73,7 +74,7 @@ _meshwalk_names() {
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
         --points-crs) echo same ;;
-        --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
+        --kind) echo 'delaunay greedy min-weight min-max-angle regular' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;
         --class)
@@ -101,7 +102,7 @@ _meshwalk() {
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] && names='paper near-vertices peers scale edit'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
-        names='uniform grid gaussian clusters arcs rectangle rings slivers offset'
+        names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'
     [[ $command == bench && $before == edit ]] && names='uniform clusters gaussian arcs rectangle'
     if [[ -n $names ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")

@@ -34,7 +34,8 @@ const command bench_command = {
         "compared "
         "with the exact one. 'meshwalk bench scale [SET]' measures from ten thousand vertices to a hundred million. "
         "SET is "
-        "one of uniform, grid, gaussian, clusters, arcs, rectangle, rings, slivers and offset, or several of them with "
+        "one of uniform, grid, gaussian, clusters, arcs, rectangle, rings, slivers, offset, cadastre and lidar, or "
+        "several of them with "
         "commas between.\n\n"
         "'meshwalk bench edit [SET]' measures what changes of a mesh take, and location between them, beside CGAL, and "
         "beside trees that are built anew. Its tasks are insert, insert-sorted, insert-many, insert-many-sorted, "
@@ -46,6 +47,7 @@ const command bench_command = {
         "(default: "
         "50000, at most half of the vertices). SET is of uniform, clusters, gaussian, arcs and rectangle.",
     .options = bench_command_options,
+    .essential = "sizes queries data rounds format",
     .settings_size = sizeof(bench_settings),
     .run = bench_command_run,
 };

@@ -289,6 +289,7 @@ const command check_command = {
         "--fix, a mended mesh is written and told about; then the exit code is 0 if that is an embedding, and 1 if "
         "defects remain. '-' is standard input.",
     .options = tables,
+    .essential = "fix tolerance numbers as output",
     .settings_size = sizeof(check_settings),
     .run = check_run,
 };

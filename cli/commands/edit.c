@@ -350,6 +350,7 @@ const command edit_command = {
         "next one. A locate line is answered as the command locate does it: x,y,status,triangle,w0,w1,w2. The mesh "
         "written is numbered anew, without gaps and in the same order. '-' is standard input.",
     .options = tables,
+    .essential = "answers changes numbers log output",
     .settings_size = sizeof(edit_settings),
     .run = edit_run,
 };

@@ -191,6 +191,7 @@ const command info_command = {
         "embedding, convex and Delaunay, and the memory it takes. With --as, MESH is described as a surface in "
         "space, or as a polyhedron: whether it is star-shaped about a centre. '-' is standard input.",
     .options = tables,
+    .essential = "as centre json output threads",
     .settings_size = sizeof(mesh_space_settings),
     .run = info_run,
 };

@@ -96,6 +96,7 @@ const command locate_command = {
         "is the lowest number of a feature of FILE, from 0, that contains the point or has it on its border, "
         "or -1; others are the numbers of the other ones, separated by blanks.",
     .options = tables,
+    .essential = "columns details polygons only-answers output",
     .settings_size = sizeof(locate_settings),
     .run = locate_run,
 };

@@ -252,6 +252,7 @@ const command probe_command = {
         "'-' "
         "is standard input.",
     .options = tables,
+    .essential = "certain max-distance columns only-answers output",
     .settings_size = sizeof(probe_settings),
     .run = probe_run,
 };

@@ -212,6 +212,7 @@ const command sample_command = {
         "Writes every row of POINTS as it is, and behind it the value, z: it is interpolated linearly in the "
         "triangle that contains the point, and empty where there is none. '-' is standard input.",
     .options = tables,
+    .essential = "columns field outside only-answers output",
     .settings_size = sizeof(sample_settings),
     .run = sample_run,
 };

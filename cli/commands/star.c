@@ -293,6 +293,7 @@ const command star_command = {
         "inside, "
         "as that of a sphere does. '-' is standard input.",
     .options = tables,
+    .essential = "centre lonlat columns only-answers output",
     .settings_size = sizeof(star_settings),
     .run = star_run,
 };

@@ -572,6 +572,7 @@ const command walk_command = {
         "ray to the other. With --as surface, it is that of a probe at --from that moves towards --to, and iteration "
         "is the number of its walk; it begins in a triangle chosen at random. '-' is standard input.",
     .options = tables,
+    .essential = "from to walk as output",
     .settings_size = sizeof(walk_settings),
     .run = walk_run,
 };

@@ -54,7 +54,7 @@ void help_wrap(text *t, const char *words, size_t indent)
 static void help_choices_row(text *t, const choices *c)
 {
     text row = {0};
-    for (int i = 0; c->name(i); i++) text_printf(&row, "%s%s", i ? ", " : "", c->name(i));
+    for (int i = 0; c->name(i); i++) text_printf(&row, "%s'%s'", i ? ", " : "", c->name(i));
     text_bytes(&row, "", 1);
     if (row.failed)
         t->failed = true;
@@ -79,13 +79,13 @@ static void help_of_choices(text *t, const choices *c)
         return;
     }
     const char *name;
-    size_t indent = HELP_COLUMN + 4 + choices_longest_name(c);
+    size_t indent = HELP_COLUMN + 6 + choices_longest_name(c);
     for (int i = 0; (name = c->name(i)); i++) {
         const char *help = c->help(i);
         if (!help) continue;
         help_blanks(t, HELP_COLUMN + 2);
-        text_string(t, name);
-        size_t column = HELP_COLUMN + 2 + strlen(name);
+        text_printf(t, "'%s'", name);
+        size_t column = HELP_COLUMN + 4 + strlen(name);
         help_blanks(t, indent - column);
         help_wrap_from(t, help, indent, indent);
     }
@@ -121,14 +121,65 @@ static bool option_is_overruled(const command *c, const option *o)
     return false;
 }
 
-void help_of_command(text *t, const command *c)
+/* Is a name among those of a list separated by blanks? */
+static bool list_has(const char *list, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = list; (at = strstr(at, name)); at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == 0 || at[length] == ' ')) return true;
+    return false;
+}
+
+/* The options that the command calls essential, in its order. */
+static void help_essential_options(text *t, const command *c)
+{
+    for (const char *name = c->essential; *name; name += strspn(name, " ")) {
+        size_t length = strcspn(name, " ");
+        bool found = false;
+        for (const option *const *table = c->options; *table && !found; table++)
+            for (const option *o = *table; o->name && !found; o++) {
+                found = strlen(o->name) == length && strncmp(o->name, name, length) == 0;
+                if (found) help_of_option(t, o);
+            }
+        name += length;
+    }
+}
+
+/* The names of the others. */
+static void help_other_options(text *t, const command *c)
+{
+    text names = {0};
+    text_printf(&names, "'meshwalk %s --help all' tells about the others:", c->name);
+    for (const option *const *table = c->options; *table; table++)
+        for (const option *o = *table; o->name; o++)
+            if (!option_is_overruled(c, o) && !list_has(c->essential, o->name)) text_printf(&names, " --%s", o->name);
+    text_bytes(&names, "", 1);
+    if (names.failed)
+        t->failed = true;
+    else
+        help_wrap(t, names.bytes, 0);
+    text_release(&names);
+}
+
+static void help_all_options(text *t, const command *c)
+{
+    for (const option *const *table = c->options; *table; table++)
+        for (const option *o = *table; o->name; o++)
+            if (!option_is_overruled(c, o)) help_of_option(t, o);
+}
+
+void help_of_command(text *t, const command *c, bool all)
 {
     text_printf(t, "meshwalk %s - %s\n\nusage: meshwalk %s [options] %s\n\n", c->name, c->summary, c->name,
                 c->operands);
     help_wrap(t, c->description, 0);
     text_string(t, "\noptions:\n");
-    for (const option *const *table = c->options; *table; table++)
-        for (const option *o = *table; o->name; o++)
-            if (!option_is_overruled(c, o)) help_of_option(t, o);
+    if (all) {
+        help_all_options(t, c);
+    } else {
+        help_essential_options(t, c);
+        text_string(t, "\n");
+        help_other_options(t, c);
+    }
     text_printf(t, "\nThe manual page meshwalk-%s(1) tells more.\n", c->name);
 }

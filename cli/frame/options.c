@@ -21,7 +21,8 @@ const option common_options[] = {
     {"seed", 0, OPTION_SEED, offsetof(common_settings, seed), "S",
      "seed of everything random (default: 0); where a point lies does not depend on it", NULL},
     {"quiet", 'q', OPTION_FLAG, offsetof(common_settings, quiet), NULL, "no progress, no warnings, no remarks", NULL},
-    {"help", 'h', OPTION_FLAG, offsetof(common_settings, help), NULL, "print this help", NULL},
+    {"help", 'h', OPTION_FLAG, offsetof(common_settings, help), NULL,
+     "print the options that most people need; --help all prints all of them", NULL},
     {0},
 };
 
@@ -227,6 +228,10 @@ static int parse_long(const command *c, char ***word, void *settings)
     if (!o) return unknown_option(c, name, length);
     if (o->kind == OPTION_FLAG) {
         if (!attached) return option_take(o, NULL, settings);
+        if (strcmp(o->name, "help") == 0 && strcmp(attached, "all") == 0) {
+            ((common_settings *)settings)->help_all = true;
+            return option_take(o, NULL, settings);
+        }
         complain("option '--%s' takes no argument", o->name);
         return END_USAGE;
     }
@@ -275,7 +280,9 @@ int options_parse(const command *c, int count, char **arguments, void *settings,
         else if (found++ < c->operand_count)
             operands[found - 1] = *word;
     }
-    if (end || ((const common_settings *)settings)->help) return end;
+    common_settings *common = settings;
+    if (common->help && found > 0 && strcmp(operands[0], "all") == 0) common->help_all = true;
+    if (end || common->help) return end;
     for (int i = 0; i < found && i < c->operand_count; i++)
         if (!*operands[i]) {
             complain("a file has the empty name");

@@ -59,6 +59,8 @@ typedef struct command {
     const char *summary;          /* one line */
     const char *description;      /* a paragraph or more */
     const option *const *options; /* tables; NULL ends them. The first option of a name counts */
+    const char *essential;        /* names of the options that --help shows, in this order, separated by
+                                   * blanks; --help all shows all of them */
     size_t settings_size;
     int (*run)(const void *settings, const char *const *operands); /* returns the exit code */
 } command;
@@ -68,7 +70,7 @@ typedef struct common_settings {
     const char *output; /* NULL or "-": standard output */
     uint64_t seed;
     uint32_t threads; /* 0: all there are, see options_threads */
-    bool quiet, help;
+    bool quiet, help, help_all;
 } common_settings;
 
 extern const option common_options[];

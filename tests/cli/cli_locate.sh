@@ -36,7 +36,7 @@ prints "$answers"
 
 # Whatever the walk, the start, the arithmetic, the threads and the seed.
 names() { # names OPTION: as the help lists them
-    "$meshwalk" locate --help | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p'
+    "$meshwalk" locate --help all | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p'
 }
 walks=$(names walk) starts=$(names start)
 holds "there are walks" test "$(wc -w <<<"$walks")" -ge 5

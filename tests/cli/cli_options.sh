@@ -6,17 +6,38 @@
 # All that the program lists: a new one is asked for its page and its completion, too.
 mapfile -t commands < <("$meshwalk" --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p')
 
+help_options() { sed -nE '/^  (-[a-z],|   ) --[a-z]/p' "$logs/out" | grep -oE -- '^ +(-[a-z], )?--[a-z-]+' | tr -s ', ' '\n' | grep . | sort; }
+
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
 run --help; exits 0; says_nothing
 for c in "${commands[@]}"; do prints_line "^  $c "; done
 for c in "${commands[@]}"; do
-    for option in --help -h; do
-        run "$c" "$option"; exits 0; says_nothing
+    for option in --help -h '--help all' '-h all' --help=all; do
+        # shellcheck disable=SC2086 # words
+        run "$c" $option; exits 0; says_nothing
         prints_line "^usage: meshwalk $c "
         holds "no line of the help is longer than 80 characters" test -z "$(grep -E '.{81}' "$logs/out")"
     done
 done
+
+# --help shows five options, and names the others; --help all shows all of them.
+for c in "${commands[@]}"; do
+    run "$c" --help all; help_options >"$logs/all"
+    for form in '-h all' --help=all; do
+        cp "$logs/out" "$logs/first"
+        # shellcheck disable=SC2086 # words
+        run "$c" $form; holds "$form is --help all" cmp -s "$logs/out" "$logs/first"
+    done
+    run "$c" --help
+    holds "--help of $c shows five options" test "$(help_options | grep -c -- '^--')" == 5
+    prints_line "^'meshwalk $c --help all' tells about the others:"
+    { help_options; sed -n "/--help all' tells/,/^\$/p" "$logs/out" | grep -oE -- '(^| )--[a-z-]+' | tr -d ' '; } |
+        grep -- '^--' | grep -vx -- '--help' | sort >"$logs/named"
+    grep -- '^--' "$logs/all" | grep -vx -- '--help' >"$logs/expected"
+    holds "--help of $c names every option: $(diff "$logs/named" "$logs/expected")" same_text "$logs/named" "$logs/expected"
+done
+run sample --help=some; refused 2 "'--help' takes no argument"
 
 # Mistakes.
 run locat a b; refused 2 "unknown command 'locat'; did you mean 'locate'\?"
@@ -138,7 +159,6 @@ manual_options() {
     sed -nE '/^\.It Fl/ { s/^\.It //; s/Fl Fl ([a-z-]+)/--\1/g; s/Fl ([a-z])/-\1/g; p }' "$1" |
         grep -oE -- '(^|[ ,])--?[a-z-]+' | tr -d ' ,' | sort
 }
-help_options() { sed -nE '/^  (-[a-z],|   ) --[a-z]/p' "$logs/out" | grep -oE -- '^ +(-[a-z], )?--[a-z-]+' | tr -s ', ' '\n' | grep . | sort; }
 # shellcheck disable=SC1091
 . "$source_tree/cli/meshwalk.bash"
 complete_words() { # complete_words WORDS...: what the completion offers for the last word
@@ -147,7 +167,7 @@ complete_words() { # complete_words WORDS...: what the completion offers for the
     printf '%s\n' "${COMPREPLY[@]}" | sort
 }
 for c in "${commands[@]}"; do
-    run "$c" --help
+    run "$c" --help all
     help_options >"$logs/help"
     holds "the help of $c names options" grep -qx -- --quiet "$logs/help"
     manual_options "$source_tree/docs/man/meshwalk-$c.1" >"$logs/manual"
@@ -157,12 +177,12 @@ for c in "${commands[@]}"; do
         same_text "$logs/help" "$logs/completion"
 done
 row() { # row OPTION: the names that the help lists below an option in a row
-    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' | tr -s ', ' '\n' | grep . | sort
+    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' | tr -s "', " '\n' | grep . | sort
 }
 listed() { # listed OPTION: the names that the help lists below an option
-    sed -nE "/ --$1 NAME/,/^ {0,6}-/p" "$logs/out" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p' | sort
+    sed -nE "/ --$1 NAME/,/^ {0,6}-/p" "$logs/out" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p' | sort
 }
-run locate --help
+run locate --help all
 for option in walk start descent; do
     holds "help and completion of --$option differ" \
         test "$(complete_words meshwalk locate --$option '')" == "$(listed $option)"
@@ -172,7 +192,7 @@ for option in arithmetic finish; do
     holds "help and completion of --$option differ" \
         test "$(complete_words meshwalk locate --$option '')" == "$(row $option)"
 done
-run triangulate --help
+run triangulate --help all
 holds "help and completion of --format differ" \
     test "$(complete_words meshwalk triangulate --format '')" == "$(row format)"
 for option in kind keep; do
@@ -180,7 +200,7 @@ for option in kind keep; do
         test "$(complete_words meshwalk triangulate --$option '')" == "$(listed $option)"
     holds "the help lists names of --$option" test -n "$(listed $option)"
 done
-run edit --help
+run edit --help all
 holds "help and completion of edit --format differ" \
     test "$(complete_words meshwalk edit --format '')" == "$(row format)"
 for option in delaunay walk start descent; do
@@ -188,13 +208,13 @@ for option in delaunay walk start descent; do
         test "$(complete_words meshwalk edit --$option '')" == "$(listed $option)"
     holds "the help lists names of edit --$option" test -n "$(listed $option)"
 done
-run bench --help
+run bench --help all
 for option in format enclose; do
     holds "help and completion of bench --$option differ" \
         test "$(complete_words meshwalk bench --$option '')" == "$(row $option)"
 done
 holds "tables are completed" test "$(complete_words meshwalk bench paper C | tr '\n' ' ')" == 'C1 C2 '
-run star --help
+run star --help all
 for option in walk start; do
     holds "help and completion of star --$option differ" \
         test "$(complete_words meshwalk star --$option '')" == "$(listed $option)"
@@ -205,7 +225,7 @@ for option in walk start; do
 done
 holds "help and completion of star --finish differ" \
     test "$(complete_words meshwalk star --finish '')" == "$(row finish)"
-run probe --help
+run probe --help all
 flat=$(tr -s ' \n' ' ' <"$logs/out")
 for words in "--strict exit with 1 if a row is 'limit' or 'bad'" 'without --race results do not depend on it' \
     'without --certain another seed may find another triangle'; do
@@ -216,15 +236,15 @@ for words in 'a point has no answer' 'where a point lies does not depend'; do
 done
 holds "help and completion of probe --start differ" \
     test "$(complete_words meshwalk probe --start '')" == "$(listed start)"
-run walk --help
+run walk --help all
 holds "help and completion of walk --walk differ" \
     test "$(complete_words meshwalk walk --walk '')" == "$(listed walk)"
 for c in info check walk; do
-    run $c --help
+    run $c --help all
     holds "help and completion of $c --as differ" test "$(complete_words meshwalk $c --as '')" == "$(listed as)"
     holds "the help lists names of --as" test -n "$(listed as)"
 done
-run sample --help
+run sample --help all
 holds "help and completion of --outside differ" \
     test "$(complete_words meshwalk sample --outside '')" == "$(listed outside)"
 for name in $(complete_words meshwalk triangulate --class ''); do

@@ -51,7 +51,7 @@ answers="$header
 0.5,0,4,hit,2,3,0.5,0.5,0
 7,0.25,0.5,hit,7,6,0.5,0.25,0.25
 -1,0.5,0.75,hit,11,1,0.25,0.5,0.25"
-names() { "$meshwalk" probe --help | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p'; }
+names() { "$meshwalk" probe --help all | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p'; }
 starts=$(names start)
 holds "there are starts" test "$(wc -w <<<"$starts")" -ge 4
 for certain in '' --certain; do

@@ -64,7 +64,7 @@ prints "$answers"
 
 # Whatever the walk, the start, the threads and the seed.
 names() { # names OPTION: as the help lists them
-    "$meshwalk" star --help | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p'
+    "$meshwalk" star --help all | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p'
 }
 walks=$(names walk) starts=$(names start)
 holds "there are walks and starts" test "$(wc -w <<<"$walks $starts")" -ge 12

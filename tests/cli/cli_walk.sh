@@ -24,8 +24,8 @@ run walk --from 1.1,0.1 --to 1.1,0.2 row.off; exits 0; prints "$(list 2)"
 run_on "$(<row.off)" walk --from 1.1,0.1 --to 1.9,0.9 --walk lawson -; exits 0; prints "$(list 2 3)"
 run walk --from 1.1,0.1 --to 1.9,0.9 --walk lawson row.off -o row.csv; exits 0; prints ''
 holds "the file holds the list" test "$(<row.csv)" == "$(list 2 3)"
-run walk --help
-walks=$(sed -nE '/ --walk NAME/,/^ {0,6}-/p' "$logs/out" | sed -nE 's/^ {26}([a-z-]+) .*/\1/p')
+run walk --help all
+walks=$(sed -nE '/ --walk NAME/,/^ {0,6}-/p' "$logs/out" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p')
 holds "there are walks" test "$(wc -w <<<"$walks")" -ge 15
 for walk in $walks; do
     [[ $walk == all ]] && continue # pictures
