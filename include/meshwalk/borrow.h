@@ -1,20 +1,27 @@
-/* borrow.h - point location in arrays that stay the caller's.
+/**
+ * @file borrow.h
+ * Point location in arrays that stay the caller's.
  *
- * A walk needs points, triangles and the neighbours of triangles, and many libraries have all three already: SciPy's
- * Delaunay, Triangle, matplotlib, most mesh generators. A borrowed mesh is a view of such arrays: nothing is copied and
- * nothing is built, so it is made in no time and takes a hundred bytes. The arrays are only read. They must not change or
- * move while the view is used; after a change make a new view.
+ * A walk needs points, triangles and the neighbours of triangles, and many libraries have all
+ * three already: SciPy's Delaunay, Triangle, matplotlib, most mesh generators. A borrowed mesh is
+ * a view of such arrays: nothing is copied and nothing is built, so it is made in no time and
+ * takes a hundred bytes. The arrays are only read. They must not change or move while the view is
+ * used; after a change make a new view.
  *
- * The answers are those of mw_locate in a mesh of the same arrays, bit for bit: the lowest-numbered triangle that
- * contains the point, decided exactly. Triangles are walked through as they are: clockwise ones are not turned. Only
- * holes are not told apart: a point in one is MW_OUTSIDE. What an ordinary mesh has and a borrowed one has not costs time:
- * its layout in memory, its guide to the first triangle, and the ghost triangles that fill pockets and holes. Where the
- * triangles do not fill their convex hull (mw_borrowed_info.convex is 0), a query that meets the border looks at all
- * triangles: O(n). Choose mw_mesh_create for many queries in such a mesh.
+ * The answers are those of mw_locate in a mesh of the same arrays, bit for bit: the
+ * lowest-numbered triangle that contains the point, decided exactly. Triangles are walked through
+ * as they are: clockwise ones are not turned. Only holes are not told apart: a point in one is
+ * MW_OUTSIDE. What an ordinary mesh has and a borrowed one has not costs time: its layout in
+ * memory, its guide to the first triangle, and the ghost triangles that fill pockets and holes.
+ * Where the triangles do not fill their convex hull (mw_borrowed_info.convex is 0), a query that
+ * meets the border looks at all triangles: O(n). Choose mw_mesh_create for many queries in such a
+ * mesh.
  *
- * Arrays that break a promise below never make a query crash or run for ever: numbers out of range are noticed, and walks
- * have a limit. A triangle that is reported contains the point in any case. But where unchecked arrays are wrong, it may not
- * be the lowest one, and with options.convex a point may be taken to be outside. */
+ * Arrays that break a promise below never make a query crash or run for ever: numbers out of range
+ * are noticed, and walks have a limit. A triangle that is reported contains the point in any case.
+ * But where unchecked arrays are wrong, it may not be the lowest one, and with options.convex a
+ * point may be taken to be outside.
+ */
 #ifndef MESHWALK_BORROW_H
 #define MESHWALK_BORROW_H
 
@@ -53,16 +60,17 @@ typedef struct mw_borrow_options {
 /**
  * Borrow a caller's mesh.
  *
- * The check finds out whether every number names something, every used vertex is finite, neighbours share the two
- * vertices that they must, name each other, and lie on different sides of their edge; and whether the triangles fill
- * their convex hull, in which case they surely are an embedding. In other meshes it does not look for borders that cross
- * (mw_check_arrays does): where triangles overlap, any of those that contain a point may be reported.
+ * The check finds out whether every number names something, every used vertex is finite,
+ * neighbours share the two vertices that they must, name each other, and lie on different sides of
+ * their edge; and whether the triangles fill their convex hull, in which case they surely are an
+ * embedding. In other meshes it does not look for borders that cross (mw_check_arrays does): where
+ * triangles overlap, any of those that contain a point may be reported.
  *
  * @param arrays   the caller's; they must outlive *out, but for the structure itself
  * @param options  NULL = all zero: checked
  * @param out      the view, owned by the caller (mw_borrowed_release); NULL on failure
- * @return MW_OK; MW_ERROR_ARGUMENT; MW_ERROR_INPUT, of which the error names the triangle; MW_ERROR_LIMIT for more than
- *         MW_MAX_TRIANGLES; MW_ERROR_MEMORY; MW_CANCELLED
+ * @return MW_OK; MW_ERROR_ARGUMENT; MW_ERROR_INPUT, of which the error names the triangle;
+ *         MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES; MW_ERROR_MEMORY; MW_CANCELLED
  *
  * Cost: O(n) time for the check, else O(1); O(1) memory in either case.
  */
@@ -96,7 +104,8 @@ typedef struct mw_borrowed_query_options {
     uint32_t reserved[4];
 } mw_borrowed_query_options;
 
-/* What a query changes; one per thread. All zero is a cursor with the default options. It may be copied freely. */
+/* What a query changes; one per thread. All zero is a cursor with the default options. It may be
+ * copied freely. */
 typedef struct mw_borrowed_cursor {
     mw_counters counters; /* queries, triangles_visited, triangles_max, triangles and orient (the walk), triangles_final
                              and orient_final (what ends the walks barycentric and direct), handovers: queries that looked at
@@ -117,8 +126,8 @@ MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *option
                                          mw_error *error);
 
 /**
- * Locate one point. The walk begins at the triangle found last if the point is near, else at the nearest of a random
- * sample, as large as the cube root of the number of vertices.
+ * Locate one point. The walk begins at the triangle found last if the point is near, else at the
+ * nearest of a random sample, as large as the cube root of the number of vertices.
  *
  * @return as mw_locate, but MW_OUTSIDE for a point in a hole; MW_BAD for a point that is not finite
  *
@@ -127,14 +136,16 @@ MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *option
 MW_API mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, double x, double y);
 
 /**
- * Locate n points. Queries are sorted along a Hilbert curve first, so that each walk begins where the one before ended.
+ * Locate n points. Queries are sorted along a Hilbert curve first, so that each walk begins where
+ * the one before ended.
  *
  * @param points     x, y of point i at points[i * stride] and the double after it
  * @param stride     in doubles; 0 = 2
  * @param options    NULL = all zero
  * @param locations  n results, in input order, the same for any number of threads
  * @param counters   NULL, or filled with the sum over the batch
- * @return MW_OK; MW_ERROR_ARGUMENT as mw_borrowed_cursor_init; MW_ERROR_MEMORY, MW_CANCELLED: then locations is unspecified
+ * @return MW_OK; MW_ERROR_ARGUMENT as mw_borrowed_cursor_init; MW_ERROR_MEMORY, MW_CANCELLED: then
+ *         locations is unspecified
  *
  * Thread-safe. Takes 32 bytes a query for the sort, of 4 million queries at most.
  */
