@@ -89,7 +89,8 @@ typedef struct mw_kind_report {
     size_t faces;
     size_t largest_face; /**< the most corners of one of them */
     size_t local_faces;  /**< of them, too large or not simple: filled by a local optimum */
-    uint32_t reserved[8];
+    size_t hidden;       /**< MW_KIND_REGULAR: hidden points, without those equal to a vertex */
+    uint32_t reserved[6];
 } mw_kind_report;
 
 /** Options of mw_triangulate(). Zero-initialised options select the defaults. */
@@ -102,7 +103,11 @@ typedef struct mw_kind_options {
     /** For the Delaunay triangulation at the start; 0: one per processor. */
     uint32_t threads;
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[4];        /**< must be zero */
+    const double *weights;       /**< MW_KIND_REGULAR: one per point; NULL: all are 0 */
+    /** MW_KIND_REGULAR: NULL, or receives per point 1 if it is hidden, else 0; set on success
+     * only. */
+    uint8_t *hidden;
+    uint32_t reserved[4]; /**< must be zero */
 } mw_kind_options;
 
 /**
@@ -123,6 +128,13 @@ typedef struct mw_kind_options {
  * `optimal`, its largest angle is the least possible. About 10 us per spread point; the exchanges
  * that lead to the local optimum have no bound on time.
  *
+ * MW_KIND_REGULAR takes weighted points: circles round the points, with the weight as the square
+ * of the radius. Point x of weight w is lifted to the height |x|^2 - w; the triangles are the
+ * lower hull of the lifted points. Exact. A point above that hull is hidden: a vertex of no
+ * triangle. Of points with equal coordinates only the heaviest, and of these the lowest, can be a
+ * corner. A point on the hull that is no corner is hidden or not by the order of insertion. Equal
+ * weights give a Delaunay triangulation. About 1.5 us and 130 bytes per point.
+ *
  * docs/guarantees.md says what is optimal and what makes it slow.
  *
  * @param kind          the kind
@@ -134,7 +146,8 @@ typedef struct mw_kind_options {
  * @param report        NULL, or receives the properties on success
  * @param out           receives the mesh, owned by the caller (mw_mesh_destroy()); NULL on failure
  * @param error         NULL, or receives the message of a failure
- * @return as mw_delaunay(); also MW_ERROR_ARGUMENT for an unknown kind.
+ * @return as mw_delaunay(); also MW_ERROR_ARGUMENT for an unknown kind, and MW_ERROR_INPUT for a
+ *         weight that is not finite (the error names the point as its vertex).
  *
  * Thread-safe. One thread after the Delaunay triangulation.
  */
