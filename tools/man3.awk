@@ -75,6 +75,11 @@ function print_comment(    i, line, fresh)
             print ".Pp"
         }
         fresh = 0
+        if (line ~ /^    [^ ]/ && !list) { # an example
+            sub(/^ +/, "", line)
+            print ".Dl " escape(line)
+            continue
+        }
         sub(/^ +/, "", line)
         if (line != "") out(line)
     }

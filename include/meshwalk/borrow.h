@@ -31,30 +31,33 @@
 extern "C" {
 #endif
 
-/* How neighbour k of a triangle lies to it. */
+/** How neighbour k of a triangle lies to it. */
 typedef enum mw_neighbour_layout {
-    MW_NEIGHBOUR_OPPOSITE = 0, /* opposite to its vertex k: SciPy, Qhull, Triangle, CGAL           */
-    MW_NEIGHBOUR_ACROSS_EDGE   /* across its edge k, from vertex k to vertex k + 1: matplotlib     */
+    MW_NEIGHBOUR_OPPOSITE = 0, /**< opposite to vertex k: SciPy, Qhull, Triangle, CGAL */
+    MW_NEIGHBOUR_ACROSS_EDGE   /**< across edge k, from vertex k to vertex k + 1: matplotlib */
 } mw_neighbour_layout;
 
-/* The caller's arrays. */
+/** The caller's arrays. */
 typedef struct mw_borrowed_arrays {
-    mw_arrays mesh;         /* points and triangles, as mw_mesh_create takes them                                     */
-    const void *neighbours; /* 3 * triangle_count numbers of triangles, of mesh.integer_type, 0-based, packed; a number
-                                that is no triangle, such as -1, means that there is none                              */
+    mw_arrays mesh; /**< points and triangles, as for mw_mesh_create() */
+    /** 3 triangles per triangle, of mesh.integer_type, from 0, packed. A number of no triangle,
+     * such as -1, means that there is no neighbour. */
+    const void *neighbours;
     mw_neighbour_layout layout;
 } mw_borrowed_arrays;
 
+/** A view of a caller's mesh. Opaque; any number of threads may query one view. */
 typedef struct mw_borrowed mw_borrowed;
 
+/** How arrays are borrowed. Zero-initialised options check them. */
 typedef struct mw_borrow_options {
-    int unchecked; /* 1: the arrays are taken as they are, in O(1)                                                     */
-    int convex;    /* 1, with unchecked: the caller knows that the triangles fill their convex hull, exactly and without
-                      overlap. A point beyond an edge without a neighbour is then outside. 0: not known                */
-    uint32_t threads; /* of the check; 0: as many as processors                                             */
-    const mw_progress
-        *progress; /* who watches the check, and may cancel it: base.h; NULL: nobody                     */
-    uint32_t reserved[4];
+    int unchecked; /**< 1: trust the arrays, O(1) */
+    /** 1, with `unchecked`: the triangles fill their convex hull without overlap. A point beyond
+     * an edge without a neighbour is then outside. 0: unknown. */
+    int convex;
+    uint32_t threads;            /**< of the check; 0: one per processor */
+    const mw_progress *progress; /**< of the check: progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
 } mw_borrow_options;
 
 /**
@@ -80,38 +83,39 @@ MW_API mw_status mw_mesh_borrow(const mw_borrowed_arrays *arrays, const mw_borro
 /** Release a view; the arrays are not touched. NULL is allowed. */
 MW_API void mw_borrowed_release(mw_borrowed *mesh);
 
+/** Properties of a view. */
 typedef struct mw_borrowed_info {
-    size_t bytes; /* memory of the view, the caller's arrays not counted                                             */
+    size_t bytes; /**< memory of the view, without the caller's arrays */
     int checked;
-    int convex;              /* 1: the triangles fill their convex hull, as the check found or the caller knew        */
-    uint32_t flat_triangles; /* triangles without area, and clockwise ones; 0 if unchecked                           */
-    uint32_t clockwise_triangles;
+    int convex;                   /**< 1: the triangles fill their convex hull, by the check or the caller's word */
+    uint32_t flat_triangles;      /**< triangles without area; 0 if unchecked */
+    uint32_t clockwise_triangles; /**< 0 if unchecked */
 } mw_borrowed_info;
 
 /** Describe a view. Thread-safe; O(1). */
 MW_API void mw_borrowed_describe(const mw_borrowed *mesh, mw_borrowed_info *info);
 
-/* How to answer a query. */
+/** How to answer queries. Zero-initialised options select the defaults. */
 typedef struct mw_borrowed_query_options {
-    mw_walk_kind
-        walk;      /* MW_WALK_REMEMBERING; or MW_WALK_BARYCENTRIC or MW_WALK_DIRECT, as published for mixed orientation
-                          and ended by the remembering walk; 0 = remembering                                           */
-    int in_order;  /* batches, 1: each query is near the one before it; they are not sorted                        */
-    uint64_t seed; /* of samples; answers do not depend on it                                                      */
-    uint32_t threads; /* batches: 0: as many as processors                                                            */
-    const mw_progress
-        *progress; /* batches: who watches, and may cancel: base.h; NULL: nobody                         */
-    uint32_t reserved[4];
+    /** MW_WALK_REMEMBERING; or MW_WALK_BARYCENTRIC or MW_WALK_DIRECT, as published for mixed
+     * orientation and ended by the remembering walk; 0: remembering. */
+    mw_walk_kind walk;
+    int in_order;                /**< batches, 1: each query is near the previous one; do not sort */
+    uint64_t seed;               /**< seed of samples; answers do not depend on it */
+    uint32_t threads;            /**< batches: number of threads; 0: one per processor */
+    const mw_progress *progress; /**< batches: progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
 } mw_borrowed_query_options;
 
-/* What a query changes; one per thread. All zero is a cursor with the default options. It may be
- * copied freely. */
+/** The state of a series of queries: one per thread, a plain value that may be copied.
+ * Zero-initialised it has the default options. Members other than `counters` are private. */
 typedef struct mw_borrowed_cursor {
-    mw_counters counters; /* queries, triangles_visited, triangles_max, triangles and orient (the walk), triangles_final
-                             and orient_final (what ends the walks barycentric and direct), handovers: queries that looked at
-                             all triangles                                                                              */
+    /** queries, triangles_visited, triangles_max; triangles and orient of the walk;
+     * triangles_final and orient_final of what ends the barycentric and direct walks; handovers:
+     * queries that looked at all triangles. */
+    mw_counters counters;
     uint64_t random;
-    uint32_t last; /* triangle of the query before */
+    uint32_t last; /* triangle of the last query */
     uint32_t walk; /* mw_walk_kind */
     uint32_t reserved[4];
 } mw_borrowed_cursor;

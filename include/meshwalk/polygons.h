@@ -30,7 +30,7 @@ typedef struct mw_polygons mw_polygons;
 
 /** How polygons are prepared. All zero = the defaults. */
 typedef struct mw_polygons_options {
-    uint32_t threads;            /**< for the Delaunay triangulation of the points; 0: as many as processors */
+    uint32_t threads;            /**< for the Delaunay triangulation; 0: one per processor */
     const mw_progress *progress; /**< who watches, and may cancel: base.h; NULL: nobody */
     uint32_t reserved[5];
 } mw_polygons_options;
@@ -63,7 +63,8 @@ typedef struct mw_polygons_options {
  */
 MW_API mw_status mw_polygons_create(const mw_constraints *rings, const mw_polygons_options *options, mw_polygons **out,
                                     mw_error *error);
-MW_API void mw_polygons_destroy(mw_polygons *polygons); /* NULL is allowed */
+/** Destroy polygons. NULL is allowed. */
+MW_API void mw_polygons_destroy(mw_polygons *polygons);
 
 /** The triangulation in which points are located: it fills the convex hull, and its vertex i is
  * point i.
@@ -105,10 +106,11 @@ typedef struct mw_polygons_info {
     uint32_t polygons;
     size_t crossing_segments; /**< segments that stay whole, as they cross others                */
     size_t passages;          /**< triangles that these pass through, each counted for each      */
-    uint32_t sets;            /**< different sets of polygons that cover a triangle, the empty one too */
+    uint32_t sets;            /**< different sets of covering polygons, the empty one too */
     size_t bytes;             /**< all memory, the mesh not counted                              */
     uint32_t reserved[6];
 } mw_polygons_info;
+/** Fill `info` with the sizes of prepared polygons. O(1). */
 MW_API void mw_polygons_describe(const mw_polygons *polygons, mw_polygons_info *info);
 
 #ifdef __cplusplus
