@@ -103,7 +103,7 @@ typedef struct mw_kind_options {
  *                          below. Exact. A point above that hull is hidden: a vertex of no triangle; of points at one place all
  *                          but the heaviest, or the lowest of these. A point exactly on it, but no corner, is hidden or
  *                          not by the order of insertion. With equal weights it is a Delaunay triangulation. A weight that
- *                          is not finite: MW_ERROR_INPUT, with the point as the error's vertex. About 1.5 us and 130 bytes
+ *                          is not finite: MW_ERROR_INPUT, with the point as the error's vertex. About 2 us and 250 bytes
  *                          per point.
  * Errors as for mw_delaunay (duplicate_of is unspecified then), and MW_ERROR_ARGUMENT for an unknown kind. After
  * the Delaunay triangulation one thread; thread-safe. docs/guarantees.md tells what is optimal, and what makes it slow. */
