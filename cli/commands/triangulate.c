@@ -8,6 +8,7 @@
 #include "cli/input/border_peel.h"
 #include "cli/input/constraint_file.h"
 #include "cli/input/missing_values.h"
+#include "cli/input/vertex_crs.h"
 #include "cli/input/vertex_table.h"
 #include "cli/output/mesh_output.h"
 #include "cli/output/side_outputs.h"
@@ -19,6 +20,7 @@
 
 typedef struct triangulate_settings {
     common_settings common;
+    vertex_crs_settings crs;
     const char *columns, *classes, *constraints, *weight, *hidden;
     int kind, format, keep;
     uint32_t limit;
@@ -86,6 +88,14 @@ static const option triangulate_options[] = {
      NULL},
     {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
      "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)", NULL},
+    {"crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.mesh), "CRS",
+     "the coordinate system of MESH, as EPSG:2056 (default: that of POINTS, or else of the constraints); what is in "
+     "another system is transformed",
+     NULL},
+    {"points-crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.points), "CRS",
+     "that of POINTS (default: what they tell, or else that of MESH)", NULL},
+    {"constraints-crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.constraints), "CRS",
+     "that of the constraints (default: what they tell, or else that of MESH)", NULL},
     {"json", 0, OPTION_FLAG, offsetof(triangulate_settings, json), NULL, "print the report as JSON", NULL},
     {0},
 };
@@ -334,10 +344,11 @@ static int triangulate_refuse(const char *why)
 static int triangulate_check_combination(const triangulate_settings *s, const char *points)
 {
     if (!points && !s->constraints) return triangulate_refuse("wants POINTS, or --constraints FILE");
-    if (!points && (s->columns || s->classes))
-        return triangulate_refuse("--columns and --class are about POINTS, which are missing");
+    if (!points && (s->columns || s->classes || s->crs.points))
+        return triangulate_refuse("--columns, --class and --points-crs are about POINTS, which are missing");
     if (!s->constraints && (s->keep || s->split || s->strict))
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
+    if (!s->constraints && s->crs.constraints) return triangulate_refuse("--constraints-crs is about --constraints");
     if (s->constraints && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--constraints are for --kind delaunay only");
     if (!s->weight && s->kind == MW_KIND_REGULAR) return triangulate_refuse("--kind regular wants --weight COLUMN");
@@ -356,6 +367,7 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
     const char *inputs[2] = {points ? points : s->constraints, s->constraints};
     const side_output hidden = {.option = "hidden", .path = s->hidden};
     int end = triangulate_check_combination(s, points);
+    if (end == 0) end = vertex_crs_check(&s->crs);
     if (end) return end;
     end = mesh_output_check("triangulate", output, s->format);
     if (end) return end;
@@ -371,10 +383,10 @@ static int triangulate_read_input(const triangulate_settings *s, const char *poi
 {
     const vertex_table_options how = {s->columns, s->classes, s->common.quiet};
     int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
-    if (end || !s->constraints) return end;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
-    end = constraint_file_read(s->constraints, options, &w->constraints);
-    return end ? end : vertex_table_append(&w->vertices, &w->constraints);
+    if (end == 0 && s->constraints) end = constraint_file_read(s->constraints, options, &w->constraints);
+    if (end == 0) end = vertex_crs_join(&s->crs, &s->common, points, &w->vertices, s->constraints, &w->constraints);
+    return end || !s->constraints ? end : vertex_table_append(&w->vertices, &w->constraints);
 }
 
 static int triangulate_run(const void *settings, const char *const *operands)
