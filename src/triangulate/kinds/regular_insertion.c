@@ -27,10 +27,10 @@ typedef struct mw_regular_edge {
 
 /* --- memory --- */
 
-bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight, uint32_t n)
+bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight, const uint32_t *number, uint32_t n)
 {
     size_t facets = 2 * (size_t)n + 2;
-    *r = (mw_regular){.point = point, .weight = weight, .point_count = n, .random = 1};
+    *r = (mw_regular){.point = point, .weight = weight, .number = number, .point_count = n, .random = 1};
     r->facet = mw__alloc_lines(facets, sizeof *r->facet);
     r->freed = mw__alloc(facets, sizeof *r->freed);
     r->facet_at = mw__alloc((size_t)n + 1, sizeof *r->facet_at);
@@ -77,7 +77,7 @@ void mw__regular_begin(mw_regular *r, uint32_t a, uint32_t b, uint32_t c)
 
 static mw_weighted_point weighted_point(const mw_regular *r, uint32_t v)
 {
-    return (mw_weighted_point){r->point[v], r->weight ? r->weight[v] : 0};
+    return (mw_weighted_point){r->point[v], r->weight[v]};
 }
 
 /* The corner of a ghost facet that is at infinity; 3 of a triangle. */
@@ -188,7 +188,7 @@ static void vertex_take_over(mw_regular *r, uint32_t t, uint32_t p)
 {
     uint32_t k = 0, v;
     while (k < 3 && !mw__points_equal(r->point[r->facet[t].v[k]], r->point[p])) k++;
-    if (k == 3 || (v = r->facet[t].v[k]) < p) return;
+    if (k == 3 || r->number[v = r->facet[t].v[k]] < r->number[p]) return;
     if (weighted_point(r, v).weight != weighted_point(r, p).weight) return;
     uint32_t half = mw__link(t, k);
     do {

@@ -9,7 +9,8 @@
  * last, or FREED. */
 typedef struct mw_regular {
     const mw_point *point;
-    const double *weight; /* NULL: all are 0 */
+    const double *weight;
+    const uint32_t *number; /* of the points: of equal ones the lowest is a vertex */
     uint32_t point_count;
     mw_triangle *facet;
     uint32_t facet_count; /* slots in use, freed ones too */
@@ -25,7 +26,7 @@ typedef struct mw_regular {
 #define MW_REGULAR_FREED MW_NONE
 
 /* Room for n points. False when out of memory; to be released in either case. */
-bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight, uint32_t n);
+bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight, const uint32_t *number, uint32_t n);
 void mw__regular_release(mw_regular *r);
 
 /* The first triangle, of three points that turn left. */
