@@ -5,10 +5,10 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
-#include "cli/input/border_peel.h"
 #include "cli/input/constraint_file.h"
 #include "cli/input/missing_values.h"
 #include "cli/input/vertex_table.h"
+#include "cli/output/border_peel.h"
 #include "cli/output/mesh_output.h"
 
 #include <inttypes.h>
@@ -18,7 +18,7 @@
 
 typedef struct triangulate_settings {
     common_settings common;
-    const char *columns, *classes, *constraints;
+    const char *columns, *classes, *constraints, *boundary;
     int kind, format, keep;
     uint32_t limit;
     double max_edge;
@@ -59,6 +59,9 @@ static const option triangulate_options[] = {
     {"strict", 0, OPTION_FLAG, offsetof(triangulate_settings, strict), NULL,
      "with --constraints, refuse a FILE that has rings of fewer than three different points; without it they are "
      "skipped with a warning",
+     NULL},
+    {"boundary", 0, OPTION_TEXT, offsetof(triangulate_settings, boundary), "FILE",
+     "keep what lies inside the polygons of FILE, whose sides become edges, with a vertex where they cross constraints",
      NULL},
     {"max-edge", 0, OPTION_LENGTH, offsetof(triangulate_settings, max_edge), "L",
      "peel triangles off the border while they have a border edge longer than L; constraints hold them (default: keep "
@@ -128,9 +131,9 @@ static void triangulate_warn_of_points(const triangulate_settings *s, const char
     for (size_t i = 0; i < w->vertices.points; i++) inside += used[i];
     free(used);
     if (2 * inside < w->vertices.points && w->vertices.points > 2)
-        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others; --keep hull keeps "
-                 "their triangles",
-                 points, w->vertices.points - inside, w->vertices.points, s->constraints);
+        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others%s", points,
+                 w->vertices.points - inside, w->vertices.points, s->boundary ? s->boundary : s->constraints,
+                 s->boundary ? "" : "; --keep hull keeps their triangles");
 }
 
 /* The library chooses the part to keep; but segments of a .poly bound a domain, as for Triangle. */
@@ -286,13 +289,15 @@ static int triangulate_refuse(const char *why)
 /* Refuse options that contradict each other. */
 static int triangulate_check_combination(const triangulate_settings *s, const char *points)
 {
-    if (!points && !s->constraints) return triangulate_refuse("wants POINTS, or --constraints FILE");
+    if (s->boundary && s->keep) return triangulate_refuse("--boundary tells what to keep: --keep cannot");
+    if (!points && !s->constraints && !s->boundary)
+        return triangulate_refuse("wants POINTS, or --constraints FILE, or --boundary FILE");
     if (!points && (s->columns || s->classes))
         return triangulate_refuse("--columns and --class are about POINTS, which are missing");
-    if (!s->constraints && (s->keep || s->split || s->strict))
+    if (!s->constraints && !s->boundary && (s->keep || s->split || s->strict))
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
-    if (s->constraints && s->kind != MW_KIND_DELAUNAY)
-        return triangulate_refuse("--constraints are for --kind delaunay only");
+    if ((s->constraints || s->boundary) && s->kind != MW_KIND_DELAUNAY)
+        return triangulate_refuse("--constraints and --boundary are for --kind delaunay only");
     if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
         return triangulate_refuse("--limit is about --kind min-weight and min-max-angle");
     return 0;
@@ -301,37 +306,62 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
 /* Refuse wrong settings before the work begins. */
 static int triangulate_check_settings(const triangulate_settings *s, const char *points)
 {
-    const char *output = s->common.output;
-    const char *inputs[2] = {points ? points : s->constraints, s->constraints};
-    int end = triangulate_check_combination(s, points);
-    if (end) return end;
-    end = mesh_output_check("triangulate", output, s->format);
-    if (end) return end;
-    if (s->constraints && mesh_output_is_node(output, s->format))
-        end = constraint_file_check_output(s->constraints, output);
-    if (end) return end;
-    return files_check_output(output, inputs, points && s->constraints ? 2 : 1);
+    const char *output = s->common.output, *files[] = {points, s->constraints, s->boundary}, *inputs[3];
+    int count = 0, end = triangulate_check_combination(s, points);
+    for (int i = 0; i < 3; i++)
+        if (files[i]) inputs[count++] = files[i];
+    if (end == 0) end = mesh_output_check("triangulate", output, s->format);
+    for (int i = 1; i < 3 && end == 0; i++)
+        if (files[i] && mesh_output_is_node(output, s->format)) end = constraint_file_check_output(files[i], output);
+    return end ? end : files_check_output(output, inputs, count);
+}
+
+/* Read the boundary, and put it to the constraints. */
+static int triangulate_read_boundary(const triangulate_settings *s, triangulate_work *w)
+{
+    mw_constraint_file boundary = {0};
+    const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
+    int end = constraint_file_read(s->boundary, options, &boundary);
+    if (end == 0 && boundary.polygon_count == 0 && (s->constraints || !constraint_file_is_poly(&boundary))) {
+        complain("%s: holds no polygon, so it is no boundary", s->boundary);
+        end = END_INPUT;
+    }
+    if (end == 0) end = constraint_file_join(&w->constraints, &boundary);
+    mw_constraint_file_release(&boundary);
+    return end;
+}
+
+/* A boundary counts as constraints, of which the inside is kept, with a vertex where some cross. */
+static triangulate_settings triangulate_settle(const triangulate_settings *given)
+{
+    triangulate_settings s = *given;
+    if (!s.boundary) return s;
+    if (!s.constraints) s.constraints = s.boundary;
+    s.keep = MW_KEEP_INSIDE;
+    s.split = true;
+    return s;
 }
 
 static int triangulate_read_input(const triangulate_settings *s, const char *points, triangulate_work *w)
 {
     const vertex_table_options how = {s->columns, s->classes, s->common.quiet};
     int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
-    if (end || !s->constraints) return end;
+    if (end || (!s->constraints && !s->boundary)) return end;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
-    end = constraint_file_read(s->constraints, options, &w->constraints);
+    if (s->constraints) end = constraint_file_read(s->constraints, options, &w->constraints);
+    if (end == 0 && s->boundary) end = triangulate_read_boundary(s, w);
     return end ? end : vertex_table_append(&w->vertices, &w->constraints);
 }
 
 static int triangulate_run(const void *settings, const char *const *operands)
 {
-    const triangulate_settings *s = settings;
+    const triangulate_settings *given = settings, settled = triangulate_settle(given), *s = &settled;
     const char *points = operands[0];
     triangulate_work w = {.begin = monotonic_seconds()};
     bool temporary = false;
-    int end = triangulate_check_settings(s, points);
+    int end = triangulate_check_settings(given, points);
     if (end == 0) end = files_try_output(s->common.output, &temporary);
-    if (end == 0) end = triangulate_read_input(s, points, &w);
+    if (end == 0) end = triangulate_read_input(given, points, &w);
     if (end == 0)
         end = s->constraints ? triangulate_with_constraints(s, points, &w) : triangulate_points(s, points, &w);
     if (end == 0) triangulate_warn_of_points(s, points, &w);
@@ -357,7 +387,7 @@ const command triangulate_command = {
         "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
         "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
-    .essential = "columns constraints max-edge class output",
+    .essential = "columns constraints boundary max-edge output",
     .settings_size = sizeof(triangulate_settings),
     .run = triangulate_run,
 };
