@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info) echo "--as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --limit --format --columns --class --json $common" ;;
+        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -74,7 +74,7 @@ _meshwalk_names() {
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
         --points-crs) echo same ;;
-        --kind) echo 'delaunay greedy min-weight min-max-angle' ;;
+        --kind) echo 'delaunay greedy min-weight min-max-angle regular' ;;
         --keep) echo 'auto hull inside' ;;
         --delaunay) echo 'auto make never' ;;
         --class)
@@ -102,7 +102,7 @@ _meshwalk() {
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] && names='paper near-vertices peers scale edit'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
-        names='uniform grid gaussian clusters arcs rectangle rings slivers offset'
+        names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'
     [[ $command == bench && $before == edit ]] && names='uniform clusters gaussian arcs rectangle'
     if [[ -n $names ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")

@@ -1,4 +1,5 @@
 #include "bench/data/dataset.h"
+#include "bench/data/stand_ins.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,6 +13,7 @@ const char *dataset_name(int kind)
         [DATASET_UNIFORM] = "uniform",   [DATASET_GRID] = "grid",       [DATASET_GAUSSIAN] = "gaussian",
         [DATASET_CLUSTERS] = "clusters", [DATASET_ARCS] = "arcs",       [DATASET_RECTANGLE] = "rectangle",
         [DATASET_RINGS] = "rings",       [DATASET_SLIVERS] = "slivers", [DATASET_OFFSET] = "offset",
+        [DATASET_CADASTRE] = "cadastre", [DATASET_LIDAR] = "lidar",
     };
     return kind >= 0 && kind < DATASET_KINDS ? names[kind] : NULL;
 }
@@ -21,20 +23,6 @@ int dataset_named(const char *name)
     int kind = 0;
     while (kind < DATASET_KINDS && strcmp(dataset_name(kind), name) != 0) kind++;
     return kind;
-}
-
-/* splitmix64 [Steele, Lea, Flood 2014]. */
-static uint64_t dataset_random(uint64_t *random)
-{
-    uint64_t z = *random += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-double dataset_unit(uint64_t *random)
-{
-    return (double)(dataset_random(random) >> 11) * 0x1p-53;
 }
 
 /* Two independent normal numbers [Box, Muller 1958]. */
@@ -86,7 +74,7 @@ static void fill_clusters(dataset *d, size_t n, uint64_t *random)
     for (size_t i = 0; i < n; i++) {
         double *p = d->points + 2 * i;
         do {
-            size_t c = (size_t)(dataset_random(random) % CLUSTERS);
+            size_t c = (size_t)(dataset_bits(random) % CLUSTERS);
             draw_normal_pair(p, random);
             for (size_t k = 0; k < 2; k++) p[k] = centre[2 * c + k] + CLUSTER_DEVIATION * p[k];
         } while (!point_in_unit_square(p));
@@ -113,7 +101,7 @@ static void fill_arcs(dataset *d, size_t n, uint64_t *random)
     for (size_t i = 0; i < n; i++) {
         double *p = d->points + 2 * i;
         do {
-            const dataset_arc *a = &arc_of[dataset_random(random) % ARCS];
+            const dataset_arc *a = &arc_of[dataset_bits(random) % ARCS];
             double angle = a->begin + a->length * dataset_unit(random), off[2];
             draw_normal_pair(off, random);
             double radius = a->radius + ARC_DEVIATION * off[0];
@@ -166,8 +154,11 @@ static void dataset_fill(dataset *d, dataset_kind kind, size_t n, uint64_t *rand
     case DATASET_ARCS: fill_arcs(d, n, random); break;
     case DATASET_RINGS: fill_rings(d, n); break;
     case DATASET_SLIVERS: fill_slivers(d, n, random); break;
+    case DATASET_CADASTRE: stand_in_parcels(d->points, n, random); break;
+    case DATASET_LIDAR: stand_in_strips(d->points, n, random); break;
     default: dataset_draw(d, d->points, n, random);
     }
+    if (kind == DATASET_CADASTRE || kind == DATASET_LIDAR) dataset_bound(d, n);
 }
 
 bool dataset_make(dataset *d, dataset_kind kind, size_t n, bool enclose, uint64_t seed)

@@ -2,6 +2,8 @@
 #ifndef MW_BENCH_DATA_DATASET_H
 #define MW_BENCH_DATA_DATASET_H
 
+#include "bench/data/dataset_random.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,6 +22,8 @@ typedef enum dataset_kind {
     DATASET_RINGS,     /* on circles round one centre, as many on each: cocircular up to rounding */
     DATASET_SLIVERS,   /* ten rows, each 1e-9 wide, turned by pi/6: needles between the rows, caps within them */
     DATASET_OFFSET,    /* ten kilometres of a country in metres, 5e6 from 0: doubles are 2^-30 apart */
+    DATASET_CADASTRE,  /* borders of building sites in a city: stand_ins.h */
+    DATASET_LIDAR,     /* flight strips of a laser scan: stand_ins.h */
     DATASET_KINDS
 } dataset_kind;
 
@@ -38,7 +42,7 @@ typedef struct dataset {
 
 /* Make n points, the same for the same seed. With `enclose` the last four of them are the corners
  * of the domain (n is at least 5). The domain is the square, or the turned rectangle; of a grid the
- * square of its cells; of normal points and of slivers their extent. Returns false when memory runs
+ * square of its cells; of normal points, slivers, cadastre and lidar their extent. Returns false when memory runs
  * out; the set is then empty. */
 bool dataset_make(dataset *d, dataset_kind kind, size_t n, bool enclose, uint64_t seed);
 void dataset_release(dataset *d);
@@ -48,9 +52,6 @@ void dataset_release(dataset *d);
 bool dataset_bound(dataset *d, size_t n);
 /* Write the corners of the domain over the last four points. */
 void dataset_enclose(dataset *d);
-
-/* A number from 0 to below 1; *random is the seed first, and goes on from call to call. */
-double dataset_unit(uint64_t *random);
 
 /* n points uniform in the domain; *random goes on from call to call. */
 void dataset_draw(const dataset *d, double *points, size_t n, uint64_t *random);

@@ -15,10 +15,14 @@ typedef struct star_polygon {
 } star_polygon;
 
 #define WAVES 8
+#define ARMS 6
+#define ARM_WIDTH 0.12 /* radians, on either side */
 
-/* Distances of the corners of a star of `height` 0 are all about 1. */
+/* A compact star with narrow arms, as a town has along its roads: these make its hull large, and few lines between
+ * two of its points leave it. Distances of the corners of a star without waves and arms are all about 1. */
 typedef struct star_waves {
     double size[WAVES], phase[WAVES];
+    double arm[ARMS], direction[ARMS];
 } star_waves;
 
 static star_waves star_draw_waves(uint64_t *random)
@@ -28,7 +32,22 @@ static star_waves star_draw_waves(uint64_t *random)
         w.size[i] = (2 * dataset_unit(random) - 1) / sqrt((double)(i + 2));
         w.phase[i] = 2 * PI * dataset_unit(random);
     }
+    for (size_t i = 0; i < ARMS; i++) {
+        w.arm[i] = 0.5 + 0.5 * dataset_unit(random);
+        w.direction[i] = 2 * PI * ((double)i + dataset_unit(random)) / ARMS;
+    }
     return w;
+}
+
+/* How far an arm reaches in a direction, from 0 to 1. */
+static double star_arm(const star_waves *w, double angle)
+{
+    double most = 0;
+    for (size_t i = 0; i < ARMS; i++) {
+        double off = remainder(angle - w->direction[i], 2 * PI) / ARM_WIDTH;
+        most = fmax(most, w->arm[i] * exp(-off * off));
+    }
+    return most;
 }
 
 /* The seed of other numbers. */
@@ -38,14 +57,15 @@ static uint64_t star_draw_seed(uint64_t *random)
 }
 
 /* The same noise for the same seed. */
-static void star_shape(star_polygon *s, const star_waves *w, double height, uint64_t seed)
+static void star_shape(star_polygon *s, const star_waves *w, double height, double arms, uint64_t seed)
 {
     double step = 2 * PI / (double)s->count;
     s->reach = 0;
     for (size_t k = 0; k < s->count; k++) {
         double angle = step * (double)k, sum = 0;
         for (size_t i = 0; i < WAVES; i++) sum += w->size[i] * cos((double)(i + 2) * angle + w->phase[i]);
-        double radius = exp(height * sum) * (1 + fmin(step, 0.2) * (dataset_unit(&seed) - 0.5));
+        double radius =
+            exp(height * sum) * (1 + arms * star_arm(w, angle)) * (1 + fmin(step, 0.2) * (dataset_unit(&seed) - 0.5));
         s->corner[2 * k] = s->centre[0] + radius * cos(angle);
         s->corner[2 * k + 1] = s->centre[1] + radius * sin(angle);
         s->reach = fmax(s->reach, radius);
@@ -103,22 +123,23 @@ static double star_hull_area(const star_polygon *s, double *hull)
     return polygon_area(hull, count);
 }
 
-/* Too high waves leave hardly more than one of them, which fills its own hull well. */
-#define GREATEST_HEIGHT 3.0
-#define HEIGHTS 300
+/* Of waves, and of arms: longer ones are hardly more than lines. */
+#define WAVE_HEIGHT 0.1
+#define LONGEST_ARMS 6.0
+#define LENGTHS 300
 #define MOST_WAVES 100 /* drawn, until the last are taken as they are */
 
-/* The higher the waves, at first, the less of its hull the outline fills. Waves that never leave as
- * little of it as wanted are drawn again. Returns the area of the hull. */
+/* The longer the arms, the less of its hull the outline fills. Arms that never leave as little of it as
+ * wanted are drawn again. Returns the area of the hull. */
 static double star_shape_outline(star_polygon *s, double share, double *hull, uint64_t *random)
 {
     for (int drawn = 0;; drawn++) {
         star_waves w = star_draw_waves(random);
         uint64_t noise = star_draw_seed(random);
-        for (int i = 0; i <= HEIGHTS; i++) {
-            star_shape(s, &w, GREATEST_HEIGHT * i / HEIGHTS, noise);
+        for (int i = 0; i <= LENGTHS; i++) {
+            star_shape(s, &w, WAVE_HEIGHT, LONGEST_ARMS * i / LENGTHS, noise);
             double area = star_hull_area(s, hull);
-            if (polygon_area(s->corner, s->count) <= share * area || (drawn == MOST_WAVES && i == HEIGHTS)) return area;
+            if (polygon_area(s->corner, s->count) <= share * area || (drawn == MOST_WAVES && i == LENGTHS)) return area;
         }
     }
 }
@@ -163,7 +184,7 @@ static void domain_place_hole(holed_domain *d, size_t i, double area, uint64_t *
 {
     star_polygon *s = &d->star[i];
     star_waves w = star_draw_waves(random);
-    star_shape(s, &w, 0.5, star_draw_seed(random));
+    star_shape(s, &w, 0.5, 0, star_draw_seed(random));
     star_scale(s, sqrt(area / polygon_area(s->corner, s->count)));
     double p[2] = {0, 0};
     for (int drawn = 1;; drawn++) {
@@ -174,18 +195,50 @@ static void domain_place_hole(holed_domain *d, size_t i, double area, uint64_t *
     star_move(s, p);
 }
 
-static void domain_draw_point(const holed_domain *d, double p[2], uint64_t *random)
+/* How dense points lie: the exponential of a sum of waves. In a town they stand close where there are many small
+ * sites. */
+#define DENSITY_WAVES 12
+#define DENSITY_DEVIATION 1.0 /* of the logarithm */
+#define DENSITY_MOST 2.0      /* times this: denser places are as dense as that */
+
+typedef struct point_density {
+    double wave[DENSITY_WAVES][2], phase[DENSITY_WAVES];
+} point_density;
+
+/* Waves of 10 to 20 radians a unit; the outline is about 2 wide. */
+static point_density density_draw(uint64_t *random)
+{
+    point_density d;
+    for (size_t i = 0; i < DENSITY_WAVES; i++) {
+        double angle = 2 * PI * dataset_unit(random), frequency = 10 + 10 * dataset_unit(random);
+        d.wave[i][0] = frequency * cos(angle);
+        d.wave[i][1] = frequency * sin(angle);
+        d.phase[i] = 2 * PI * dataset_unit(random);
+    }
+    return d;
+}
+
+/* From 0 to 1. */
+static double density_at(const point_density *d, const double p[2])
+{
+    double sum = 0;
+    for (size_t i = 0; i < DENSITY_WAVES; i++) sum += cos(d->wave[i][0] * p[0] + d->wave[i][1] * p[1] + d->phase[i]);
+    return exp(DENSITY_DEVIATION * fmin(0, sum / sqrt(DENSITY_WAVES / 2.0) - DENSITY_MOST));
+}
+
+static void domain_draw_point(const holed_domain *d, const point_density *density, double p[2], uint64_t *random)
 {
     bool inside;
     do {
-        star_draw_near(&d->star[0], p, random);
+        do star_draw_near(&d->star[0], p, random);
+        while (dataset_unit(random) > density_at(density, p));
         inside = star_contains(&d->star[0], p);
         for (size_t i = 1; i < d->stars && inside; i++) inside = !star_contains(&d->star[i], p);
     } while (!inside);
 }
 
 /* Of the hull, all holes together. */
-#define SHARE_OF_HOLES 0.05
+#define SHARE_OF_HOLES 0.01
 /* Of the border edges, those of the outline. */
 #define EDGES_OF_OUTLINE 0.55
 
@@ -194,7 +247,8 @@ static void domain_fill(holed_domain *d, const domain_shape *shape, double *hull
     double holes = shape->holes ? SHARE_OF_HOLES : 0;
     double area = star_shape_outline(&d->star[0], shape->share + holes, hull, random);
     for (size_t i = 1; i < d->stars; i++) domain_place_hole(d, i, holes * area / (double)shape->holes, random);
-    for (size_t i = d->corners; i < d->count; i++) domain_draw_point(d, d->points + 2 * i, random);
+    point_density density = density_draw(random);
+    for (size_t i = d->corners; i < d->count; i++) domain_draw_point(d, &density, d->points + 2 * i, random);
 }
 
 static mw_status domain_triangulate(const holed_domain *d, uint32_t *segments, uint32_t *polygon, mw_mesh **out,

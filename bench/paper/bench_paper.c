@@ -7,6 +7,7 @@
 #include "bench/paper/paper_polyhedra.h"
 #include "bench/paper/paper_print.h"
 #include "bench/paper/paper_seeds.h"
+#include "bench/paper/published.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/spelling.h"
@@ -75,14 +76,42 @@ static int paper_run_points(paper *p, const size_t *sizes)
     return 0;
 }
 
+/* Is a size among those that were asked for, if any were? */
+static bool sizes_have(const size_t *sizes, size_t vertices)
+{
+    for (size_t i = 0; i < MOST_SIZES && sizes[i]; i++)
+        if (sizes[i] == vertices) return true;
+    return !sizes[0];
+}
+
+/* Sets that stand in for the thesis' own, as large as these. `sizes` is empty, or has those that are wanted. */
+static int paper_run_stand_ins(paper *p, const size_t *sizes)
+{
+    const char *set;
+    size_t vertices;
+    for (size_t i = 0; published_real(p->table->name, i, &set, &vertices); i++) {
+        dataset data;
+        if (!sizes_have(sizes, vertices)) continue;
+        if (!dataset_make(&data, (dataset_kind)dataset_named(set), vertices, paper_encloses(p),
+                          p->settings->common.seed))
+            return fail_memory();
+        int end = paper_run_set(p, &data, set, false);
+        dataset_release(&data);
+        if (end) return end;
+    }
+    return 0;
+}
+
 static int paper_run_made(paper *p, const size_t *sizes)
 {
     switch (p->table->subject) {
     case PAPER_DOMAINS: return paper_domains_made(p, sizes);
     case PAPER_STARS: return paper_polyhedra_stars(p, sizes);
     case PAPER_SURFACES: return paper_polyhedra_surfaces(p, sizes);
-    default: return paper_run_points(p, sizes);
+    default: break;
     }
+    int end = paper_run_points(p, sizes);
+    return end ? end : paper_run_stand_ins(p, p->settings->sizes ? sizes : &(size_t){0});
 }
 
 static const char *paper_base_name(const char *path)

@@ -249,6 +249,11 @@ static void paper_print_local_optima(text *t, const paper *p, const paper_result
             text_printf(t, "  %s: a local optimum only\n", p->table->algorithms[i]->name);
 }
 
+static bool paper_is_stand_in(const paper_result *r)
+{
+    return !r->users_file && (strcmp(r->dataset, "cadastre") == 0 || strcmp(r->dataset, "lidar") == 0);
+}
+
 static void paper_print_table(text *t, const paper *p)
 {
     text_printf(t, "%s: %s\n%" PRIu64 " queries on each set, from %s; means per query, times in microseconds\n",
@@ -258,6 +263,7 @@ static void paper_print_table(text *t, const paper *p)
     for (size_t i = 0; i < p->count; i++) {
         const paper_result *r = &p->results[i];
         text_printf(t, "\n%s, %zu vertices", r->dataset, r->outcome.vertices);
+        if (paper_is_stand_in(r)) text_string(t, "; a made set in the place of the thesis' own");
         if (r->model) text_printf(t, "; published: the thesis' %s", r->model);
         text_string(t, "\n\n");
         text_printf(t, "  %-31s %-21s %10s", "algorithm", "quantity", "ours");

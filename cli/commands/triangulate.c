@@ -10,6 +10,7 @@
 #include "cli/input/vertex_table.h"
 #include "cli/output/border_peel.h"
 #include "cli/output/mesh_output.h"
+#include "cli/output/side_outputs.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -18,7 +19,7 @@
 
 typedef struct triangulate_settings {
     common_settings common;
-    const char *columns, *classes, *constraints, *boundary;
+    const char *columns, *classes, *constraints, *boundary, *weight, *hidden;
     int kind, format, keep;
     uint32_t limit;
     double max_edge;
@@ -69,6 +70,13 @@ static const option triangulate_options[] = {
      NULL},
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
      "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
+    {"weight", 0, OPTION_TEXT, offsetof(triangulate_settings, weight), "COLUMN",
+     "--kind regular: the column of POINTS that has the weights, by its name (z, c4, c5 ... without a header); a "
+     "weight is the "
+     "square of the radius of a circle round the point",
+     NULL},
+    {"hidden", 0, OPTION_TEXT, offsetof(triangulate_settings, hidden), "FILE",
+     "--kind regular: list the points that no triangle has in FILE, by their numbers from 0", NULL},
     {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
      "--kind min-weight: fill faces of up to N corners optimally; min-max-angle: seek the optimum of up to N points; "
      "beyond, a local optimum is made (default: 0, what half a minute finds)",
@@ -93,6 +101,8 @@ typedef struct triangulate_work {
     mw_constrained_edges edges;
     mw_constrain_report constrained;
     mw_kind_report kind;
+    double *weights; /* of --kind regular */
+    uint8_t *hidden;
     border_peel peel;
     double begin;
 } triangulate_work;
@@ -103,6 +113,8 @@ static void triangulate_work_release(triangulate_work *w)
     mw_constraint_file_release(&w->constraints);
     mw_constrained_edges_release(&w->edges);
     free(w->duplicate_of);
+    free(w->weights);
+    free(w->hidden);
 }
 
 /* Take all triangles of the mesh but those that --max-edge peels off, and destroy it. */
@@ -212,17 +224,51 @@ static void triangulate_warn_if_local(const triangulate_settings *s, const char 
             path, name);
 }
 
+/* The weights of --kind regular, one for each point. */
+static int triangulate_take_weights(const triangulate_settings *s, const char *path, triangulate_work *w)
+{
+    vertex_field field;
+    size_t n = w->vertices.points;
+    if (!s->weight) return 0;
+    if (!vertex_table_find_column(&w->vertices, s->weight, &field)) {
+        complain("%s: --weight: there is no column '%s' beyond x and y%s", path, s->weight,
+                 s->columns ? " among those of --columns" : "");
+        return END_INPUT;
+    }
+    w->weights = malloc((n + 1) * sizeof *w->weights);
+    w->hidden = malloc(n + 1);
+    if (!w->weights || !w->hidden) return fail_memory();
+    for (size_t i = 0; i < n; i++) w->weights[i] = field.values[i * field.stride];
+    return 0;
+}
+
+static int triangulate_write_hidden(const triangulate_settings *s, const triangulate_work *w)
+{
+    text t = {0};
+    if (!s->hidden) return 0;
+    text_string(&t, "point\n");
+    for (size_t i = 0; i < w->vertices.points; i++)
+        if (w->hidden[i]) text_printf(&t, "%zu\n", i);
+    return files_write_text(s->hidden, &t);
+}
+
 static int triangulate_points(const triangulate_settings *s, const char *path, triangulate_work *w)
 {
     mw_error error;
     mw_mesh *mesh;
     const mw_mesh_file *file = &w->vertices.file;
-    mw_kind_options options = {.limit = s->limit, .threads = s->common.threads, .progress = progress_of_call()};
+    int end = triangulate_take_weights(s, path, w);
+    if (end) return end;
+    mw_kind_options options = {.limit = s->limit,
+                               .threads = s->common.threads,
+                               .progress = progress_of_call(),
+                               .weights = w->weights,
+                               .hidden = w->hidden};
     progress_phase("triangulating", path);
     if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
                        &mesh, &error) != MW_OK)
         return fail_mesh(path, &error);
-    int end = triangulate_take_mesh(s, path, w, mesh);
+    end = triangulate_take_mesh(s, path, w, mesh);
     if (end == 0) triangulate_warn_if_local(s, path, &w->kind);
     return end;
 }
@@ -242,6 +288,7 @@ static void triangulate_report_kind(report *r, const triangulate_settings *s, co
     report_number(r, "edge_length", kind->edge_length);
     report_number(r, "largest_angle", kind->largest_angle * (180 / acos(-1)));
     report_flag(r, "optimal", kind->optimal);
+    if (s->kind == MW_KIND_REGULAR) report_count(r, "hidden", kind->hidden);
     if (s->kind != MW_KIND_MIN_WEIGHT) return;
     report_count(r, "faces", kind->faces);
     report_count(r, "largest_face", kind->largest_face);
@@ -298,6 +345,10 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
     if ((s->constraints || s->boundary) && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--constraints and --boundary are for --kind delaunay only");
+    if (!s->weight && s->kind == MW_KIND_REGULAR) return triangulate_refuse("--kind regular wants --weight COLUMN");
+    if ((s->weight || s->hidden) && s->kind != MW_KIND_REGULAR)
+        return triangulate_refuse("--weight and --hidden are about --kind regular");
+    if (s->hidden && files_is_standard(s->hidden)) return triangulate_refuse("--hidden wants a file");
     if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
         return triangulate_refuse("--limit is about --kind min-weight and min-max-angle");
     return 0;
@@ -313,7 +364,10 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
     if (end == 0) end = mesh_output_check("triangulate", output, s->format);
     for (int i = 1; i < 3 && end == 0; i++)
         if (files[i] && mesh_output_is_node(output, s->format)) end = constraint_file_check_output(files[i], output);
-    return end ? end : files_check_output(output, inputs, count);
+    if (end == 0) end = files_check_output(output, inputs, count);
+    const side_output hidden = {.option = "hidden", .path = s->hidden};
+    if (end == 0) end = side_outputs_check(&hidden, 1, output, inputs, count);
+    return end || !s->hidden ? end : files_try_output(s->hidden, NULL);
 }
 
 /* Read the boundary, and put it to the constraints. */
@@ -367,6 +421,7 @@ static int triangulate_run(const void *settings, const char *const *operands)
     if (end == 0) triangulate_warn_of_points(s, points, &w);
     if (end == 0 && !s->common.quiet) mesh_output_warn(s->common.output, s->format, &w.vertices.file);
     if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary, s->common.quiet);
+    if (end == 0) end = triangulate_write_hidden(s, &w);
     if (end == 0) end = triangulate_print_report(s, &w);
     triangulate_work_release(&w);
     return end;

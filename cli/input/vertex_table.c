@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 void vertex_table_release(vertex_table *v)
 {
@@ -321,4 +322,15 @@ vertex_field vertex_table_field(const vertex_table *v, size_t number)
 {
     if (number == 0) return (vertex_field){v->file.points + 2, 3, v->point_heights};
     return (vertex_field){v->file.fields[number - 1], 1, number - 1 < v->point_fields};
+}
+
+bool vertex_table_find_column(const vertex_table *v, const char *column, vertex_field *field)
+{
+    *field = vertex_table_field(v, 0);
+    if (v->height_name && strcasecmp(column, v->height_name) == 0) return true;
+    for (size_t i = 0; i < v->point_fields; i++) {
+        *field = vertex_table_field(v, i + 1);
+        if (strcasecmp(column, v->file.field_names[i]) == 0) return true;
+    }
+    return false;
 }

@@ -41,6 +41,8 @@ typedef struct vertex_field {
 
 /* Field 0 is the height, the others are those of the file. */
 size_t vertex_table_field_count(const vertex_table *v);
+/* The values that POINTS have in the column of a name. False: there is none, beyond x and y. */
+bool vertex_table_find_column(const vertex_table *v, const char *column, vertex_field *field);
 vertex_field vertex_table_field(const vertex_table *v, size_t number);
 
 #endif

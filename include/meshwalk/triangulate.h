@@ -67,7 +67,8 @@ typedef struct mw_kind_report {
     size_t faces;        /* MW_KIND_MIN_WEIGHT: faces of more than three corners that the skeleton left        */
     size_t largest_face; /* of these, most corners of one                                                 */
     size_t local_faces;  /* of these, too large, or not simple: filled by a local optimum                 */
-    uint32_t reserved[8];
+    size_t hidden; /* MW_KIND_REGULAR: points that are hidden, but for those equal to a vertex                    */
+    uint32_t reserved[6];
 } mw_kind_report;
 
 /* How far the optimum is sought. 0: the search ends after about half a minute, with memory in proportion to the points.
@@ -77,6 +78,9 @@ typedef struct mw_kind_options {
     uint32_t limit;
     uint32_t threads; /* for the Delaunay triangulation that each kind begins with; 0: as many as processors */
     const mw_progress *progress; /* who watches, and may cancel: base.h; NULL: nobody */
+    const double *weights;       /* MW_KIND_REGULAR: one for each point; NULL: all are 0 */
+    uint8_t *
+        hidden; /* MW_KIND_REGULAR: NULL, or room for one of each point: 1 if no triangle has it; out of a successful call */
     uint32_t reserved[4];
 } mw_kind_options;
 
@@ -94,6 +98,13 @@ typedef struct mw_kind_options {
  *                          exchange of a diagonal makes the largest angle of its quadrilateral smaller; if `optimal`,
  *                          the largest of all is the least possible. About 10 us per spread point; the exchanges up to
  *                          the local optimum have no bound on time.
+ *   MW_KIND_REGULAR        Points have weights: think of circles round them, with the weight as the square of the radius. Lift
+ *                          each point x of weight w to the height |x|^2 - w: the triangles are the lower hull seen from
+ *                          below. Exact. A point above that hull is hidden: a vertex of no triangle; of points at one place all
+ *                          but the heaviest, or the lowest of these. A point exactly on it, but no corner, is hidden or
+ *                          not by the order of insertion. With equal weights it is a Delaunay triangulation. A weight that
+ *                          is not finite: MW_ERROR_INPUT, with the point as the error's vertex. About 1.5 us and 130 bytes
+ *                          per point.
  * Errors as for mw_delaunay (duplicate_of is unspecified then), and MW_ERROR_ARGUMENT for an unknown kind. After
  * the Delaunay triangulation one thread; thread-safe. docs/guarantees.md tells what is optimal, and what makes it slow. */
 MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,

@@ -1,8 +1,11 @@
 """``python -m meshwalk.bench``: the module beside its peers, in one run.
 
-Points and queries are random in the unit square; all peers search the same triangles. Rounds are
-interleaved, so a machine that is busy for a while slows all of them; the best round counts. A peer
-that is not installed is left out.
+Points and queries are random in the unit square. The task ``locate`` finds the triangles of
+queries: all peers search the same triangles. ``interpolate`` takes values of many fields to the
+queries, beside ``scipy.sparse``. ``particles`` carries them round the middle of the square by steps
+of second order, which locate each of them twice, with a `Cursor` and without. Rounds are
+interleaved, so a machine that is busy for a while slows all; the best round counts. A peer that is
+not installed is left out.
 """
 
 from __future__ import annotations
@@ -112,6 +115,15 @@ def _seconds(work: Callable[[], Any]) -> tuple[float, Any]:
     return time.perf_counter() - begin, result
 
 
+def _best(works: Sequence[Callable[[], Any]], rounds: int) -> list[float]:
+    """Seconds of each in its best round."""
+    best = [np.inf] * len(works)
+    for k in range(rounds * len(works)):
+        turn = (k + k // len(works)) % len(works)  # each round begins with another one
+        best[turn] = min(best[turn], _seconds(works[turn])[0])
+    return best
+
+
 def measure(
     vertices: int, queries: int, rounds: int, names: Sequence[str] = (), seed: int = 1
 ) -> list[Figure]:
@@ -142,22 +154,113 @@ def measure(
         except ImportError:
             continue
         made.append((peer, seconds, ask, ask(xy)))  # the first answers warm up
-    best = [np.inf] * len(made)
-    for k in range(rounds * len(made)):
-        turn = (k + k // len(made)) % len(made)  # each round begins with another one
-        best[turn] = min(best[turn], _seconds(lambda turn=turn: made[turn][2](xy))[0])  # type: ignore[misc]
+    best = _best([lambda ask=ask: ask(xy) for _, _, ask, _ in made], rounds)  # type: ignore[misc]
     return [
         Figure(peer.name, seconds, quickest / queries, float(np.mean(answers == made[0][3])))
         for (peer, seconds, _, answers), quickest in zip(made, best, strict=True)
     ]
 
 
+class Time(NamedTuple):
+    """What one way of doing a task took."""
+
+    name: str
+    seconds: float
+    """In the best round."""
+
+
+def measure_interpolation(
+    vertices: int, queries: int, rounds: int, columns: int = 24, seed: int = 1
+) -> list[Time]:
+    """Measure the interpolation of many fields, side by side and one after the other in time.
+
+    Parameters
+    ----------
+    vertices, queries, rounds, columns : int
+        How many; `columns` of fields.
+    seed : int, optional
+        Of the random points.
+
+    Returns
+    -------
+    list of Time
+    """
+    random = np.random.default_rng(seed)
+    mesh = meshwalk.delaunay(random.uniform(size=(vertices, 2)))
+    hit = meshwalk.Locator(mesh).locate(random.uniform(size=(queries, 2)))
+    rows = random.uniform(size=(vertices, columns))
+    fields = np.ascontiguousarray(rows.T)
+    ways: dict[str, Callable[[], Any]] = {
+        "meshwalk": lambda: hit.interpolate(rows),
+        "meshwalk 1 thread": lambda: hit.interpolate(rows, threads=1),
+        "meshwalk, in time": lambda: hit.interpolate(fields.T),
+    }
+    try:
+        operator = hit.operator()
+    except ImportError:
+        pass
+    else:
+        ways["scipy.sparse"] = lambda: operator @ rows
+        ways["scipy.sparse, in time"] = lambda: operator @ fields.T
+    return [Time(*pair) for pair in zip(ways, _best(list(ways.values()), rounds), strict=True)]
+
+
+def _drift(ask: Callable[[Points], meshwalk.Locations], place: Points, steps: int) -> Points:
+    """Carry particles round the middle of the square by a tenth of an edge or so a step."""
+    points = ask(place).mesh.points
+    current = np.column_stack([0.5 - points[:, 1], points[:, 0] - 0.5])
+    step = 0.3 / np.sqrt(len(points))
+    place = place.copy()
+    for _ in range(steps):
+        middle = place + step / 2 * ask(place).interpolate(current)
+        place += step * ask(middle).interpolate(current)
+    return place
+
+
+def measure_particles(
+    vertices: int, particles: int, rounds: int, steps: int = 288, seed: int = 1
+) -> list[Time]:
+    """Measure particles that drift, each search from the particle's last triangle or anew.
+
+    Parameters
+    ----------
+    vertices, particles, rounds, steps : int
+        How many; two searches and two interpolations a step.
+    seed : int, optional
+        Of the random points.
+
+    Returns
+    -------
+    list of Time
+    """
+    random = np.random.default_rng(seed)
+    locator = meshwalk.Locator(meshwalk.delaunay(random.uniform(size=(vertices, 2))))
+    place = random.uniform(0.2, 0.8, (particles, 2))
+    ways: dict[str, Callable[[], Any]] = {
+        "meshwalk, Cursor": lambda: _drift(meshwalk.Cursor(locator).locate, place, steps),
+        "meshwalk, Locator": lambda: _drift(locator.locate, place, steps),
+    }
+    return [Time(*pair) for pair in zip(ways, _best(list(ways.values()), rounds), strict=True)]
+
+
+def _print_times(times: Sequence[Time], values: int, what: str) -> None:
+    print(f"{'':22}{'s':>10}{what:>14}{'ratio':>8}")
+    for time_ in times:
+        each = 1e9 * time_.seconds / values
+        ratio = time_.seconds / times[0].seconds
+        print(f"{time_.name:22}{time_.seconds:10.3f}{each:14.1f}{ratio:8.2f}")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print a table; `arguments` are those of the command line."""
     parser = argparse.ArgumentParser("python -m meshwalk.bench", description=__doc__)
+    tasks = ("locate", "interpolate", "particles")
+    parser.add_argument("--task", choices=tasks, default="locate")
     parser.add_argument("--vertices", type=float, default=1e5)
     parser.add_argument("--queries", type=float, default=1e5)
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--columns", type=int, default=24, help="fields to interpolate")
+    parser.add_argument("--steps", type=int, default=288, help="of particles")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--peers", default="", help="names, separated by commas")
     given = parser.parse_args(arguments)
@@ -165,10 +268,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     unknown = set(names) - {peer.name for peer in PEERS}
     if unknown:
         parser.error(f"no such peer: {', '.join(sorted(unknown))}")
-    if min(given.vertices, given.queries, given.rounds) < 1 or given.vertices < 3:
-        parser.error("three vertices, one query and one round are the least")
-    figures = measure(int(given.vertices), int(given.queries), given.rounds, names, given.seed)
-    print(f"{int(given.queries)} random queries in {int(given.vertices)} random vertices")
+    if min(given.queries, given.rounds, given.columns, given.steps) < 1 or given.vertices < 3:
+        parser.error("three vertices, and one of everything else, are the least")
+    sizes = int(given.vertices), int(given.queries), given.rounds
+    if given.task == "interpolate":
+        print(f"{given.columns} fields of {sizes[0]} vertices at {sizes[1]} random queries")
+        times = measure_interpolation(*sizes, given.columns, given.seed)
+        _print_times(times, sizes[1] * given.columns, "ns a value")
+        return 0
+    if given.task == "particles":
+        print(f"{sizes[1]} particles among {sizes[0]} random vertices, {given.steps} steps")
+        times = measure_particles(*sizes, given.steps, given.seed)
+        _print_times(times, sizes[1] * given.steps * 2, "ns a location")
+        return 0
+    figures = measure(*sizes, names, given.seed)
+    print(f"{sizes[1]} random queries in {sizes[0]} random vertices")
     print(f"{'':22}{'build, s':>10}{'ns a query':>12}{'ratio':>8}{'same answers':>14}")
     for figure in figures:
         ratio = figure.query / figures[0].query

@@ -56,6 +56,16 @@ run bench paper b2 --sizes 1e4 "${few[@]}"; exits 0; sound 30
 publishes rectangle 10000 improved-orthogonal triangles_final 17.45
 publishes rectangle 10000 improved-orthogonal-vertex triangles_final 17.45
 publishes rectangle 10000 hybrid triangles 123.07
+# Sets in the place of the thesis' own data, as large as they are: walks are about as long as published.
+run bench paper C1 --sizes 4897,34932 --queries 2000 --no-times --format tsv; exits 0; says_nothing; sound 280
+publishes cadastre 4897 straight triangles 88.2
+publishes lidar 34932 remembering triangles 205.5
+for walk in remembering stochastic barycentric straight direct-dw1; do
+    holds "$walk in parcels" between 75 "$(ours cadastre 4897 "$walk" triangles)" 110
+    holds "$walk in flight strips" between 160 "$(ours lidar 34932 "$walk" triangles)" 260
+done
+run bench paper C1 --sizes 4897 --queries 100 --no-times; exits 0; says_nothing
+prints_line "^cadastre, 4897 vertices; a made set in the place of the thesis' own$"
 run bench paper C1 --sizes 1e4 "${few[@]}"; exits 0; sound 70
 publishes uniform 10000 direct-dw1 orient 104.2
 publishes uniform 10000 direct-dw2 orient 207.4
@@ -138,6 +148,7 @@ publishes cadastre-hull-sample 4897 border triangles_total 158.9
 holds "the mesh has as many triangles as the table's" test "$(ours cadastre 4897 mesh mesh_triangles)" == 9635
 holds "and border edges" test "$(ours cadastre 4897 mesh mesh_border_edges)" == 163
 holds "and fills as much of its hull" between 74 "$(ours cadastre 4897 mesh hull_percent)" 77
+holds "few lines leave the mesh" between 0 "$(ours cadastre-mesh-random 4897 border border_runs)" 0.5
 holds "a hundred queries in the mesh" test "$(ours cadastre-mesh-random 4897 border inside_percent)" == 100
 holds "fewer of those in the hull" between 55 "$(ours cadastre-hull-random 4897 border inside_percent)" 95
 holds "the border walk builds less" test "$(ours cadastre-mesh-random 4897 border locator_bytes)" -lt \

@@ -29,8 +29,8 @@ holds "the tasks" test "$(column 1)" == 'coherent half-outside random sorted tot
 holds "the set and its size" test "$(column 2,3)" == $'uniform\t300 '
 holds "an engine for streams takes streams only" \
     test "$(awk -F '\t' '$4 == "meshwalk-last" { printf "%s ", $1 }' "$logs/out")" == 'sorted coherent '
-run bench peers clusters,gaussian,rectangle,slivers,grid,arcs,rings,offset --sizes 100,1000 --engines $own "${small[@]}"
-exits 0; says_nothing; sound 352
+run bench peers clusters,gaussian,rectangle,slivers,grid,arcs,rings,offset,cadastre,lidar --sizes 100,1000 --engines $own "${small[@]}"
+exits 0; says_nothing; sound 440
 run bench peers uniform --sizes 10 --engines meshwalk --tasks total,dense,delaunay,connectivity "${small[@]}" --queries 1
 exits 0; says_nothing; sound 4
 # Threads are a row more for those that use them.

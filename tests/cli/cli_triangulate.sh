@@ -108,4 +108,38 @@ run triangulate zero.xyz -o zero.off; exits 0; prints_line '^duplicates +1$'; pr
 # Existing output survives a failure.
 printf 'precious\n' >keep.ply
 run triangulate line.xyz -o keep.ply; exits 3; holds "the old file is untouched" test "$(<keep.ply)" == precious
+
+# Regular: a heavy point in the middle of a square hides the light ones round it.
+cat >weighted.csv <<'EOF'
+x,y,z,mass
+0,0,1,0
+8,0,2,0
+8,8,3,0
+0,8,4,0
+4,4,5,9
+5,4,6,0
+4,3,7,-1
+4,4,8,2
+2,6,9,0.5
+EOF
+run triangulate --kind regular --weight mass weighted.csv -o regular.ply --hidden hidden.csv; exits 0; says_nothing
+prints_line '^ *points +9$'; prints_line '^ *duplicates +1$'; prints_line '^ *hidden +1$'
+holds "the light points are hidden" test "$(head -4 hidden.csv | xargs)" == 'point 6 7'
+run info regular.ply; exits 0; prints_line '^ *vertices +9$'
+sed 1d weighted.csv >bare.csv
+run triangulate --kind regular --weight c4 bare.csv -o bare.ply; exits 0
+run info bare.ply --json; exits 0; prints_line '"triangles": 8'
+run triangulate --kind regular --weight z weighted.csv -o by_z.ply -q; exits 0; prints ''
+run triangulate --kind regular --columns x,y,mass --weight mass weighted.csv -o taken.ply --json; exits 0
+prints_line '"hidden": 1'
+run triangulate --kind regular --columns x,y --weight mass weighted.csv -o no.off; refused 3 "no column 'mass' .*--columns"
+run triangulate --kind regular --weight weight weighted.csv -o no.off; refused 3 "weighted.csv: --weight: there is no column 'weight'"
+run triangulate --kind regular weighted.csv -o no.off; refused 2 'wants --weight COLUMN'
+run triangulate --weight mass weighted.csv -o no.off; refused 2 'about --kind regular'
+run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden no.off; refused 2 'cannot both go to'
+run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden weighted.csv; refused 2 'input and output'
+run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden -; refused 2 'wants a file'
+sed 's/,9$/,nan/' weighted.csv >missing.csv
+run triangulate --kind regular --weight mass missing.csv -o no.off; refused 3 'missing.csv: .*weight of point 4 is not finite'
+absent no.off
 finish

@@ -144,7 +144,7 @@ static void try_arrays(const arrays *a, uint64_t *random)
  * and turned round, whole, with holes, and in several pieces. */
 static void answers_are_those_of_a_mesh(void **state)
 {
-    uint64_t random = environment_seed(11);
+    uint64_t random = environment_print_seed("borrow", 11);
     (void)state;
     for (int round = 0; round < 16; round++) {
         arrays a = arrays_grid(1 + (uint32_t)round / 2, round & 1 ? 0 : 0.9, &random);
@@ -168,7 +168,7 @@ static void answers_are_those_of_a_mesh(void **state)
 static void extreme_coordinates_are_exact(void **state)
 {
     static const double scale[] = {1e-300, 1e300, 1e-15};
-    uint64_t random = environment_seed(12);
+    uint64_t random = environment_print_seed("borrow", 12);
     (void)state;
     for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
         arrays a = arrays_grid(4, 0.7, &random);
@@ -186,7 +186,7 @@ static void extreme_coordinates_are_exact(void **state)
 /* Triangles without area, inside of the mesh and along its hull. */
 static void flat_triangles_own_no_point(void **state)
 {
-    uint64_t random = environment_seed(13);
+    uint64_t random = environment_print_seed("borrow", 13);
     (void)state;
     for (int at_hull = 0; at_hull < 2; at_hull++) {
         /* a square with a vertex on its diagonal or its lowest side, where a flat triangle closes the gap */
@@ -331,7 +331,7 @@ static void an_empty_mesh_contains_nothing(void **state)
 static void damage_does_no_harm(void **state)
 {
     enum { ROUNDS = 40, EACH = 6 };
-    uint64_t random = environment_seed(14);
+    uint64_t random = environment_print_seed("borrow", 14);
     (void)state;
     for (int round = 0; round < ROUNDS; round++) {
         arrays a = arrays_grid(6, 0.8, &random);
@@ -375,7 +375,7 @@ static void damage_does_no_harm(void **state)
 static void coordinates_are_independent_of_orientation(void **state)
 {
     enum { QUERIES = 200 };
-    uint64_t random = environment_seed(15);
+    uint64_t random = environment_print_seed("borrow", 15);
     (void)state;
     mw_walk_kind walks[2] = {MW_WALK_BARYCENTRIC, MW_WALK_DIRECT};
     arrays a = arrays_grid(20, 0.6, &random);

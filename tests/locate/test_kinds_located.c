@@ -69,6 +69,25 @@ static void test_kinds(void **state)
         }
 }
 
+/* Regular triangulations whose points have weights: most are not Delaunay, and some points are hidden. */
+static void test_regular(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    for (int round = 0; round < 3; round++) {
+        double points[2 * POINTS], weights[POINTS];
+        mw_mesh *mesh;
+        mw_error error;
+        mw_kind_options options = {.weights = weights};
+        draw_points(round, points, &random);
+        for (int i = 0; i < POINTS; i++) weights[i] = (round ? 0.3 : 0.02) * random_unit(&random);
+        expect_ok(mw_triangulate(MW_KIND_REGULAR, points, POINTS, 2, &options, NULL, NULL, &mesh, &error), "regular",
+                  &error);
+        expect_all_walks(mesh, "regular, weighted", &random);
+        mw_mesh_destroy(mesh);
+    }
+}
+
 /* A star of long segments, which no Delaunay triangulation of the points has. */
 static void test_constrained(void **state)
 {
@@ -98,6 +117,7 @@ static void test_constrained(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds), cmocka_unit_test(test_constrained)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds), cmocka_unit_test(test_regular),
+                                       cmocka_unit_test(test_constrained)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import meshwalk.bench
@@ -23,6 +24,26 @@ def test_the_table(capsys: pytest.CaptureFixture[str]) -> None:
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "100 random queries in 200 random vertices"
     assert [line.split()[0] for line in lines[2:]] == ["meshwalk", "scipy"]
-    for wrong in (["--peers", "none"], ["--vertices", "2"], ["--rounds", "0"]):
+    for wrong in (["--peers", "none"], ["--vertices", "2"], ["--rounds", "0"], ["--task", "none"]):
         with pytest.raises(SystemExit):
             meshwalk.bench.main(wrong)
+
+
+@pytest.mark.parametrize(("task", "first"), [("interpolate", "3 fields"), ("particles", "50 part")])
+def test_other_tasks(task: str, first: str, capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--vertices", "200", "--queries", "50", "--rounds", "1", "--columns", "3"]
+    assert meshwalk.bench.main([*options, "--steps", "4", "--task", task]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith(first)
+    assert lines[2].split()[0].startswith("meshwalk")
+    assert lines[2].split()[-1] == "1.00"
+
+
+def test_particles_go_the_same_way() -> None:
+    random = np.random.default_rng(4)
+    locator = meshwalk.Locator(meshwalk.delaunay(random.uniform(size=(300, 2))))
+    place = random.uniform(0.2, 0.8, (40, 2))
+    by_cursor = meshwalk.bench._drift(meshwalk.Cursor(locator).locate, place, 30)
+    np.testing.assert_array_equal(by_cursor, meshwalk.bench._drift(locator.locate, place, 30))
+    radius = np.hypot(*(by_cursor - 0.5).T)
+    np.testing.assert_allclose(radius, np.hypot(*(place - 0.5).T), rtol=0.01)

@@ -188,9 +188,10 @@ static mw_status kind_run(mw_triangulation_kind kind, const call_inputs *in, con
 {
     mw_mesh *mesh;
     mw_kind_options options = {.threads = how->threads, .progress = how->progress};
-    /* other kinds than Delaunay take a hundred times as long, on one thread */
+    /* most other kinds take a hundred times as long, on one thread */
     enum { MOST = 1500 };
-    uint32_t n = kind == MW_KIND_DELAUNAY || in->point_count < MOST ? in->point_count : MOST;
+    bool all = kind == MW_KIND_DELAUNAY || kind == MW_KIND_REGULAR;
+    uint32_t n = all || in->point_count < MOST ? in->point_count : MOST;
     mw_status status = mw_triangulate(kind, in->points, n, 2, &options, NULL, NULL, &mesh, error);
     return mesh_made(status, mesh, sum);
 }
@@ -213,6 +214,11 @@ static mw_status run_kind_min_weight(const call_inputs *in, const call_setting *
 static mw_status run_kind_min_max_angle(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
 {
     return kind_run(MW_KIND_MIN_MAX_ANGLE, in, how, sum, error);
+}
+
+static mw_status run_kind_regular(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+{
+    return kind_run(MW_KIND_REGULAR, in, how, sum, error);
 }
 
 static mw_status run_constrained(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
@@ -706,6 +712,7 @@ const long_call long_calls[] = {
     {"mw_triangulate, greedy", run_kind_greedy},
     {"mw_triangulate, least weight", run_kind_min_weight},
     {"mw_triangulate, least angle", run_kind_min_max_angle},
+    {"mw_triangulate, regular", run_kind_regular},
     {"mw_constrained_delaunay", run_constrained},
     {"mw_polygons_create", run_polygons},
     {"mw_mesh_create, laid out", run_mesh_laid_out},

@@ -1,8 +1,8 @@
 /* kind_maker.h - what the kinds of triangulation work on: records of a Delaunay triangulation that
  * they turn into their own. Private.
  *
- * All triangulations of a set of points have the same number of triangles. So each kind works in
- * place, by exchanging diagonals or by writing all records anew. */
+ * All triangulations of a set of points have the same number of triangles, or fewer if points are left
+ * out. So each kind works in place, by exchanging diagonals or by writing all records anew. */
 #ifndef MW_SRC_TRIANGULATE_KINDS_KIND_MAKER_H
 #define MW_SRC_TRIANGULATE_KINDS_KIND_MAKER_H
 

@@ -114,6 +114,7 @@ static mw_status kind_convert(mw_triangulation_kind kind, mw_mesh *mesh, const m
     mw__job_part_end(job, outer);
     if (status == MW_OK && kind != MW_KIND_DELAUNAY && !triangulation_lay_out(&t)) status = mw__fail_memory(error);
     mesh->tri = t.tri;
+    mesh->tri_count = t.tri_count;
     if (status == MW_OK) triangulation_measure(&t, report);
     return status;
 }
