@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info) echo "--as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --json $common" ;;
+        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -109,7 +109,7 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --field | --layer | --where | --attribute | --polygon-layer) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --constraints-crs | --field | --layer | --where | --attribute | --polygon-layer) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then

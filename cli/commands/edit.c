@@ -226,7 +226,7 @@ static int edit_work_prepare(const edit_settings *s, const char *path, edit_work
     mw_mesh *mesh = NULL;
     int end = edit_read_mesh(path, s->common.threads, &mesh, &w->crs);
     if (end == 0 && s->constraints)
-        end = traced_constraints_read(&w->constraints, s->constraints, &s->common, mesh, path);
+        end = traced_constraints_read(&w->constraints, s->constraints, &s->common, mesh, path, w->crs);
     if (end == 0) end = edit_work_make_editor(s, path, mesh, w);
     mw_mesh_destroy(mesh);
     w->ready = monotonic_seconds();

@@ -7,6 +7,7 @@
 #include "cli/frame/report.h"
 #include "cli/input/constraint_file.h"
 #include "cli/input/missing_values.h"
+#include "cli/input/vertex_crs.h"
 #include "cli/input/vertex_table.h"
 #include "cli/output/border_peel.h"
 #include "cli/output/mesh_output.h"
@@ -19,6 +20,7 @@
 
 typedef struct triangulate_settings {
     common_settings common;
+    vertex_crs_settings crs;
     const char *columns, *classes, *constraints, *boundary, *weight, *hidden;
     int kind, format, keep;
     uint32_t limit;
@@ -89,6 +91,14 @@ static const option triangulate_options[] = {
      NULL},
     {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
      "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)", NULL},
+    {"crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.mesh), "CRS",
+     "the coordinate system of MESH, as EPSG:2056 (default: that of POINTS, or else of the constraints); what is in "
+     "another system is transformed",
+     NULL},
+    {"points-crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.points), "CRS",
+     "that of POINTS (default: what they tell, or else that of MESH)", NULL},
+    {"constraints-crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.constraints), "CRS",
+     "that of the constraints (default: what they tell, or else that of MESH)", NULL},
     {"json", 0, OPTION_FLAG, offsetof(triangulate_settings, json), NULL, "print the report as JSON", NULL},
     {0},
 };
@@ -339,10 +349,12 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
     if (s->boundary && s->keep) return triangulate_refuse("--boundary tells what to keep: --keep cannot");
     if (!points && !s->constraints && !s->boundary)
         return triangulate_refuse("wants POINTS, or --constraints FILE, or --boundary FILE");
-    if (!points && (s->columns || s->classes))
-        return triangulate_refuse("--columns and --class are about POINTS, which are missing");
+    if (!points && (s->columns || s->classes || s->crs.points))
+        return triangulate_refuse("--columns, --class and --points-crs are about POINTS, which are missing");
     if (!s->constraints && !s->boundary && (s->keep || s->split || s->strict))
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
+    if (!s->constraints && !s->boundary && s->crs.constraints)
+        return triangulate_refuse("--constraints-crs is about --constraints");
     if ((s->constraints || s->boundary) && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--constraints and --boundary are for --kind delaunay only");
     if (!s->weight && s->kind == MW_KIND_REGULAR) return triangulate_refuse("--kind regular wants --weight COLUMN");
@@ -359,6 +371,7 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
 {
     const char *output = s->common.output, *files[] = {points, s->constraints, s->boundary}, *inputs[3];
     int count = 0, end = triangulate_check_combination(s, points);
+    if (end == 0) end = vertex_crs_check(&s->crs);
     for (int i = 0; i < 3; i++)
         if (files[i]) inputs[count++] = files[i];
     if (end == 0) end = mesh_output_check("triangulate", output, s->format);
@@ -368,21 +381,6 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
     const side_output hidden = {.option = "hidden", .path = s->hidden};
     if (end == 0) end = side_outputs_check(&hidden, 1, output, inputs, count);
     return end || !s->hidden ? end : files_try_output(s->hidden, NULL);
-}
-
-/* Read the boundary, and put it to the constraints. */
-static int triangulate_read_boundary(const triangulate_settings *s, triangulate_work *w)
-{
-    mw_constraint_file boundary = {0};
-    const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
-    int end = constraint_file_read(s->boundary, options, &boundary);
-    if (end == 0 && boundary.polygon_count == 0 && (s->constraints || !constraint_file_is_poly(&boundary))) {
-        complain("%s: holds no polygon, so it is no boundary", s->boundary);
-        end = END_INPUT;
-    }
-    if (end == 0) end = constraint_file_join(&w->constraints, &boundary);
-    mw_constraint_file_release(&boundary);
-    return end;
 }
 
 /* A boundary counts as constraints, of which the inside is kept, with a vertex where some cross. */
@@ -396,15 +394,41 @@ static triangulate_settings triangulate_settle(const triangulate_settings *given
     return s;
 }
 
+/* Refuse a boundary without polygons; but alone, the segments of a .poly bound, too. */
+static int triangulate_check_boundary(const triangulate_settings *s, const mw_constraint_file *boundary)
+{
+    bool alone = s->boundary == s->constraints;
+    if (!s->boundary || boundary->polygon_count > 0 || (alone && constraint_file_is_poly(boundary))) return 0;
+    complain("%s: holds no polygon, so it is no boundary", s->boundary);
+    return END_INPUT;
+}
+
+/* Read a boundary beside constraints, and put it to them. */
+static int triangulate_join_boundary(const triangulate_settings *s, const char *points, triangulate_work *w)
+{
+    mw_constraint_file boundary = {0};
+    const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
+    if (!s->boundary) return 0;
+    int end = constraint_file_read(s->boundary, options, &boundary);
+    if (end == 0) end = triangulate_check_boundary(s, &boundary);
+    if (end == 0)
+        end = vertex_crs_move_constraints(&s->common, s->boundary, &boundary, points ? points : s->constraints,
+                                          w->vertices.file.crs);
+    if (end == 0) end = constraint_file_join(&w->constraints, &boundary);
+    mw_constraint_file_release(&boundary);
+    return end;
+}
+
 static int triangulate_read_input(const triangulate_settings *s, const char *points, triangulate_work *w)
 {
     const vertex_table_options how = {s->columns, s->classes, s->common.quiet};
     int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
-    if (end || (!s->constraints && !s->boundary)) return end;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
-    if (s->constraints) end = constraint_file_read(s->constraints, options, &w->constraints);
-    if (end == 0 && s->boundary) end = triangulate_read_boundary(s, w);
-    return end ? end : vertex_table_append(&w->vertices, &w->constraints);
+    if (end == 0 && s->constraints) end = constraint_file_read(s->constraints, options, &w->constraints);
+    if (end == 0 && s->boundary == s->constraints) end = triangulate_check_boundary(s, &w->constraints);
+    if (end == 0) end = vertex_crs_join(&s->crs, &s->common, points, &w->vertices, s->constraints, &w->constraints);
+    if (end == 0 && s->boundary != s->constraints) end = triangulate_join_boundary(s, points, w);
+    return end || !s->constraints ? end : vertex_table_append(&w->vertices, &w->constraints);
 }
 
 static int triangulate_run(const void *settings, const char *const *operands)
@@ -415,7 +439,7 @@ static int triangulate_run(const void *settings, const char *const *operands)
     bool temporary = false;
     int end = triangulate_check_settings(given, points);
     if (end == 0) end = files_try_output(s->common.output, &temporary);
-    if (end == 0) end = triangulate_read_input(given, points, &w);
+    if (end == 0) end = triangulate_read_input(s, points, &w);
     if (end == 0)
         end = s->constraints ? triangulate_with_constraints(s, points, &w) : triangulate_points(s, points, &w);
     if (end == 0) triangulate_warn_of_points(s, points, &w);

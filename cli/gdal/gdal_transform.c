@@ -17,8 +17,6 @@ enum { MOST_MEMBERS = 32 };
 /* What one thread works with: nothing of PROJ is shared. */
 typedef struct transform_member {
     OGRCoordinateTransformationH way;
-    double x[CHUNK], y[CHUNK];
-    int done[CHUNK];
 } transform_member;
 
 struct gdal_transform {
@@ -88,25 +86,23 @@ void gdal_transform_close(gdal_transform *t)
     free(t);
 }
 
+/* GDAL chooses one way for all points of a call, by their mean: each point has a call of its own, so that
+ * its place depends on nothing else. */
+static bool transform_point(const gdal_transform *t, transform_member *m, double p[2])
+{
+    int done = 0;
+    bool finite = isfinite(p[0]) && isfinite(p[1]);
+    if (finite) t->gdal->OCTTransformEx(m->way, 1, &p[0], &p[1], NULL, &done);
+    bool good = done && isfinite(p[0]) && isfinite(p[1]);
+    if (!good) p[0] = p[1] = NAN;
+    return good || !finite;
+}
+
 static void transform_chunk(gdal_transform *t, transform_member *m, size_t first)
 {
-    size_t count = t->count - first < CHUNK ? t->count - first : CHUNK;
-    double *points = t->points + first * t->stride;
+    size_t end = t->count - first < CHUNK ? t->count : first + CHUNK;
     uint64_t lost = 0;
-    for (size_t i = 0; i < count; i++) {
-        m->x[i] = points[i * t->stride];
-        m->y[i] = points[i * t->stride + 1];
-        m->done[i] = 0;
-    }
-    t->gdal->OCTTransformEx(m->way, (int)count, m->x, m->y, NULL, m->done);
-    for (size_t i = 0; i < count; i++) {
-        double *p = points + i * t->stride;
-        bool finite = isfinite(p[0]) && isfinite(p[1]);
-        bool good = finite && m->done[i] && isfinite(m->x[i]) && isfinite(m->y[i]);
-        lost += finite && !good;
-        p[0] = good ? m->x[i] : NAN;
-        p[1] = good ? m->y[i] : NAN;
-    }
+    for (size_t i = first; i < end; i++) lost += !transform_point(t, m, t->points + i * t->stride);
     atomic_fetch_add(&t->lost, lost);
 }
 

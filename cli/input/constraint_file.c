@@ -177,6 +177,5 @@ int constraint_file_join(mw_constraint_file *constraints, const mw_constraint_fi
     c->hole_seed_count += boundary->hole_seed_count;
     c->polygon_count = boundary->polygon_count;
     c->has_z = c->has_z || boundary->has_z;
-    if (!c->record_name) c->record_name = boundary->record_name;
     return 0;
 }

@@ -92,15 +92,17 @@ static size_t columns_find_clear(const query_columns *wanted, const mw_point_tab
     return 1;
 }
 
-/* Do the names of the columns mean longitude and latitude? */
-static bool columns_are_lonlat(const mw_point_table *table, const size_t *index)
+bool query_names_are_lonlat(const char *x, const char *y)
 {
     const mw_axis_names *set;
-    for (size_t s = 0; table->names && (set = mw_axis_names_at(s)); s++)
-        if (set->lonlat && mw_axis_name_matches(table->names[index[0]], set->axis[0]) &&
-            mw_axis_name_matches(table->names[index[1]], set->axis[1]))
-            return true;
+    for (size_t s = 0; x && y && (set = mw_axis_names_at(s)); s++)
+        if (set->lonlat && mw_axis_name_matches(x, set->axis[0]) && mw_axis_name_matches(y, set->axis[1])) return true;
     return false;
+}
+
+static bool columns_are_lonlat(const mw_point_table *table, const size_t *index)
+{
+    return table->names && query_names_are_lonlat(table->names[index[0]], table->names[index[1]]);
 }
 
 /* Files that end in .xyz have x, y and z first, without saying so. */

@@ -41,6 +41,9 @@ typedef struct query_columns {
 int query_columns_find(const query_columns *wanted, const char *path, mw_point_reader *reader, bool chosen,
                        size_t index[MAX_QUERY_COLUMNS], bool *lonlat);
 
+/* Do the names of two columns mean longitude and latitude, in this order? */
+bool query_names_are_lonlat(const char *x, const char *y);
+
 /* Refuse a table of points, read from its first column on as mw_point_reader_open does, whose header does
  * not tell which columns are x and y: none is known and there are others, or several are. Returns 0, or an
  * exit code after a complaint. */

@@ -3,6 +3,7 @@
 #include "cli/frame/progress.h"
 #include "cli/frame/text.h"
 #include "cli/input/constraint_file.h"
+#include "cli/input/vertex_crs.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
@@ -141,7 +142,7 @@ static int tracer_follow_all(constraint_tracer *s, traced_constraints *traced)
 }
 
 int traced_constraints_read(traced_constraints *traced, const char *path, const common_settings *common,
-                            const mw_mesh *mesh, const char *mesh_path)
+                            const mw_mesh *mesh, const char *mesh_path, const char *mesh_crs)
 {
     mw_constraint_file file;
     *traced = (traced_constraints){0};
@@ -150,7 +151,8 @@ int traced_constraints_read(traced_constraints *traced, const char *path, const 
     progress_phase("preparing", mesh_path);
     constraint_tracer s = {
         .path = path, .mesh_path = mesh_path, .file = &file, .mesh = mesh, .threads = common->threads};
-    end = tracer_follow_all(&s, traced);
+    end = vertex_crs_move_constraints(common, path, &file, mesh_path, mesh_crs);
+    if (end == 0) end = tracer_follow_all(&s, traced);
     mw_locator_destroy(s.locator);
     vertex_triangles_release(&s.triangles);
     mw_constraint_file_release(&file);

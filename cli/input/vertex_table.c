@@ -211,6 +211,7 @@ int vertex_table_read(vertex_table *v, const char *path, const vertex_table_opti
     progress_phase("reading", path);
     if (mw_point_reader_open(path, &options, &c.reader, &error) != MW_OK) return fail_reading(&error);
     end = point_rows_take(v, &c, how->columns != NULL);
+    v->lonlat = query_names_are_lonlat(mw_point_reader_column(c.reader, 0), mw_point_reader_column(c.reader, 1));
     const char *crs = mw_point_reader_crs(c.reader);
     if (end == 0 && crs && !(v->file.crs = strdup(crs))) end = fail_memory();
     mw_point_reader_close(c.reader);

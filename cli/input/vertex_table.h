@@ -11,6 +11,7 @@ typedef struct vertex_table {
     size_t points;       /* the number of vertices from POINTS, the first ones */
     size_t point_fields; /* the number of fields that POINTS have, the first ones */
     bool point_heights;  /* do POINTS have heights? */
+    bool lonlat;         /* do the names of their columns mean longitude and latitude? */
     char *height_name;   /* the column of POINTS that the heights come from; NULL: none */
 } vertex_table;
 

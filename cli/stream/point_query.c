@@ -3,7 +3,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
-#include "cli/input/mesh_crs.h"
+#include "cli/gdal/mesh_crs.h"
 #include "cli/stream/statistics.h"
 
 #include <stdlib.h>

@@ -126,11 +126,12 @@ int buffer_get_writable(PyObject *object, size_t size, size_t count, Py_buffer *
     return buffer_get_counted(object, PyBUF_WRITABLE, size, count, view);
 }
 
-int buffer_get_batch(PyObject *points, PyObject *out, PyObject *hints, buffer_batch *batch)
+int buffer_get_batch(PyObject *points, size_t width, PyObject *out, size_t size, PyObject *hints,
+                     buffer_batch *batch)
 {
     batch->hints = (Py_buffer){0};
-    if (buffer_get_points(points, 2, &batch->points)) return -1;
-    if (!buffer_get_writable(out, sizeof(mw_location), batch->points.count, &batch->out)) {
+    if (buffer_get_points(points, width, &batch->points)) return -1;
+    if (!buffer_get_writable(out, size, batch->points.count, &batch->out)) {
         if (hints == Py_None ||
             !buffer_get_writable(hints, sizeof(uint32_t), batch->points.count, &batch->hints))
             return 0;

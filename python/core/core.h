@@ -85,15 +85,16 @@ int buffer_get_writable(PyObject *object, size_t size, size_t count, Py_buffer *
 /* Members in a buffer of members of `size` bytes without gaps; their number goes to *count. */
 int buffer_get_all(PyObject *object, size_t size, Py_buffer *view, size_t *count);
 
-/* Points in the plane, room for where they lie, and hints where there are any. */
+/* Queries of a batch, room for the answers, and hints where there are any. */
 typedef struct buffer_batch {
     buffer_points points;
     Py_buffer out, hints; /* hints.buf is NULL without hints */
 } buffer_batch;
 
-/* `out` has room for a mw_location for each of the points, and `hints` for a uint32, or is None.
- * 0, or -1 with an exception; released by buffer_release_batch. */
-int buffer_get_batch(PyObject *points, PyObject *out, PyObject *hints, buffer_batch *batch);
+/* `points` are rows of `width` doubles; `out` has room for an answer of `size` bytes for each, and
+ * `hints` for a uint32, or is None. 0, or -1 with an exception; released by buffer_release_batch. */
+int buffer_get_batch(PyObject *points, size_t width, PyObject *out, size_t size, PyObject *hints,
+                     buffer_batch *batch);
 void buffer_release_batch(buffer_batch *batch);
 
 /* Values at vertices: the buffer of a two-dimensional array. */
@@ -150,6 +151,7 @@ int star_init(PyObject *module, core_state *state);
 int prober_init(PyObject *module, core_state *state);
 int editor_init(PyObject *module, core_state *state);
 int check_init(PyObject *module);
+int borrowed_init(PyObject *module);
 int layouts_init(PyObject *module);
 int triangulation_init(PyObject *module);
 int files_init(PyObject *module);

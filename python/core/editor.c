@@ -382,7 +382,8 @@ static PyObject *editor_locate(PyObject *self, PyObject *args)
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &hints, option_uint32, &options.threads,
                           &function) ||
-        editor_is_busy(object) || buffer_get_batch(points, out, hints, &batch))
+        editor_is_busy(object) ||
+        buffer_get_batch(points, 2, out, sizeof(mw_location), hints, &batch))
         return NULL;
     options.hints = batch.hints.buf;
     options.progress = progress_begin(object->state, function, &progress);

@@ -105,7 +105,8 @@ static PyObject *locator_locate(PyObject *self, PyObject *args)
     if (!PyArg_ParseTuple(args, "OOOssdO&O&O", &points, &out, &hints, &query.walk, &query.start,
                           &options->tolerance, option_uint32, &options->lanes, option_uint32,
                           &options->threads, &function) ||
-        locator_resolve_names(&query) || buffer_get_batch(points, out, hints, &batch))
+        locator_resolve_names(&query) ||
+        buffer_get_batch(points, 2, out, sizeof(mw_location), hints, &batch))
         return NULL;
     options->hints = batch.hints.buf;
     options->progress = progress_begin(object->state, function, &progress);

@@ -3,10 +3,15 @@
 
 int option_uint32(PyObject *object, void *number)
 {
-    unsigned long value = PyLong_AsUnsignedLong(object);
-    if (value == (unsigned long)-1 && PyErr_Occurred()) return 0;
-    if (value > UINT32_MAX) {
-        PyErr_Format(PyExc_OverflowError, "%lu is more than 2**32 - 1", value);
+    const unsigned long value = PyLong_AsUnsignedLong(object);
+    int large = value > UINT32_MAX;
+    if (value == (unsigned long)-1 && PyErr_Occurred()) {
+        if (!PyErr_ExceptionMatches(PyExc_OverflowError)) return 0;
+        PyErr_Clear();
+        large = 1;
+    }
+    if (large) {
+        PyErr_Format(PyExc_OverflowError, "%R is not from 0 to 2**32 - 1", object);
         return 0;
     }
     *(uint32_t *)number = (uint32_t)value;

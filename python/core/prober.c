@@ -67,8 +67,7 @@ static PyObject *prober_probe(PyObject *self, PyObject *args)
     const char *start;
     mw_progress progress;
     mw_probe_options options = {0};
-    buffer_points given;
-    Py_buffer touches;
+    buffer_batch batch;
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOdpsO&O&O", &queries, &out, &options.max_distance,
@@ -78,18 +77,13 @@ static PyObject *prober_probe(PyObject *self, PyObject *args)
     options.start = prober_start_by_name(start);
     if (options.start == MW_PROBE_START_COUNT)
         return PyErr_Format(PyExc_ValueError, "there is no start '%s'", start);
-    if (buffer_get_points(queries, 6, &given)) return NULL;
-    if (buffer_get_writable(out, sizeof(mw_touch), given.count, &touches)) {
-        PyBuffer_Release(&given.view);
-        return NULL;
-    }
+    if (buffer_get_batch(queries, 6, out, sizeof(mw_touch), Py_None, &batch)) return NULL;
     options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = mw_probe_batch(object->prober, given.points, given.count, given.stride, &options,
-                            touches.buf, NULL, &error);
+    status = mw_probe_batch(object->prober, batch.points.points, batch.points.count,
+                            batch.points.stride, &options, batch.out.buf, NULL, &error);
     Py_END_ALLOW_THREADS
-    PyBuffer_Release(&touches);
-    PyBuffer_Release(&given.view);
+    buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
@@ -127,25 +121,19 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
     prober_object *object = (prober_object *)self;
     PyObject *points, *out, *function;
     mw_progress progress;
-    buffer_points given;
-    prober_search search = {.prober = object->prober, .given = &given};
-    Py_buffer nearest;
+    buffer_batch batch;
+    prober_search search = {.prober = object->prober, .given = &batch.points};
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOdO", &points, &out, &search.max_distance, &function) ||
-        buffer_get_points(points, 3, &given))
+        buffer_get_batch(points, 3, out, sizeof(mw_nearest_surface_point), Py_None, &batch))
         return NULL;
-    if (buffer_get_writable(out, sizeof(mw_nearest_surface_point), given.count, &nearest)) {
-        PyBuffer_Release(&given.view);
-        return NULL;
-    }
-    search.nearest = nearest.buf;
+    search.nearest = batch.out.buf;
     search.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = prober_search_run(&search, &error);
     Py_END_ALLOW_THREADS
-    PyBuffer_Release(&nearest);
-    PyBuffer_Release(&given.view);
+    buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }

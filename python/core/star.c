@@ -55,8 +55,7 @@ static PyObject *star_locate(PyObject *self, PyObject *args)
     const char *walk, *start;
     mw_progress progress;
     mw_star_query_options options = {0};
-    buffer_points given;
-    Py_buffer locations;
+    buffer_batch batch;
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOssO&O", &points, &out, &walk, &start, option_uint32,
@@ -68,18 +67,13 @@ static PyObject *star_locate(PyObject *self, PyObject *args)
         return PyErr_Format(PyExc_ValueError, "there is no walk '%s'", walk);
     if (options.start == MW_STAR_START_COUNT)
         return PyErr_Format(PyExc_ValueError, "there is no start '%s'", start);
-    if (buffer_get_points(points, 3, &given)) return NULL;
-    if (buffer_get_writable(out, sizeof(mw_location), given.count, &locations)) {
-        PyBuffer_Release(&given.view);
-        return NULL;
-    }
+    if (buffer_get_batch(points, 3, out, sizeof(mw_location), Py_None, &batch)) return NULL;
     options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = mw_star_locate_batch(object->star, given.points, given.count, given.stride, &options,
-                                  locations.buf, NULL, &error);
+    status = mw_star_locate_batch(object->star, batch.points.points, batch.points.count,
+                                  batch.points.stride, &options, batch.out.buf, NULL, &error);
     Py_END_ALLOW_THREADS
-    PyBuffer_Release(&locations);
-    PyBuffer_Release(&given.view);
+    buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }

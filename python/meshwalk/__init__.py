@@ -15,6 +15,7 @@ Arrays of any real type are taken if doubles hold their numbers exactly. The int
 released while the library works, and objects may be used by any number of threads.
 """
 
+from meshwalk._borrowed import BorrowedMesh
 from meshwalk._check import Check, Defect, check, check_star, check_surface
 from meshwalk._core import Location
 from meshwalk._core import version as __version__
@@ -55,6 +56,7 @@ from meshwalk._triangulate import (
 from meshwalk._where import Where
 
 __all__ = [
+    "BorrowedMesh",
     "Change",
     "Check",
     "Constraints",

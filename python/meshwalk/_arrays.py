@@ -166,22 +166,20 @@ def indices(
     return np.require(array.astype(np.int64).astype(np.uint32), requirements=("C", "A"))
 
 
-def hints(given: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.uint32]:
-    """Triangles where queries begin, as the library takes them: a copy.
+def hints(given: ArrayLike, name: str, shape: tuple[int, ...] | None) -> NDArray[np.uint32]:
+    """Triangles where queries begin, as the library takes them: a copy of the same shape.
 
     What is negative, masked or too large to be a triangle is no hint.
     """
-    array = _as_array(given, "hints")
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"hints must be integers, not {array.dtype}")
-    if array.shape != shape:
-        raise ValueError(f"hints must have the shape of the points, {shape}, not {array.shape}")
+    array = _as_array(given, name)
+    if array.dtype.kind not in "iu" and array.size:
+        raise TypeError(f"{name} must be integers, not {array.dtype}")
+    if shape is not None and array.shape != shape:
+        raise ValueError(f"{name} must have the shape of the points, {shape}, not {array.shape}")
     none = np.iinfo(np.uint32).max
-    numbers = np.asarray(np.ma.getdata(array)).ravel()
-    unusable = (numbers < 0) | (numbers > none)
-    if isinstance(array, np.ma.MaskedArray):
-        unusable |= np.ma.getmaskarray(array).ravel()
-    out = numbers.astype(np.uint32)
+    numbers = np.asarray(np.ma.getdata(array))
+    unusable = (numbers < 0) | (numbers > none) | np.ma.getmaskarray(array)
+    out = numbers.astype(np.uint32, order="C")
     out[unusable] = none
     return out
 

@@ -99,6 +99,20 @@ def mesh_from_arrays(
     progress: Progress | None,
     /,
 ) -> _Mesh: ...
+def borrowed_locate(
+    points: Buffer,
+    triangles: Buffer,
+    neighbours: Buffer,
+    across_edge: bool,
+    unchecked: bool,
+    convex: bool,
+    xy: Buffer,
+    out: Buffer,
+    walk: str,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> bool: ...
 def locator_from_mesh(
     cls: type[_Locator],
     mesh: Mesh,

@@ -54,7 +54,7 @@ class Cursor:
     <Locations: 2 points; 1 inside, 1 outside>
     """
 
-    __slots__ = ("_hints", "_shape", "locator")
+    __slots__ = ("_hints", "locator")
 
     def __init__(self, locator: Locator | Editor, triangle: ArrayLike | None = None) -> None:
         if not isinstance(locator, (Locator, Editor)):
@@ -63,7 +63,6 @@ class Cursor:
             )
         self.locator = locator
         self._hints: NDArray[np.uint32] | None = None
-        self._shape: tuple[int, ...] = ()
         if triangle is not None:
             self.triangle = triangle
 
@@ -75,13 +74,11 @@ class Cursor:
         on with fewer or more points: ``cursor.triangle = cursor.triangle[afloat]``.
         """
         hints = np.empty(0, np.uint32) if self._hints is None else self._hints
-        return hints.view(np.int32).reshape(self._shape if self._hints is not None else (0,)).copy()
+        return hints.view(np.int32).copy()
 
     @triangle.setter
     def triangle(self, numbers: ArrayLike) -> None:
-        array: NDArray[Any] = np.ma.asanyarray(numbers)
-        self._shape = array.shape
-        self._hints = _arrays.hints(array, array.shape)
+        self._hints = _arrays.hints(numbers, "triangle", None)
 
     def locate(self, xy: ArrayLike, tolerance: float = 0, threads: int = 0) -> Locations:
         """Find the triangles that contain the points now.
@@ -105,17 +102,20 @@ class Cursor:
         ValueError
             There are more or fewer points than the last time; assign to `triangle` first.
         """
+        if isinstance(self.locator, Locator):
+            self.locator._check_tolerance(tolerance)
+        elif tolerance:
+            raise ValueError("an editor has no tolerance")
         points, shape = _arrays.queries(xy, "xy", 2)
         if self._hints is None:
-            self._shape, self._hints = shape, np.full(len(points), _NONE, np.uint32)
-        if shape != self._shape:
+            self._hints = np.full(shape, _NONE, np.uint32)
+        if shape != self._hints.shape:
+            last = (*self._hints.shape, 2)
             raise ValueError(
-                f"xy must have the shape {(*self._shape, 2)}, as the last time, not {(*shape, 2)};"
+                f"xy must have the shape {last}, as the last time, not {(*shape, 2)};"
                 " assign to the cursor's triangle to go on with other points"
             )
         if isinstance(self.locator, Editor):
-            if tolerance:
-                raise ValueError("an editor has no tolerance")
             return self.locator._locate_rows(points, self._hints, shape, threads, None)
         records = np.empty(len(points), LOCATION)
         self.locator._locate(

@@ -507,7 +507,7 @@ class Editor(_core.Editor):
         EditorLocations
         """
         points, shape = _arrays.queries(xy, "xy", 2)
-        first = None if hints is None else _arrays.hints(hints, shape)
+        first = None if hints is None else _arrays.hints(hints, "hints", shape)
         return self._locate_rows(points, first, shape, threads, progress)
 
     def _locate_rows(

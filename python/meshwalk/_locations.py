@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy.sparse import csr_array
 
+    from meshwalk._borrowed import BorrowedMesh
     from meshwalk._core import Progress
     from meshwalk._mesh import Mesh
     from meshwalk._surface import Surface
@@ -39,7 +40,7 @@ class Locations:
 
     Attributes
     ----------
-    mesh : Mesh or Surface
+    mesh : Mesh, Surface or BorrowedMesh
         The mesh in which the points were located.
     records : ndarray
         All answers, as a structured array.
@@ -63,7 +64,7 @@ class Locations:
 
     __slots__ = ("mesh", "records")
 
-    def __init__(self, mesh: Mesh | Surface, records: NDArray[Any]) -> None:
+    def __init__(self, mesh: Mesh | Surface | BorrowedMesh, records: NDArray[Any]) -> None:
         if records.dtype != LOCATION:
             raise TypeError(f"records must be of the type that locate gives, not {records.dtype}")
         self.mesh = mesh

@@ -199,11 +199,16 @@ class Locator(_core.Locator):
         >>> [meshwalk.Where(where).name for where in hit.where]
         ['NEAR', 'OUTSIDE']
         """
+        self._check_tolerance(tolerance)
         points, shape = _arrays.queries(xy, "xy", 2)
-        first = None if hints is None else _arrays.hints(hints, shape)
+        first = None if hints is None else _arrays.hints(hints, "hints", shape)
         records = np.empty(len(points), LOCATION)
         self._locate(points, records, first, walk, start, tolerance, lanes, threads, progress)
         return Locations(self.mesh, records.reshape(shape))
+
+    def _check_tolerance(self, tolerance: float) -> None:
+        if tolerance > 0 and not self._options["border"]:
+            raise ValueError("a tolerance needs a Locator that was made with border=True")
 
     def nearest_border(self, x: float, y: float) -> NearestBorder:
         """Find the border edge nearest to a point, exactly.

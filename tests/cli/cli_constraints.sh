@@ -78,6 +78,7 @@ rm other.node other.ele
 kept() { # kept TRIANGLES AREA FILE OPTIONS...
     local triangles=$1 area=$2
     shift 2
+    rm -f k.prj
     run triangulate --constraints "$@" -o k.off; exits 0; says_nothing; prints_line "^triangles +$triangles\$"
     run info k.off; prints_line "^area +$area\$"
     run check k.off; exits 0
@@ -109,8 +110,8 @@ if $geojson; then
     # lines bound nothing of their own
     printf '{"type":"LineString","coordinates":[[0,0],[4,0],[4,4],[0,0]]}' >line.geojson
     printf '0 4\n' >corner.xyz
-    kept 2 16 line.geojson corner.xyz
-    kept 1 8 line.geojson corner.xyz --keep inside
+    kept 2 16 line.geojson corner.xyz --crs EPSG:4326
+    kept 1 8 line.geojson corner.xyz --keep inside --crs EPSG:4326
     printf '{"type":"Polygon",\n"coordinates":[[[0,0],[1,0],[0,0]]]}' >ring.geojson
     run triangulate --constraints ring.geojson -o m.off
     refused 3 'ring\.geojson: warning: feature 0: ring 0 of polygon 0 has fewer than three different points: the polygon is'
@@ -279,5 +280,5 @@ for x in 0 1 2 3 4 5; do for y in 0 1 2 3 4 5; do echo "$x $y 1"; done; done >ma
 printf '{"type":"Polygon","coordinates":[[[0,0],[2,0],[2,2],[0,2],[0,0]]]}' >small.json
 run triangulate many.xyz --constraints small.json -o small.off; exits 0
 says '^meshwalk: many\.xyz: 27 of its 36 points lie outside of the polygons in small\.json.*--keep hull'
-run triangulate many.xyz --constraints small.json --keep hull -o small.off; exits 0; says_nothing
+run triangulate many.xyz --constraints small.json --keep hull --crs EPSG:4326 -o small.off; exits 0; says_nothing
 finish

@@ -144,11 +144,38 @@ done
 run locate --polygons canton.geojson --attribute id swiss.csv; exits 0
 says 'swiss\.csv: warning: its coordinate system is not known, and canton\.geojson is in EPSG:4326'
 
+# Points and constraints of a triangulation come into one system: that of --crs, or of the points, or of the constraints.
+printf '%s\n' E,N,h 2600000,1200000,1 2600100,1200000,2 2600050,1200100,3 >survey.csv
+echo '{"type":"LineString","coordinates":[[7.438960837,46.951172702],[7.439387,46.951352619]]}' >brook.geojson
+run triangulate survey.csv --constraints brook.geojson -q -o t.ply; exits 0 # unknown and known
+run info t.ply; prints_line '^crs +not known$'; prints_line '^low +7\.4'
+run triangulate survey.csv --constraints brook.geojson -o t.ply; exits 0
+says 'survey\.csv: warning: its coordinate system is not known, and brook\.geojson is in EPSG:4326.*--points-crs tells'
+run triangulate survey.csv --points-crs EPSG:2056 --constraints brook.geojson -o t.ply; exits 0; says_nothing
+run info t.ply; prints_line '^crs +EPSG:2056'; prints_line '^low +2600000 1200000$'
+run_on 'locate 2600051 1200040' edit t.ply - --constraints brook.geojson -q -o u.ply; exits 0
+cp "$logs/out" u.txt
+run triangulate survey.csv --crs EPSG:2056 --constraints brook.geojson -o v.ply; exits 0; says_nothing
+holds "--crs tells the system of points that do not" same_text t.ply v.ply
+run triangulate survey.csv --crs EPSG:4326 --points-crs EPSG:2056 --constraints brook.geojson -o w.ply; exits 0; says_nothing
+run info w.ply; prints_line '^crs +EPSG:4326'; prints_line '^high +7\.4399.* 46\.95198'
+run triangulate gps.csv --points-crs EPSG:4326 --crs EPSG:2056 -o x.ply; refused 3 'gps\.csv: 1 of its points have no place in EPSG:2056'
+run triangulate --constraints brook.geojson --crs EPSG:2056 --keep hull -o x.ply; exits 3
+printf '%s\n' lon,lat,z 7.438,46.951,1 7.439,46.951,2 7.4385,46.952,3 >lonlat.csv
+run triangulate lonlat.csv -o x.ply; exits 0; says_nothing; run info x.ply; prints_line '^crs +not known$'
+run triangulate lonlat.csv --crs EPSG:2056 -o x.ply; exits 0; says 'taken as WGS 84 \(EPSG:4326\)'
+run info x.ply; prints_line '^low +2599.* 11999'
+run triangulate lonlat.csv --crs x -o x.ply; refused 2 "'--crs' wants a coordinate system"
+run triangulate lonlat.csv --constraints-crs EPSG:4326 -o x.ply; refused 2 'is about --constraints'
+run triangulate --points-crs EPSG:4326 --constraints brook.geojson -o x.ply; refused 2 'about POINTS, which are missing'
+
 # Without GDAL.
 mkdir without
 for library in /usr/lib/x86_64-linux-gnu/libgdal.so.*; do : >"without/$(basename "$library")"; done
 export LD_LIBRARY_PATH=$PWD/without
 run sample --crs EPSG:2056 berne.off gps.csv; refused 3 'gps\.csv is in EPSG:4326, berne\.off in EPSG:2056: GDAL, which would transform it, cannot be loaded'
+run triangulate survey.csv --points-crs EPSG:2056 --constraints brook.geojson -o y.ply; refused 3 'brook\.geojson is in EPSG:4326, the mesh in EPSG:2056: GDAL'
+absent y.ply
 run sample --points-crs EPSG:4326 absent.off absent.csv; refused 3 "option '--points-crs': GDAL, which would transform the points"
 run sample -q --crs EPSG:2056 --points-crs epsg:2056 berne.off en.csv -o same.csv; exits 0; absent same.prj
 finish

@@ -198,7 +198,7 @@ cat >lines.geojson <<'END'
   {"type": "LineString", "coordinates": [[1, 1], [9, 1]]}]}
 END
 printf '%s\n' x,y 5,1.25 5,.75 8.5,1 >points.csv
-run triangulate points.csv --constraints lines.geojson -q -o c.ply; exits 0
+run triangulate points.csv --constraints lines.geojson --crs EPSG:4326 -q -o c.ply; exits 0
 run info c.ply; prints_line '^delaunay +no$'
 run_on $'insert 4 1.5\nremove 7\n' edit c.ply - -o d.ply --constraints lines.geojson; exits 3; says ':2: remove: '
 run_on $'constrain 0 1\n' edit c.ply - -o d.ply --constraints lines.geojson; exits 3; says ':1: constrain: '

@@ -82,8 +82,14 @@ def test_fewer_and_more_points(square: meshwalk.Mesh) -> None:
     assert list(cursor.triangle) == [0, 1, -1, 0]
     again = pickle.loads(pickle.dumps(cursor))
     np.testing.assert_array_equal(again.triangle, cursor.triangle)
-    with pytest.raises(TypeError, match="hints must be integers"):
+    with pytest.raises(TypeError, match="triangle must be integers"):
         cursor.triangle = np.array([0.5])
+    assert list(cursor.triangle) == [0, 1, -1, 0]
+    with pytest.raises(ValueError, match="made with border=True"):
+        cursor.locate(xy, tolerance=1)
+    with pytest.raises(OverflowError, match=r"-1 is not from 0 to 2\*\*32 - 1"):
+        cursor.locate(xy[[0, 1, 2, 0]], threads=-1)
+    assert cursor.locator.locate([], hints=[]).shape == (0,)
     with pytest.raises(TypeError, match=r"a meshwalk\.Locator or Editor, not Mesh"):
         meshwalk.Cursor(square)  # type: ignore[arg-type]
 

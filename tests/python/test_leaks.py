@@ -38,6 +38,10 @@ def _use_meshes(folder: Path) -> None:
     one = locator.locate_one(0.5, 0.5)
     _ = one.where, one.weights, one.triangle, one.hole, one.local, one.inside, repr(one)
     _ = repr(hit), hit.inside, hit[3:], locator.describe()
+    borrowed = meshwalk.BorrowedMesh(POINTS, TRIANGLES, mesh.neighbours, layout="edge")
+    borrowed.locate(POINTS)
+    with contextlib.suppress(meshwalk.InputError):
+        meshwalk.BorrowedMesh(POINTS, TRIANGLES, mesh.neighbours)
     locator.nearest_border(2, 2)
     hit.interpolate("z")
     hit.interpolate(np.zeros((400, 3), np.float32))

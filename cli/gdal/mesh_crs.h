@@ -1,6 +1,6 @@
 /* mesh_crs.h - the coordinate system of a file, by an option or by what the file tells. */
-#ifndef MW_CLI_INPUT_MESH_CRS_H
-#define MW_CLI_INPUT_MESH_CRS_H
+#ifndef MW_CLI_GDAL_MESH_CRS_H
+#define MW_CLI_GDAL_MESH_CRS_H
 
 #include <stdbool.h>
 

@@ -1,4 +1,4 @@
-#include "cli/input/mesh_crs.h"
+#include "cli/gdal/mesh_crs.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_crs.h"
