@@ -1,8 +1,11 @@
 /* fuzz_constrained.c - constrained triangulation of a few points and segments, checked by exact predicates: the mesh is an
- * embedding, each segment is a chain of constrained edges, and every other edge is locally Delaunay. */
+ * embedding, each segment is a chain of constrained edges, and every other edge is locally Delaunay. And the points as
+ * rings of polygons, which are held against an oracle. */
 #include <math.h>
 #include <meshwalk/meshwalk.h>
 #include <stdlib.h>
+
+#include "oracle/location_oracle.h"
 
 enum { MOST = 24, MOST_SEGMENTS = 24 };
 
@@ -76,6 +79,67 @@ static void check_embedding(const mw_mesh *mesh)
     if (!info.embedding || info.flat_triangles || info.clockwise_triangles) abort();
 }
 
+/* Rings of three points and more, each of one of three polygons; returns the segments. */
+static uint32_t make_rings(input *in, uint32_t n, uint32_t *segments, uint32_t *polygon)
+{
+    uint32_t m = 0;
+    for (uint32_t first = 0; first + 3 <= n;) {
+        uint32_t corners = 3 + next(in) % 4, of = next(in) % 3;
+        if (first + corners > n) corners = n - first;
+        for (uint32_t k = 0; k < corners; k++, m++) {
+            segments[2 * m] = first + k;
+            segments[2 * m + 1] = first + (k + 1) % corners;
+            polygon[m] = of;
+        }
+        first += corners;
+    }
+    return m;
+}
+
+static void check_point(const mw_polygons *polygons, const mw_constraints *rings, const mw_locator *locator,
+                        const double q[2])
+{
+    mw_cursor cursor = {0};
+    mw_polygon_hit hits[3];
+    mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
+    size_t count = mw_polygons_at(polygons, q, &at, hits, 3), i = 0;
+    for (uint32_t of = 0; of < 3; of++) {
+        polygon_side side = location_oracle_polygon(rings, of, q);
+        if (side == POLYGON_OUTSIDE) continue;
+        if (i >= count || hits[i].polygon != of || hits[i].border != (side == POLYGON_BORDER)) abort();
+        i++;
+    }
+    if (i != count) abort();
+}
+
+static void check_polygons(input *in, const double *points, uint32_t n, double scale, double offset)
+{
+    uint32_t segments[2 * MOST], polygon[MOST], found[3];
+    mw_constraints rings = {.points = points, .point_count = n, .segments = segments, .polygon = polygon};
+    rings.segment_count = make_rings(in, n, segments, polygon);
+    mw_polygons *polygons;
+    mw_locator *locator;
+    if (mw_polygons_create(&rings, NULL, &polygons, NULL)) {
+        if (polygons) abort();
+        return;
+    }
+    if (mw_locator_create(mw_polygons_mesh(polygons), NULL, &locator, NULL)) abort();
+    for (int i = 0; i < 12; i++) {
+        double q[2];
+        for (int k = 0; k < 2; k++) q[k] = (next(in) % 50 / 4.0 + offset) * scale;
+        check_point(polygons, &rings, locator, q);
+    }
+    for (uint32_t i = 0; i < n; i++) check_point(polygons, &rings, locator, points + 2 * i);
+    size_t count = mw_polygons_crossing(polygons, found, 3);
+    for (uint32_t of = 0, i = 0; of < 3; of++) {
+        bool listed = i < count && found[i] == of;
+        if (listed != location_oracle_crosses(&rings, of)) abort();
+        i += listed;
+    }
+    mw_locator_destroy(locator);
+    mw_polygons_destroy(polygons);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -93,6 +157,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         polygon[i] = next(&in) % 3 == 0 ? MW_NONE : 0;
     }
     for (int i = 0; i < 4; i++) holes[i] = (next(&in) / 20.0 + offset) * scale;
+    check_polygons(&in, points, (uint32_t)n, scale, offset);
     mw_constraints given = {.points = points,
                             .point_count = n,
                             .segments = segments,

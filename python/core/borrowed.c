@@ -23,7 +23,7 @@ static int borrowed_get(PyObject *const arrays[3], PyObject *points, PyObject *o
     }
     call->arrays.mesh = call->mesh.arrays;
     call->arrays.neighbours = call->neighbours.buf;
-    if (buffer_get_batch(points, out, Py_None, &call->batch) == 0) return 0;
+    if (buffer_get_batch(points, 2, out, sizeof(mw_location), Py_None, &call->batch) == 0) return 0;
     PyBuffer_Release(&call->neighbours);
     buffer_release_mesh(&call->mesh);
     return -1;

@@ -7,10 +7,11 @@ enum { FIRST_TABLE = 64 };
 
 bool mw__polygon_sets_create(mw_polygon_sets *s)
 {
-    *s = (mw_polygon_sets){.count = 1, .set_room = FIRST_TABLE, .table_size = FIRST_TABLE};
+    *s = (mw_polygon_sets){.count = 1, .set_room = FIRST_TABLE, .rank_room = FIRST_TABLE, .table_size = FIRST_TABLE};
+    s->rank = mw__alloc(s->rank_room, sizeof *s->rank); /* not NULL, even if no place is inside a polygon */
     s->first = mw__calloc(s->set_room, sizeof *s->first);
     s->table = mw__calloc(s->table_size, sizeof *s->table);
-    return s->first && s->table;
+    return s->first && s->rank && s->table;
 }
 
 void mw__polygon_sets_release(mw_polygon_sets *s)

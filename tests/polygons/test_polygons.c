@@ -274,6 +274,17 @@ static void nested_rings_are_listed(void **state)
     scene_check();
 }
 
+/* No place at all is inside. */
+static void a_ring_given_twice_encloses_nothing(void **state)
+{
+    (void)state;
+    scene_begin(1);
+    for (int i = 0; i < 2; i++) scene_box(0, 0, 2, 2, 0);
+    scene_query_near();
+    scene_query_random(20, -1, 3);
+    scene_check();
+}
+
 /* Coordinates at the ends of the doubles. */
 static void extreme_coordinates_are_exact(void **state)
 {
@@ -382,10 +393,15 @@ static void failing_allocations_are_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattice_rings_are_exact),       cmocka_unit_test(crossing_stars_are_exact),
-        cmocka_unit_test(parcels_share_borders),         cmocka_unit_test(nested_rings_are_listed),
-        cmocka_unit_test(extreme_coordinates_are_exact), cmocka_unit_test(numbers_need_not_be_dense),
-        cmocka_unit_test(what_is_no_polygon_is_refused), cmocka_unit_test(failing_allocations_are_reported),
+        cmocka_unit_test(lattice_rings_are_exact),
+        cmocka_unit_test(crossing_stars_are_exact),
+        cmocka_unit_test(parcels_share_borders),
+        cmocka_unit_test(nested_rings_are_listed),
+        cmocka_unit_test(a_ring_given_twice_encloses_nothing),
+        cmocka_unit_test(extreme_coordinates_are_exact),
+        cmocka_unit_test(numbers_need_not_be_dense),
+        cmocka_unit_test(what_is_no_polygon_is_refused),
+        cmocka_unit_test(failing_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
