@@ -14,6 +14,15 @@ endforeach()
 install(DIRECTORY include/meshwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 
+# Manual pages of section 3 come from the comments of the headers.
+file(GLOB headers CONFIGURE_DEPENDS include/meshwalk/*.h)
+set(man3_dir ${PROJECT_BINARY_DIR}/man3)
+add_custom_command(OUTPUT ${man3_dir}/meshwalk-base.3
+  COMMAND ${PROJECT_SOURCE_DIR}/tools/make_man3 ${PROJECT_SOURCE_DIR}/include ${man3_dir}
+  DEPENDS ${headers} tools/make_man3 tools/man3.awk docs/man/meshwalk.1)
+add_custom_target(man3 ALL DEPENDS ${man3_dir}/meshwalk-base.3)
+install(DIRECTORY ${man3_dir}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
+
 set(needs_jansson OFF)
 if(TARGET PkgConfig::JANSSON)
   set(needs_jansson ON)

@@ -1,10 +1,15 @@
-/* io.h - reading and writing meshes and points.
+/**
+ * @file io.h
+ * Reading and writing meshes, points, constraints and edits.
  *
- * Formats are recognised by content where it tells, else by the name; every reader takes gzip. Readers trust no count
- * in a header, and use memory in proportion to what a file really holds. Errors read "FILE:LINE: what is wrong" (then
- * mw_error.line is set; binary files: "FILE: at byte N: ..."). Numbers are read and written the same in every locale,
- * and round-trip. A written file appears under its final name only when it is complete. "-" is standard input or
- * output. Functions are thread-safe on different objects. */
+ * Formats are recognised by content where possible, else by name. Every reader accepts gzip.
+ * Readers trust no count in a header and use memory in proportion to what a file really holds.
+ * Errors read "FILE:LINE: what is wrong" and set mw_error.line; for binary files "FILE: at byte N:
+ * ...". Numbers are read and written the same way in every locale, and round-trip. A written file
+ * appears under its final name only when it is complete. "-" is standard input or output.
+ *
+ * Thread-safe on different objects.
+ */
 #ifndef MESHWALK_IO_H
 #define MESHWALK_IO_H
 
@@ -15,128 +20,184 @@
 extern "C" {
 #endif
 
-/* A mesh as read: arrays owned by the structure; release with mw_mesh_file_release. Faces of more than three corners
- * are cut into triangles, a fan from the first corner. */
+/** A mesh as read. The structure owns its arrays; release with mw_mesh_file_release(). Faces with
+ * more than three corners are divided into triangles, as a fan from the first corner. */
 typedef struct mw_mesh_file {
-    double *points;      /* 3 per vertex: x y z (z = 0 where the file has none) */
-    uint32_t *triangles; /* 3 per triangle */
+    double *points;      /**< 3 per vertex: x, y, z; z is 0 if the file has none */
+    uint32_t *triangles; /**< 3 vertices per triangle */
     size_t point_count, triangle_count;
     int has_z;
-    char **field_names; /* further values per vertex (attributes of .node, properties of PLY) */
-    double **fields;    /* field_count arrays of point_count */
+    char **field_names; /**< other values per vertex: attributes of .node, properties of PLY */
+    double **fields;    /**< field_count arrays of point_count values */
     size_t field_count;
-    size_t welded; /* STL: vertices merged because their coordinates are equal */
-    char *crs;     /* the coordinate system of x and y, as WKT or "EPSG:n"; NULL = not known. PLY has
-                      it in a line "comment crs ...", other files in a .prj file beside them */
+    size_t welded; /**< STL: vertices merged because their coordinates are equal */
+    /** The coordinate system of x and y, as WKT or "EPSG:n"; NULL: unknown. PLY has it in a line
+     * "comment crs ...", other files in a .prj file beside them. */
+    char *crs;
 } mw_mesh_file;
 
-/** How a whole file is read or written. */
+/** Options of reading or writing a whole file. Zero-initialised options select the defaults. */
 typedef struct mw_file_options {
-    const mw_progress
-        *progress; /**< who watches, and may cancel: base.h; NULL: nobody. Of a pipe the fraction is a guess */
-    uint32_t reserved[6];
+    /** Progress and cancelling, see base.h; NULL: none. The fraction of a pipe is a guess. */
+    const mw_progress *progress;
+    uint32_t reserved[6]; /**< must be zero */
 } mw_file_options;
 
-/* Read a mesh. Coordinates may be NaN or infinite; vertex numbers all exist.
- *   OFF          with normals, colours or texture coordinates, which are passed over
- *   OBJ          v and f; all else is passed over
- *   PLY          text, little- and big-endian; numbers of the vertices beside x, y, z become fields; also triangle
- *                strips
- *   STL          text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
- *   .node, .ele  Triangle: path is the name of either, or the name without ending; numbered from 0 or 1. Attributes
- *                become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" on top names them; one
- *                called z is the height
- * MW_ERROR_SYSTEM: cannot be opened or read; MW_ERROR_INPUT: malformed, truncated, or a format that is not known;
- * MW_ERROR_LIMIT; MW_ERROR_MEMORY; MW_CANCELLED. On failure `file` is empty. options: NULL = all zero. */
+/**
+ * Read a mesh.
+ *
+ * Coordinates may be NaN or infinite; vertex numbers all exist. Formats:
+ * - OFF: with normals, colours or texture coordinates, which are ignored
+ * - OBJ: v and f; everything else is ignored
+ * - PLY: text, little- and big-endian; other numbers of the vertices become fields; also triangle
+ * strips - STL: text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
+ * - .node and .ele of Triangle: `path` names either, or both without ending; numbered from 0 or 1.
+ *   Attributes become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" at the
+ *   top names them; one named z is the height
+ *
+ * @param path     the file; "-": standard input
+ * @param options  NULL selects the defaults
+ * @param file     receives the mesh; empty on failure; release with mw_mesh_file_release()
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_SYSTEM if the file cannot be opened or read; MW_ERROR_INPUT if it is
+ *         malformed, truncated or of an unknown format; MW_ERROR_LIMIT, MW_ERROR_MEMORY,
+ *         MW_CANCELLED.
+ *
+ * O(size of the file).
+ */
 MW_API mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file, mw_error *error);
-MW_API void mw_mesh_file_release(mw_mesh_file *file); /* NULL and an empty file are allowed */
 
-/* The mesh of a file as arrays for mw_mesh_create and mw_check_arrays. */
+/** Release a mesh that was read. NULL and an empty file are allowed. */
+MW_API void mw_mesh_file_release(mw_mesh_file *file);
+
+/** The mesh of a file as arrays, for mw_mesh_create() and mw_check_arrays(). They belong to the
+ * file. */
 MW_API mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file);
 
-/* A ring that was skipped, as it has fewer than three different points. */
+/** A ring that was skipped because it has fewer than three different points. */
 typedef struct mw_skipped_ring {
-    uint32_t record;  /* number of the feature, from 0 */
-    uint32_t polygon; /* of that feature, from 0: it may have several */
-    uint32_t ring;    /* of that polygon; 0 is the outer one, with which the whole polygon is skipped */
+    uint32_t record;  /**< the feature, from 0 */
+    uint32_t polygon; /**< the polygon of that feature, from 0 */
+    /** The ring of that polygon; 0 is the outer one, whose polygon is skipped whole. */
+    uint32_t ring;
 } mw_skipped_ring;
 
-/* Constraints for mw_constrained_delaunay as read: arrays owned by the structure; release with
- * mw_constraint_file_release. */
+/** Constraints as read, for mw_constrained_delaunay(). The structure owns its arrays; release with
+ * mw_constraint_file_release(). */
 typedef struct mw_constraint_file {
-    double *points; /* 3 per point: x y z (NaN where the file has no z for it); points of rings and lines once each, in
-                       the order of the file; a ring's closing point is not repeated                               */
+    /** 3 per point: x, y, z; z is NaN if the file has none for it. Points of rings and lines are
+     * listed once, in the order of the file; a ring's closing point is not repeated. */
+    double *points;
     size_t point_count;
-    int has_z;          /* some point has a z */
-    uint32_t *segments; /* 2 per segment */
-    uint32_t *polygon;  /* per segment the number of its polygon, or MW_NONE for lines */
-    uint32_t *record;   /* per segment the record of the file that it comes from: number of a line or of a feature */
+    int has_z;          /**< 1: some point has a z */
+    uint32_t *segments; /**< 2 points per segment */
+    uint32_t *polygon;  /**< per segment its polygon; MW_NONE for lines */
+    uint32_t *record;   /**< per segment its record of the file: a line or a feature */
     size_t segment_count;
     size_t polygon_count;
-    double *hole_seeds; /* x, y of a point in each hole */
+    double *hole_seeds; /**< x, y of a point in each hole */
     size_t hole_seed_count;
-    const char *record_name; /* "line" or "feature": what `record` counts, lines from 1, features from 0 */
-    char **field_names;      /* further values per point (attributes of .poly) */
+    const char *record_name; /**< what `record` counts: "line", from 1, or "feature", from 0 */
+    char **field_names;      /**< other values per point: attributes of .poly */
     double **fields;
     size_t field_count;
-    mw_skipped_ring *skipped; /* what is not among the above; a warning, or an error, as the caller decides */
+    mw_skipped_ring *skipped; /**< what is left out; the caller decides whether that is an error */
     size_t skipped_count;
-    char *crs; /* the coordinate system, as WKT or "EPSG:n"; NULL = not known. GeoJSON has longitudes
-                  and latitudes (EPSG:4326) unless it says otherwise or its numbers cannot be
-                  such; .poly has a .prj file beside it */
+    /** The coordinate system, as WKT or "EPSG:n"; NULL: unknown. GeoJSON has longitudes and
+     * latitudes (EPSG:4326) unless it says otherwise or its numbers cannot be such; .poly has a
+     * .prj file beside it. */
+    char *crs;
 } mw_constraint_file;
 
-/* Read constraints.
- *   .poly     Triangle: with its points inside, or in a .node file of the same name; numbered from 0 or 1; holes. Every
- *             segment bounds: there are no polygons, polygon[i] is MW_NONE
- *   GeoJSON   Point, MultiPoint, LineString, MultiLineString, Polygon, MultiPolygon, GeometryCollection, Feature and
- *             FeatureCollection; each polygon of a MultiPolygon is one. A ring that is not closed is closed; null and
- *             empty geometries are passed over; rings of fewer than three different points are skipped
- *             and listed. Refused where the library was built without Jansson
- * Recognised by content; gzip is taken. MW_ERROR_SYSTEM, MW_ERROR_INPUT, MW_ERROR_LIMIT, MW_ERROR_MEMORY as
- * mw_read_mesh, MW_CANCELLED too. On failure `file` is empty. options: NULL = all zero. */
+/**
+ * Read constraints. Formats, recognised by content:
+ * - .poly of Triangle: with its points inside, or in a .node file of the same name; numbered from
+ *   0 or 1; holes. Every segment bounds; there are no polygons, so polygon[i] is MW_NONE
+ * - GeoJSON: Point, MultiPoint, LineString, MultiLineString, Polygon, MultiPolygon,
+ *   GeometryCollection, Feature and FeatureCollection; each polygon of a MultiPolygon counts. Open
+ *   rings are closed; null and empty geometries are ignored; rings of fewer than three different
+ *   points are skipped and listed. Refused if the library was built without Jansson
+ *
+ * @param path     the file; "-": standard input
+ * @param options  NULL selects the defaults
+ * @param file     receives the constraints; empty on failure; release with
+ *                 mw_constraint_file_release()
+ * @param error    NULL, or receives the message of a failure
+ * @return as mw_read_mesh().
+ *
+ * O(size of the file).
+ */
 MW_API mw_status mw_read_constraints(const char *path, const mw_file_options *options, mw_constraint_file *file,
                                      mw_error *error);
-MW_API void mw_constraint_file_release(mw_constraint_file *file); /* NULL and an empty file are allowed */
-/* Would mw_read_constraints take the file for one of a format that it reads, sound or not? 0 also for a file that cannot
- * be opened. Of standard input this uses up the beginning. */
+/** Release constraints that were read. NULL and an empty file are allowed. */
+MW_API void mw_constraint_file_release(mw_constraint_file *file);
+
+/** 1 if mw_read_constraints() would recognise the format of a file, correct or not; 0 if not, or
+ * if the file cannot be opened. Uses up the beginning of standard input. */
 MW_API int mw_constraints_known(const char *path);
 
-/* Write a mesh. The format follows `format`, or the ending of path where it is NULL:
- *   "off"         Geomview; fields are not written
- *   "ply"         binary, little-endian; "ply-ascii" the same as text (.ply names "ply")
- *   "node"        Triangle: two files, .node and .ele, whichever is named; z becomes the first attribute
- *   "obj", "stl"  (STL as text, with all digits); fields are not written
- *   "vtk"         legacy VTK as text, an unstructured grid with the fields as point data, for ParaView; not read
- *   "csv"         a table for other programs: a row for each corner of each triangle, with the columns
- *                 triangle,corner,vertex,x,y,z and the fields; not read as a mesh
- * A crs is written to PLY, in a line "comment crs ...", and passed over elsewhere.
- * Vertices, triangles, z and fields keep their order and every bit (the sign of a NaN apart), but for the vertices of
- * STL and csv, which have corners only; names of fields become single words. Of "node" both files are complete before
- * .ele and then .node get their names; who interrupts the program between these two steps finds a new .ele beside no
- * .node or an old one. MW_ERROR_ARGUMENT: unknown format, or a path that ends in .gz; MW_ERROR_INPUT: a triangle names
- * a vertex that does not exist; MW_ERROR_SYSTEM: cannot be written, and then no file is left (but for that .ele, if
- * only .node cannot get its name); MW_CANCELLED: likewise. options: NULL = all zero. */
+/**
+ * Write a mesh.
+ *
+ * Formats:
+ * - "off": Geomview; without fields
+ * - "ply": binary, little-endian; "ply-ascii": the same as text (.ply means "ply")
+ * - "node": Triangle, two files .node and .ele, whichever is named; z becomes the first attribute
+ * - "obj", "stl": STL as text with all digits; without fields
+ * - "vtk": legacy VTK as text, an unstructured grid with the fields as point data, for ParaView;
+ * not read - "csv": a table for other programs, one row per corner of a triangle, with the columns
+ *   triangle,corner,vertex,x,y,z and the fields; not read as a mesh
+ *
+ * PLY keeps the coordinate system, in a line "comment crs ..."; other formats ignore it. Vertices,
+ * triangles, z and fields keep their order and every bit, except the sign of a NaN and the
+ * vertices of STL and csv, which have corners only. Names of fields become single words.
+ *
+ * The two files of "node" are complete before .ele and then .node get their names. A program that
+ * is stopped between these two steps leaves a new .ele without a .node, or with an old one.
+ *
+ * @param path     the file; "-": standard output
+ * @param file     the mesh
+ * @param format   a format, or NULL: by the ending of `path`
+ * @param options  NULL selects the defaults
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for an unknown format or a path that ends in .gz;
+ *         MW_ERROR_INPUT if a triangle names a vertex that does not exist; MW_ERROR_SYSTEM if the
+ *         file cannot be written; MW_CANCELLED. On failure no file is left, except that .ele if
+ *         only .node cannot get its name.
+ *
+ * O(size of the file).
+ */
 MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *format,
                                const mw_file_options *options, mw_error *error);
-/* Names of the formats that mw_write_mesh takes, i from 0; NULL beyond the last. */
+/** The name of format i of mw_write_mesh(), i from 0; NULL beyond the last. */
 MW_API const char *mw_mesh_format_name(size_t i);
 
-/* All zero = take everything, as the file has it. */
+/** Options of a point reader. Zero-initialised options read everything. */
 typedef struct mw_point_reader_options {
-    const char *columns;  /* NULL = see mw_point_reader_open; else names or 1-based numbers, "x,y", "lon,lat,z" */
-    uint8_t classes[256]; /* LAS: 1 = take points of this class; all zero = take all */
-    uint32_t table;       /* 1 = keep the text of every row; see mw_point_reader_table */
-    uint32_t texts; /* 1 = with `columns` NULL, cells of further columns may be texts; see mw_point_reader_texts */
-    uint32_t reserved[2];
+    /** The columns to read: names or numbers from 1, such as "x,y" or "lon,lat,z"; NULL: see
+     * mw_point_reader_open(). */
+    const char *columns;
+    uint8_t classes[256]; /**< LAS: 1: read points of this class; all zero: read all */
+    uint32_t table;       /**< 1: keep the text of every row; see mw_point_reader_table() */
+    /** 1, without `columns`: cells of further columns may be texts; see mw_point_reader_texts(). */
+    uint32_t texts;
+    uint32_t reserved[2]; /**< must be zero */
 } mw_point_reader_options;
 
-/** Tell the coordinate system that a .prj file beside a file names: the name without .gz and without its ending, and
- * .prj. The readers of meshes, points and constraints do this by themselves.
- * @param path  name of the file, which need not exist; "-" has none beside it
- * @param crs   a text on one line, WKT or "EPSG:n", released by the caller with free(); NULL = there is no such file, or
- *              it names no system
- * @return MW_OK; MW_ERROR_ARGUMENT: NULL; MW_ERROR_MEMORY. Thread-safe. */
+/**
+ * Read the coordinate system that a .prj file beside a file names. The readers of meshes, points
+ * and constraints do this themselves.
+ *
+ * The .prj file has the name of the file without .gz, with its ending replaced by .prj.
+ *
+ * @param path   name of the file, which need not exist; "-" has no .prj file
+ * @param crs    receives one line of text, WKT or "EPSG:n", released by the caller with free();
+ *               NULL if there is no such file or it names no system
+ * @param error  NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_MEMORY.
+ *
+ * Thread-safe.
+ */
 MW_API mw_status mw_read_prj(const char *path, char **crs, mw_error *error);
 
 /** Names that files give to the coordinates of a point, as "lon", "lat" and "z". */
@@ -151,183 +212,295 @@ typedef struct mw_axis_names {
  * @return the set, a constant; NULL beyond the last. Thread-safe. */
 MW_API const mw_axis_names *mw_axis_names_at(size_t i);
 
-/** Decide whether a column's name means a coordinate: letters of any case, without regard to blanks, '_', '-', '.' and
- * a unit in brackets behind it, as "Point X (m)" does mean "point_x".
+/** Decide whether a column's name means a coordinate: letters of any case, without regard to
+ * blanks, '_', '-', '.' and a unit in brackets behind it, as "Point X (m)" does mean "point_x".
  * @param column  name of the column
  * @param name    one of a set of mw_axis_names_at
  * @return 1 or 0. Thread-safe. */
 MW_API int mw_axis_name_matches(const char *column, const char *name);
 
-/* A stream of points, read block by block in constant memory: text, or LAS 1.0-1.4 (LAZ is refused with a hint).
- *
- * Text: columns separated by semicolons, tabs, commas or blanks (what the first row has, in this order of preference).
- * The first row is a header if none of its fields is a number, or if two of them name coordinates (mw_axis_names_at).
- * Empty lines and lines that begin with # are skipped (but see mw_point_reader_table). Rows all have
- * the same number of columns. A field that begins with a double quote ends with one, and may hold
- * separators, line ends and "" for a quote. "inf" is a number; NaN, NA, N/A, NULL (in letters of any
- * case), "-" and an empty field are missing values, NaN. Decimal commas are taken where semicolons or
- * tabs separate, and refused elsewhere, and beside decimal points. Triangle's .node is read too, without its numbers and markers.
- *
- * Columns: those selected, in the order given. With `columns` NULL: all columns that hold numbers in the first row;
- * where a header names x and y as a set of mw_axis_names_at does, these, and z, come first.
- * LAS has x, y, z, intensity, return, returns, classification, scan_angle, user_data, point_source, time, red, green,
- * blue (time and colours NaN where the point format has none); with `columns` NULL x, y, z.
- *
- * MW_ERROR_SYSTEM, MW_ERROR_INPUT (also for a column that the file does not have), MW_ERROR_MEMORY; MW_ERROR_ARGUMENT:
- * a selection of fewer than two columns, or of one twice. A file without rows is a stream of no points. */
+/** A stream of points, read block by block in constant memory. Opaque. */
 typedef struct mw_point_reader mw_point_reader;
 
+/**
+ * Open a stream of points: text, or LAS 1.0 to 1.4. LAZ is refused with a hint.
+ *
+ * Text. The first row decides what separates columns: semicolons, tabs, commas or blanks, in this
+ * order of preference. The first row is a header if none of its cells is a number, or if two of
+ * them name coordinates (mw_axis_names_at()). Empty lines and lines that begin with # are skipped
+ * (but see mw_point_reader_table()). All rows have the same number of columns. A cell that begins
+ * with a double quote ends with one and may hold separators, line ends, and "" for a quote. "inf"
+ * is a number; NaN, NA, N/A and NULL in any case, "-" and an empty cell are missing values, read
+ * as NaN. Decimal commas are accepted if semicolons or tabs separate columns; they are refused
+ * elsewhere, and beside decimal points. Triangle's .node is read too, without its numbers and
+ * markers.
+ *
+ * Columns. Selected columns come in the order of the selection. Without a selection: all columns
+ * that hold numbers in the first row; if a header names x and y as mw_axis_names_at() does, these
+ * and z come first. LAS has x, y, z, intensity, return, returns, classification, scan_angle,
+ * user_data, point_source, time, red, green, blue (time and colours are NaN if the point format
+ * has none); without a selection x, y, z.
+ *
+ * @param path     the file; "-": standard input
+ * @param options  NULL selects the defaults
+ * @param out      receives the reader, owned by the caller (mw_point_reader_close()); NULL on
+ *                 failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK, also for a file without rows, a stream of no points; MW_ERROR_SYSTEM;
+ *         MW_ERROR_INPUT, also for a column that the file does not have; MW_ERROR_MEMORY;
+ *         MW_ERROR_ARGUMENT for a selection of fewer than two columns or of one column twice.
+ */
 MW_API mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options, mw_point_reader **out,
                                       mw_error *error);
-/* Values per point: the columns of the file (or the selected ones); at least 2. */
+
+/** Values per point: the columns of the file, or the selected ones; at least 2. */
 MW_API size_t mw_point_reader_width(const mw_point_reader *reader);
-/* Name of a column: that of the header; else "x", "y", "z", "c4", ... Owned by the reader; NULL beyond the last. */
+
+/** The name of a column: from the header, else "x", "y", "z", "c4", ... Owned by the reader; NULL
+ * beyond the last. */
 MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t column);
-/* Read up to `capacity` points, mw_point_reader_width doubles each, into values. *count < capacity only at the end,
- * where it becomes 0; a reader with `table` also ends a block early where its text is long. On failure *count points before the faulty one are valid, and the reader can only be closed. */
+
+/**
+ * Read the next points.
+ *
+ * @param reader    the reader
+ * @param values    receives mw_point_reader_width() doubles per point
+ * @param capacity  room in `values`, in points
+ * @param count     receives the number of points; less than `capacity` only at the end, where it
+ *                  becomes 0. A reader with `table` also ends a block early if its text is long
+ * @param error     NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_INPUT, MW_ERROR_SYSTEM, MW_ERROR_MEMORY. On failure *count points before
+ *         the faulty one are valid, and the reader can only be closed.
+ */
 MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
                                       mw_error *error);
-/** Tell the coordinate system of the points: that of the records of LAS (WKT, or the EPSG code of its
- * GeoTIFF keys), or else of a .prj file beside the points.
+
+/** Tell the coordinate system of the points: that of the records of LAS (WKT, or the EPSG code of
+ * its GeoTIFF keys), or else of a .prj file beside the points.
  * @param reader  not NULL
- * @return WKT or "EPSG:n", owned by the reader; NULL = not known. Thread-safe on different readers. */
+ * @return WKT or "EPSG:n", owned by the reader; NULL = not known. Thread-safe on different
+ *         readers. */
 MW_API const char *mw_point_reader_crs(const mw_point_reader *reader);
 /**
- * How much of the file has been read, to show to people: from 0 to 1, or -1 where the size is not known, as of a pipe.
- * Not safe while another thread reads by the same reader.
+ * How much of the file has been read, to show to people: from 0 to 1, or -1 where the size is not
+ * known, as of a pipe. Not safe while another thread reads by the same reader.
  */
 MW_API double mw_point_reader_fraction(const mw_point_reader *reader);
-MW_API void mw_point_reader_close(mw_point_reader *reader); /* NULL is allowed */
+
+/** Close a reader. NULL is allowed. */
+MW_API void mw_point_reader_close(mw_point_reader *reader);
 
 /** The columns of a file, whether they are read as numbers or not. Texts belong to the reader. */
 typedef struct mw_point_table {
-    const char *const *names; /* of the columns, "" for one without a name; NULL = the file has no header */
-    const char *header;       /* the header as it stands in the file; NULL = it has none */
+    /* of the columns, "" for one without a name; NULL = the file has no header */
+    const char *const *names;
+    const char *header; /* the header as it stands in the file; NULL = it has none */
     size_t column_count;
-    char separator; /* of the rows' texts: ',', ';' or a tab. White space in the file becomes commas */
-    char decimal;   /* '.', or ',' as soon as a number with a decimal comma was read */
+    /* of the rows' texts: ',', ';' or a tab. White space in the file becomes commas */
+    char separator;
+    char decimal; /* '.', or ',' as soon as a number with a decimal comma was read */
     uint32_t reserved[4];
 } mw_point_table;
 
-/** Describe the table that a reader reads. A line that begins with # is a row of it, not a comment, if
- * it has as many columns as the header, a column that is not read begins it, and blanks do not separate
- * them: #12 is an id. LAS is a table with commas of all the values that its points have.
+/** Describe the table that a reader reads. A line that begins with # is a row of it, not a
+ * comment, if it has as many columns as the header, a column that is not read begins it, and
+ * blanks do not separate them: #12 is an id. LAS is a table with commas of all the values that its
+ * points have.
  * @param table  is filled in; its texts last until mw_point_reader_close
  * @return MW_OK; MW_ERROR_ARGUMENT: NULL. Thread-safe on different readers. */
 MW_API mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table, mw_error *error);
 
-/** Choose the columns to read as numbers, in place of those chosen so far. A reader that was opened with `table` and
- * without `columns` reads none before this call.
+/** Choose the columns to read as numbers, in place of those chosen so far. A reader that was
+ * opened with `table` and without `columns` reads none before this call.
  * @param columns  numbers of columns, from 0, at least two, each once
- * @return MW_OK; MW_ERROR_ARGUMENT: NULL, no such column, one twice, a reader without `table`, or after the first
- * mw_point_reader_read; MW_ERROR_MEMORY. Thread-safe on different readers. */
+ * @return MW_OK; MW_ERROR_ARGUMENT: NULL, no such column, one twice, a reader without `table`, or
+ * after the first mw_point_reader_read; MW_ERROR_MEMORY. Thread-safe on different readers. */
 MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error);
 
 /** Tell which column of the file a value comes from.
  * @param column  number of the value within a point, from 0
- * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value. Thread-safe. */
+ * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value.
+ *         Thread-safe. */
 MW_API size_t mw_point_reader_place(const mw_point_reader *reader, size_t column);
 
-/** Tell how many cells that were read held a text where a number belongs. Such a cell is a missing value, NaN, in
- * columns beyond x, y and z of a reader that was opened with `texts`; elsewhere it ends the reading with an error.
+/** Tell how many cells that were read held a text where a number belongs. Such a cell is a missing
+ * value, NaN, in columns beyond x, y and z of a reader that was opened with `texts`; elsewhere it
+ * ends the reading with an error.
  * @param column  number of the value within a point, from 0
- * @param line    line of the first of these cells, from 1; unchanged if there is none. NULL is allowed
+ * @param line    line of the first of these cells, from 1; unchanged if there is none. NULL is
+ *                allowed
  * @return how many; 0 also if there is no such value. Thread-safe on different readers. */
 MW_API uint64_t mw_point_reader_texts(const mw_point_reader *reader, size_t column, int64_t *line);
 
 /** Give the text of a row: as it stands in the file, without its line end, whatever its cells hold.
  * @param row     number of the row in the block that mw_point_reader_read gave last, from 0
  * @param length  bytes of the text, which no NUL ends; 0 on failure
- * @return the text, until the next read or close; NULL = no such row, or a reader without `table`. Several threads may
- * call this at a time. */
+ * @return the text, until the next read or close; NULL = no such row, or a reader without `table`.
+ * Several threads may call this at a time. */
 MW_API const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length);
 
-/* What a line of a stream of edits asks for. */
+/** What a line of a stream of edits requests. */
 typedef enum mw_edit_line_kind {
-    MW_EDIT_LINE_NONE = 0, /* nothing: a blank line or a comment; of a reader: the stream has ended */
-    MW_EDIT_LINE_EDIT,     /* `edit`, for mw_edit_apply                                             */
-    MW_EDIT_LINE_LOCATE,   /* which triangle contains edit.x, edit.y?                               */
-    MW_EDIT_LINE_UNDO,     /* mw_edit_undo                                                          */
-    MW_EDIT_LINE_COMPACT   /* mw_editor_compact                                                     */
+    /** Nothing: a blank line or a comment; from a reader: the end of the stream. */
+    MW_EDIT_LINE_NONE = 0,
+    MW_EDIT_LINE_EDIT,   /**< `edit`, for mw_edit_apply() */
+    MW_EDIT_LINE_LOCATE, /**< locate (edit.x, edit.y) */
+    MW_EDIT_LINE_UNDO,   /**< mw_edit_undo() */
+    MW_EDIT_LINE_COMPACT /**< mw_editor_compact() */
 } mw_edit_line_kind;
 
+/** One line of a stream of edits. */
 typedef struct mw_edit_line {
     mw_edit edit;
     mw_edit_line_kind kind;
     uint32_t reserved;
-    int64_t line; /* of the file, from 1; 0: not of a file */
+    int64_t line; /**< line of the file, from 1; 0: not from a file */
 } mw_edit_line;
 
-/* All zero = fields go by their numbers. */
+/** Options of edits as text. Zero-initialised options give fields by number. */
 typedef struct mw_edit_text_options {
-    const char *const
-        *fields; /* their names, in the order of their numbers (mw_editor_field_by_name); has to outlive a reader */
+    /** Names of the fields in the order of their numbers (mw_editor_field_by_name()). Must outlive
+     * a reader. */
+    const char *const *fields;
     size_t field_count;
-    uint32_t reserved[4];
+    uint32_t reserved[4]; /**< must be zero */
 } mw_edit_text_options;
 
-/* "insert", "remove", "move", "flip", "constrain", "release", "value"; NULL for another number. */
+/** "insert", "remove", "move", "flip", "constrain", "release" or "value"; NULL for any other
+ * number. */
 MW_API const char *mw_edit_name(mw_edit_kind kind);
 
-/* Edits as text, a line each, its words separated by blanks or by a comma (so that CSV without a header will do):
- *   insert X Y [VALUE [FIELD]]   remove V   move V X Y   flip V V   constrain V V   release V V   value V VALUE [FIELD]
- *   locate X Y   undo   compact
- * Words are taken in any case and may stand in double quotes. V is the number of a vertex, from 0; 17.0 is one, too. FIELD is a name
- * or a number; without it the field z is meant, where fields have names, else number 0. A VALUE that is missing or "nan" is
- * interpolated at an insertion. "#" begins a comment. Cells that are empty at the end of a line are passed over. Whether
- * an edit is possible, the editor tells.
+/**
+ * Parse one line of edits.
  *
- * Read one line; options: NULL = all zero. MW_ERROR_INPUT: an unknown word, too few or too many of them, something that is no
- * number, an unknown field; then line->kind is MW_EDIT_LINE_NONE. MW_ERROR_ARGUMENT: NULL. Thread-safe. */
+ * A line holds one request; blanks or commas separate its words, so CSV without a header works:
+ *
+ *     insert X Y [VALUE [FIELD]]   remove V   move V X Y   flip V V   constrain V V
+ *     release V V   value V VALUE [FIELD]   locate X Y   undo   compact
+ *
+ * Words may be in any case and in double quotes. V is a vertex number from 0; 17.0 is accepted.
+ * FIELD is a name or a number; without it the field z is meant if fields have names, else field 0.
+ * At an insertion a VALUE that is missing or "nan" is interpolated. "#" begins a comment. Empty
+ * cells at the end of a line are ignored. Whether an edit is possible, the editor decides.
+ *
+ * @param text     one line, ended by NUL
+ * @param options  NULL selects the defaults
+ * @param line     receives the request; MW_EDIT_LINE_NONE on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_INPUT for an unknown word or field, too few or too many words, or a word
+ *         that is no number; MW_ERROR_ARGUMENT for NULL.
+ *
+ * Thread-safe.
+ */
 MW_API mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line,
                                mw_error *error);
 
-/* Write one line, ended by NUL instead of a newline, so that mw_edit_parse with the same options gives the same edit, every bit of its
- * numbers (the sign of a NaN apart). Names of fields that cannot stand in a line are written as numbers. Returns its length; 0 and
- * an empty text for MW_EDIT_LINE_NONE and unknown kinds. Thread-safe. */
+/** Room for any line of edits, its NUL included. */
 #define MW_EDIT_TEXT_SIZE 160
+
+/**
+ * Write one line of edits, without a line end.
+ *
+ * mw_edit_parse() with the same options gives the same edit, every bit of its numbers (except the
+ * sign of a NaN). Names of fields that cannot stand in a line are written as numbers.
+ *
+ * @param line     the request
+ * @param options  NULL selects the defaults
+ * @param text     receives the line, ended by NUL
+ * @return the length; 0, and an empty text, for MW_EDIT_LINE_NONE and unknown kinds.
+ *
+ * Thread-safe.
+ */
 MW_API size_t mw_edit_format(const mw_edit_line *line, const mw_edit_text_options *options,
                              char text[MW_EDIT_TEXT_SIZE]);
 
-/* A stream of them, read line by line in constant memory. MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT: NULL. */
+/** A stream of edits, read line by line in constant memory. Opaque. */
 typedef struct mw_edit_reader mw_edit_reader;
+
+/**
+ * Open a stream of edits.
+ *
+ * @param path     the file; "-": standard input
+ * @param options  NULL selects the defaults
+ * @param out      receives the reader, owned by the caller (mw_edit_reader_close()); NULL on
+ *                 failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK, MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT for NULL.
+ */
 MW_API mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options, mw_edit_reader **out,
                                      mw_error *error);
-/* Read the next line that is not blank; line->kind is MW_EDIT_LINE_NONE at the end. Errors as of mw_edit_parse, with file and
- * line; then line->line tells whether the reader can go on: the number of the line, which the next call will be behind,
- * or 0: the file cannot be read on (also MW_ERROR_SYSTEM, MW_ERROR_MEMORY), and the reader can only be closed. */
+
+/**
+ * Read the next line that is not blank.
+ *
+ * @param reader  the reader
+ * @param line    receives the request; its kind is MW_EDIT_LINE_NONE at the end of the stream. On
+ *                failure line->line is the number of the faulty line, and the next call continues
+ *                behind it; 0 if the file cannot be read further, and the reader can only be closed
+ * @param error   NULL, or receives the message of a failure, with file and line
+ * @return as mw_edit_parse(); also MW_ERROR_SYSTEM, MW_ERROR_MEMORY.
+ */
 MW_API mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error);
+
 /** As mw_point_reader_fraction. */
 MW_API double mw_edit_reader_fraction(const mw_edit_reader *reader);
-MW_API void mw_edit_reader_close(mw_edit_reader *reader); /* NULL is allowed */
 
-/* A file that appears under its name only when it is complete: written without a name, or under a temporary one beside
- * it, then given its name, in one step where a file of that name exists (its permissions are kept, and so is a symbolic
- * link to it, whether the file existed or not). Pipes, terminals and devices are written directly.
- * Writing into a closed pipe raises SIGPIPE: a program that wants the error instead ignores that signal. */
+/** Close a reader. NULL is allowed. */
+MW_API void mw_edit_reader_close(mw_edit_reader *reader);
+
+/**
+ * An output file that appears under its name only when it is complete. Opaque.
+ *
+ * It is written without a name, or under a temporary one beside its final name, and then renamed
+ * in one step. An existing file keeps its permissions; a symbolic link to it stays, whether the
+ * file existed or not. Pipes, terminals and devices are written directly. Writing into a closed
+ * pipe raises SIGPIPE; a program that wants the error instead ignores that signal.
+ */
 typedef struct mw_output mw_output;
+
+/** Open an output. "-": standard output. MW_ERROR_SYSTEM if that is impossible; MW_ERROR_MEMORY. */
 MW_API mw_status mw_output_open(const char *path, mw_output **out, mw_error *error);
 
-/* Find the name under which the output of `path` appears: what symbolic links lead to, whether
- * there is a file or not.
- *   name  released by the caller with free(); NULL on failure
- * MW_ERROR_SYSTEM: links that lead to one another; MW_ERROR_MEMORY, MW_ERROR_ARGUMENT. */
+/**
+ * Find the name under which the output of a path appears: the end of its symbolic links, whether
+ * that file exists or not.
+ *
+ * @param path   the path
+ * @param name   receives the name, released by the caller with free(); NULL on failure
+ * @param error  NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_SYSTEM for links that lead to one another; MW_ERROR_MEMORY,
+ *         MW_ERROR_ARGUMENT.
+ */
 MW_API mw_status mw_output_resolve(const char *path, char **name, mw_error *error);
-/* Errors are kept for mw_output_close. */
+
+/** Write bytes. mw_output_close() reports a failure. */
 MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size);
-/* As printf, for text and integers: decimals would follow the locale. */
+
+/** Write as printf() does: text and integers only, because decimals follow the locale. */
 MW_API void mw_output_printf(mw_output *output, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The shortest of %.15g, %.16g and %.17g in the "C" locale that reads back as the same double; "nan", "inf", "-inf".
- * Returns its length, at most 24. */
+
+/** Format a double: the shortest of %.15g, %.16g and %.17g in the "C" locale that reads back as
+ * the same double; "nan", "inf", "-inf". Returns its length, at most 24. Thread-safe. */
 MW_API size_t mw_format_double(double value, char text[32]);
+
+/** Write a double as mw_format_double() formats it. */
 MW_API void mw_output_double(mw_output *output, double value);
-/* Has a write failed yet? Long jobs ask, and stop. */
+
+/** 1 if a write has failed: a long job can stop. */
 MW_API int mw_output_failed(const mw_output *output);
-/* The temporary file that an interrupted program should remove; NULL where the system needs none. Owned by the
- * output. */
+
+/** The temporary file that an interrupted program should remove, owned by the output; NULL if
+ * there is none. */
 MW_API const char *mw_output_temporary(const mw_output *output);
-/* commit = 1: finish and rename; 0: remove. Reports the first failed write ("FILE: No space left on device").
- * Frees the output in any case. */
+
+/**
+ * Finish an output, and release it in any case.
+ *
+ * @param output  the output
+ * @param commit  1: give the file its name; 0: remove it
+ * @param error   NULL, or receives the first failure of a write: "FILE: No space left on device"
+ * @return MW_OK; MW_ERROR_SYSTEM, and no file is left.
+ */
 MW_API mw_status mw_output_close(mw_output *output, int commit, mw_error *error);
 
 #ifdef __cplusplus

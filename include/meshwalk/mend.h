@@ -1,5 +1,8 @@
-/* mend.h - mend what is wrong with the arrays of a mesh, as far as that can be done without a
- * guess. */
+/**
+ * @file mend.h
+ * Mend what is wrong with the arrays of a mesh, as far as that can be done without a
+ * guess.
+ */
 #ifndef MESHWALK_MEND_H
 #define MESHWALK_MEND_H
 
