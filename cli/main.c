@@ -6,6 +6,7 @@
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
 #include "cli/frame/spelling.h"
+#include "cli/version.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -31,7 +32,7 @@ static int main_print_help(void)
     text_string(&t, "\noptions:\n"
                     "      --help            print this help; 'meshwalk COMMAND --help' tells about a command,\n"
                     "                        'meshwalk COMMAND --help all' about all its options\n"
-                    "      --version         print the version\n\n");
+                    "      --version         print the version, what is built in and what was found\n\n");
     help_wrap(&t,
               "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. Constraints: GeoJSON, "
               "Triangle .poly. Each also gzipped; '-' is standard input or output.",
@@ -46,7 +47,7 @@ static int main_print_help(void)
 static int main_print_version(void)
 {
     text t = {0};
-    text_printf(&t, "meshwalk %s\n", mw_version());
+    version_write(&t);
     return files_write_text(NULL, &t);
 }
 

@@ -8,9 +8,9 @@ _meshwalk_options() {
     local stream='--strict --stats --json --layer --where --only-answers'
     local common='-o --output --threads --seed -q --quiet -h --help'
     case $1 in
-        info) echo "--as --centre --lonlat --weld --json $common" ;;
+        info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --crs --points-crs --constraints-crs --json $common" ;;
+        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -84,6 +84,34 @@ _meshwalk_names() {
     esac
 }
 
+# A list that 'info' tells of the first file in the line for which it is not empty, a name on each line.
+_meshwalk_list() {
+    local file
+    for file in "${COMP_WORDS[@]:2}"; do
+        file=${file/#\~\//$HOME/}
+        [[ -f $file ]] || continue
+        timeout 2 "${COMP_WORDS[0]}" info --json -- "$file" 2>/dev/null |
+            sed -n "s/^ *\"$1\": \\[\"\(.*\)\"\\],*$/\\1/p" | sed 's/", "/\n/g' | grep . && return
+    done
+}
+
+# Names of layers, of attributes, or of the values of a mesh.
+_meshwalk_named() {
+    local name
+    while read -r name; do
+        [[ $name == "$2"* ]] && COMPREPLY+=("$(printf %q "$name")")
+    done < <(
+        case $1 in
+            --field)
+                echo z
+                _meshwalk_list fields
+                ;;
+            --attribute) _meshwalk_list fields ;;
+            *) _meshwalk_list layers ;;
+        esac
+    )
+}
+
 _meshwalk() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} names
     COMPREPLY=()
@@ -109,7 +137,11 @@ _meshwalk() {
         return
     fi
     case $before in
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --constraints-crs | --field | --layer | --where | --attribute | --polygon-layer) return ;;
+        --field | --attribute | --layer | --polygon-layer)
+            _meshwalk_named "$before" "$word"
+            return
+            ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --constraints-crs | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then

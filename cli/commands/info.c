@@ -4,12 +4,21 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
+#include "cli/gdal/gdal_layers.h"
+#include "cli/gdal/gdal_points.h"
 #include "cli/input/mesh_space.h"
 
 #include <math.h>
 
+typedef struct info_settings {
+    mesh_space_settings mesh;
+    const char *layer;
+} info_settings;
+
 static const option info_options[] = {
-    {"json", 0, OPTION_FLAG, offsetof(mesh_space_settings, json), NULL, "print the report as JSON", NULL},
+    {"layer", 0, OPTION_TEXT, offsetof(info_settings, layer), "NAME",
+     "of a vector file that GDAL reads: the layer to describe (default: the only one; several are listed)", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(info_settings, mesh.json), NULL, "print the report as JSON", NULL},
     {0},
 };
 
@@ -169,12 +178,31 @@ static int info_describe(const mesh_space_settings *s, const char *path, const m
     return end;
 }
 
+/* A vector file holds no mesh, but layers. */
+static int info_describe_layers(const info_settings *s, const char *path)
+{
+    report r;
+    int end = files_check_output(s->mesh.common.output, &path, 1);
+    if (end) return end;
+    report_begin(&r, s->mesh.json);
+    end = gdal_layers_report(path, s->layer, &r);
+    report_end(&r);
+    if (end == 0) return files_write_text(s->mesh.common.output, &r.text);
+    text_release(&r.text);
+    return end;
+}
+
 static int info_run(const void *settings, const char *const *operands)
 {
-    const mesh_space_settings *s = settings;
+    const info_settings *s = settings;
     mw_mesh_file file = {0};
-    int end = mesh_space_read(s, operands, &file);
-    if (end == 0) end = info_describe(s, operands[0], &file);
+    if (gdal_points_known(operands[0])) return info_describe_layers(s, operands[0]);
+    if (s->layer) {
+        complain("option '--layer' is for vector files that GDAL reads, not for meshes");
+        return END_USAGE;
+    }
+    int end = mesh_space_read(&s->mesh, operands, &file);
+    if (end == 0) end = info_describe(&s->mesh, operands[0], &file);
     mw_mesh_file_release(&file);
     return end;
 }
@@ -189,9 +217,11 @@ const command info_command = {
     .description =
         "Prints counts, extent, area, borders, holes, components and orientation of MESH, whether it is an "
         "embedding, convex and Delaunay, and the memory it takes. With --as, MESH is described as a surface in "
-        "space, or as a polyhedron: whether it is star-shaped about a centre. '-' is standard input.",
+        "space, or as a polyhedron: whether it is star-shaped about a centre. Of a vector file that GDAL reads it "
+        "lists "
+        "the layers, and what one of them holds. '-' is standard input.",
     .options = tables,
     .essential = "as centre json output threads",
-    .settings_size = sizeof(mesh_space_settings),
+    .settings_size = sizeof(info_settings),
     .run = info_run,
 };

@@ -53,6 +53,8 @@ bool gdal_library_built(void);
     F(OCTTransformEx)                                                                                                  \
     F(OCTDestroyCoordinateTransformation)                                                                              \
     F(OGR_L_GetExtent)                                                                                                 \
+    F(OGR_L_GetFeatureCount)                                                                                           \
+    F(OGRGeometryTypeToName)                                                                                           \
     F(OSRExportToWkt)                                                                                                  \
     F(OSRRelease)                                                                                                      \
     F(VSIFree)                                                                                                         \

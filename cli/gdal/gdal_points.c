@@ -76,6 +76,22 @@ static int points_fail(const gdal_points *p, const char *what)
     return END_INPUT;
 }
 
+/* GDAL knows no format for the file. Some need drivers that are often missing. */
+static int points_fail_format(const gdal_points *p)
+{
+    static const char *const wanted[][2] = {{".parquet", "Parquet"}, {".feather", "Arrow"}, {".arrow", "Arrow"}};
+    size_t length = strlen(p->path);
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        size_t end = strlen(wanted[i][0]);
+        if (length <= end || strcasecmp(p->path + length - end, wanted[i][0]) != 0) continue;
+        if (p->gdal->GDALGetDriverByName(wanted[i][1])) break;
+        complain("%s: this GDAL has no driver for %s; 'meshwalk --version' tells what was found", p->path,
+                 wanted[i][1]);
+        return END_INPUT;
+    }
+    return points_fail(p, "this is no vector file");
+}
+
 static bool layer_may_have_points(const gdal_points *p, OGRLayerH layer)
 {
     OGRwkbGeometryType type = p->gdal->OGR_GT_Flatten(p->gdal->OGR_L_GetGeomType(layer));
@@ -194,7 +210,7 @@ int gdal_points_open(gdal_points **points, const char *path, const char *layer, 
     }
     p->gdal->CPLErrorReset();
     p->set = p->gdal->GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
-    if (!p->set) return points_fail(p, "this is no vector file");
+    if (!p->set) return points_fail_format(p);
     int end = points_find_layer(p, layer);
     if (end == 0) p->crs = crs_of_layer(p->set, p->layer);
     if (end == 0) end = points_name_columns(p);

@@ -10,6 +10,7 @@ help_options() { sed -nE '/^  (-[a-z],|   ) --[a-z]/p' "$logs/out" | grep -oE --
 
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
+for library in zlib Jansson Cairo GDAL LAZ; do prints_line "^  $library +([0-9.]+,? (built in|found)|built in, but |not built in): ?"; done
 run --help; exits 0; says_nothing
 for c in "${commands[@]}"; do prints_line "^  $c "; done
 for c in "${commands[@]}"; do
@@ -176,6 +177,26 @@ for c in "${commands[@]}"; do
     holds "help and completion of $c differ: $(diff "$logs/help" "$logs/completion")" \
         same_text "$logs/help" "$logs/completion"
 done
+# Names in files: of fields, of layers.
+printf '%s\n' x,y,z,salt,temp 0,0,1,2,3 1,0,1,2,3 0,1,1,2,3 >fields.csv
+run triangulate -q fields.csv -o fields.ply; exits 0
+holds "the completion knows fields" \
+    test "$(complete_words "$meshwalk" sample fields.ply fields.csv --field '' | xargs)" == 'salt temp z'
+holds "and those that begin so" test "$(complete_words "$meshwalk" sample fields.ply --field sa | xargs)" == salt
+echo '{"type":"Feature","properties":{"id":1,"use":"a"},"geometry":{"type":"Point","coordinates":[0,0]}}' >wells.geojson
+run info wells.geojson
+if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
+    refused 3 'wells\.geojson: '
+else
+    exits 0; prints_line '^layers +wells$'; prints_line '^geometry +Point$'; prints_line '^features +1$'
+    prints_line '^fields +id, use$'; prints_line '^crs +GEOGCS'
+    run info --layer none wells.geojson; refused 3 "has no layer 'none'"
+    holds "the completion knows layers" \
+        test "$(complete_words "$meshwalk" sample fields.ply wells.geojson --layer '' | xargs)" == wells
+    holds "and attributes" \
+        test "$(complete_words "$meshwalk" locate --polygons wells.geojson --attribute u | xargs)" == use
+fi
+run info --layer a fields.ply; refused 2 "'--layer' is for vector files"
 row() { # row OPTION: the names that the help lists below an option in a row
     sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' | tr -s "', " '\n' | grep . | sort
 }

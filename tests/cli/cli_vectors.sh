@@ -134,6 +134,17 @@ says 'utm\.geojson: warning: GeoJSON means longitudes and latitudes, and row 1 h
 run sample square.off wells.csv -o absent/out.gpkg; refused 4 'absent/out\.gpkg: No such file'
 holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
 
+# Formats that this GDAL may lack: tried if it has them, refused by name if not.
+run --version
+if grep -q 'GDAL.*not .*Parquet' "$logs/out"; then
+    run sample absent.off absent.csv -o out.parquet; refused 2 'out\.parquet: this GDAL does not write Parquet'
+    printf 'PAR1 and nothing more' >in.parquet
+    run sample square.off in.parquet; refused 3 'in\.parquet: this GDAL has no driver for Parquet'
+else
+    run sample -q square.off wells.csv -o out.parquet; exits 0
+    run sample -q square.off out.parquet; exits 0; prints_line '^0.75,0.25,B12,'
+fi
+
 data=$source_tree/../shared/data/gis
 if [[ -d $data ]]; then
     gunzip -c "$data/track.gpx.gz" >real.gpx

@@ -1,0 +1,73 @@
+#include "cli/version.h"
+#include "cli/gdal/gdal_library.h"
+
+#include <meshwalk/meshwalk.h>
+#include <string.h>
+
+static void version_line(text *t, const char *name, const char *version, const char *without)
+{
+    if (version)
+        text_printf(t, "  %-8s %s\n", name, version);
+    else
+        text_printf(t, "  %-8s not built in: %s\n", name, without);
+}
+
+#ifdef MW_GDAL
+
+/* GDAL and PROJ are looked for where the program runs. */
+static void version_of_gdal(text *t)
+{
+    static const char *const drivers[] = {"GPKG", "ESRI Shapefile", "FlatGeobuf", "GeoJSON", "GeoJSONSeq",
+                                          "GML",  "SQLite",         "Parquet"};
+    const gdal_functions *gdal = gdal_library_load();
+    int major = 0, minor = 0, patch = 0;
+    if (!gdal) {
+        text_string(t, "  GDAL     built in, but " MW_GDAL " is not found: no vector files but GeoJSON and .poly, no "
+                       "transformations\n");
+        return;
+    }
+    gdal->OSRGetPROJVersion(&major, &minor, &patch);
+    text_printf(t, "  GDAL     %s, found: vector files;", gdal->GDALVersionInfo("RELEASE_NAME"));
+    const char *join = " writes ";
+    for (size_t i = 0; i < sizeof drivers / sizeof *drivers; i++) {
+        if (!gdal->GDALGetDriverByName(drivers[i])) continue;
+        text_printf(t, "%s%s", join, drivers[i]);
+        join = ", ";
+    }
+    join = ", not ";
+    for (size_t i = 0; i < sizeof drivers / sizeof *drivers; i++) {
+        if (gdal->GDALGetDriverByName(drivers[i])) continue;
+        text_printf(t, "%s%s", join, drivers[i]);
+        join = ", ";
+    }
+    text_printf(t, "\n  PROJ     %d.%d.%d, found: coordinate systems\n", major, minor, patch);
+}
+
+#else
+
+static void version_of_gdal(text *t)
+{
+    version_line(t, "GDAL", NULL, "no vector files but GeoJSON and .poly, no transformations");
+}
+
+#endif
+
+void version_write(text *t)
+{
+#ifdef MW_JANSSON_VERSION
+    const char *jansson = MW_JANSSON_VERSION ", built in: constraints from GeoJSON";
+#else
+    const char *jansson = NULL;
+#endif
+#ifdef MW_CAIRO_VERSION
+    const char *cairo = MW_CAIRO_VERSION ", built in: pictures and plots";
+#else
+    const char *cairo = NULL;
+#endif
+    text_printf(t, "meshwalk %s\n", mw_version());
+    version_line(t, "zlib", MW_ZLIB_VERSION ", built in: files packed by gzip", NULL);
+    version_line(t, "Jansson", jansson, "no constraints from GeoJSON, but by GDAL");
+    version_line(t, "Cairo", cairo, "no pictures, no plots");
+    version_of_gdal(t);
+    version_line(t, "LAZ", NULL, "LAS only; 'pdal translate' unpacks");
+}
