@@ -31,18 +31,31 @@ int point_query_check_index(uint32_t cells, uint32_t layers);
 /* Add to a report how many points got which status. `self` is the command's own data. */
 typedef void point_query_tally(const void *self, report *r);
 
+/* Values at the points of a block. They are interpolated together, since each look-up waits for memory. */
+typedef struct point_query_values {
+    const double *field;      /* one for each vertex */
+    double *at_points;        /* QUERY_BLOCK_SIZE of them, for the block that is being written */
+    const mw_location *first; /* the answer to which the first value belongs */
+} point_query_values;
+
+static inline double point_query_value(const point_query_values *v, const mw_location *where)
+{
+    return v->at_points[where - v->first];
+}
+
 /* A mesh that is ready for queries. */
 typedef struct point_query {
     const point_query_settings *settings;
     mw_mesh *own; /* the mesh, where it was read from a file */
     const mw_mesh *mesh;
     mw_locator *locator;
-    mw_index *index;          /* NULL if the start has none */
-    const char *path;         /* of the mesh */
-    char *crs;                /* its coordinate system; NULL: not known */
-    extent extent;            /* of its vertices */
-    double begin;             /* monotonic_seconds when the command began */
-    point_query_tally *tally; /* NULL: tell how many points got which mw_where */
+    mw_index *index;            /* NULL if the start has none */
+    const char *path;           /* of the mesh */
+    char *crs;                  /* its coordinate system; NULL: not known */
+    extent extent;              /* of its vertices */
+    double begin;               /* monotonic_seconds when the command began */
+    point_query_tally *tally;   /* NULL: tell how many points got which mw_where */
+    point_query_values *values; /* NULL: no values are asked for */
 } point_query;
 
 /* Write the answer for one point, each cell behind a comma. Returns false if there is none. `self` is

@@ -2,8 +2,10 @@
  *
  * A particle that moves a little is in the triangle where it was, or beside it. What its walk then
  * costs is memory: the slot of the triangle, the tile, its corners. So many queries ask for each of
- * these together. */
+ * these together, and for the tiles of the queries after them while these walk. */
 #include "locate/hints.h"
+
+enum { AHEAD = 8 }; /* hints whose slots are asked for */
 
 /* Where the slot of a triangle stands, if anywhere. */
 static MW_INLINE void hint_prefetch_slot(const mw_locator *locator, uint32_t hint)
@@ -13,25 +15,26 @@ static MW_INLINE void hint_prefetch_slot(const mw_locator *locator, uint32_t hin
     if (slot && hint < count) __builtin_prefetch(&slot[hint]);
 }
 
-static MW_INLINE void hint_prefetch_corners(const mw_tiling *tiling, uint32_t t)
+/* Have the tiles of the next hints on their way. */
+static void hints_ask(const mw_hinted *h)
 {
-    for (int k = 0; k < 3; k++) __builtin_prefetch(&tiling->point[tiling->tri[t].v[k]]);
+    for (uint32_t i = 0; i < h->later_count; i++) {
+        uint32_t t = mw__hint_tile(h->locator, h->later[i]);
+        if (t != MW_NONE) __builtin_prefetch(&h->locator->tiling.tri[t]);
+        if (i + AHEAD < h->later_count) hint_prefetch_slot(h->locator, h->later[i + AHEAD]);
+    }
 }
 
-void mw__hints_first_many(const mw_locator *locator, const mw_cursor *cursor, const uint32_t *hints,
-                          const uint32_t *query, const mw_point *q, uint32_t n, uint32_t *t)
+void mw__hints_first_many(const mw_hinted *h, uint32_t *t)
 {
-    const mw_tiling *tiling = &locator->tiling;
-    for (uint32_t i = 0; i < n; i++) hint_prefetch_slot(locator, hints[query[i]]);
-    for (uint32_t i = 0; i < n; i++) {
-        t[i] = mw__hint_tile(locator, hints[query[i]]);
-        if (t[i] != MW_NONE) __builtin_prefetch(&tiling->tri[t[i]]);
-    }
-    for (uint32_t i = 0; i < n; i++)
-        if (t[i] != MW_NONE) hint_prefetch_corners(tiling, t[i]);
-    if (cursor->index != &locator->guide) return;
-    for (uint32_t i = 0; i < n; i++)
-        if (t[i] != MW_NONE && !mw__hint_is_near(locator, t[i], q[i])) t[i] = MW_NONE;
+    const mw_tiling *tiling = &h->locator->tiling;
+    const bool guided = h->cursor->index == &h->locator->guide;
+    for (uint32_t i = 0; i < h->n; i++) t[i] = mw__hint_tile(h->locator, h->hints[h->query[i]]);
+    for (uint32_t i = 0; i < h->n && guided; i++)
+        if (t[i] != MW_NONE) __builtin_prefetch(&tiling->point[tiling->tri[t[i]].v[0]]);
+    hints_ask(h); /* takes about as long as these points */
+    for (uint32_t i = 0; i < h->n && guided; i++)
+        if (t[i] != MW_NONE && !mw__hint_is_near(h->locator, t[i], h->q[i])) t[i] = MW_NONE;
 }
 
 void mw__hints_update(const mw_location *locations, uint32_t n, uint32_t *hints)

@@ -39,10 +39,20 @@ static MW_INLINE uint32_t mw__hint_first(const mw_locator *locator, const mw_cur
     return stays ? t : MW_NONE;
 }
 
-/* mw__hint_first for n queries, at most MW_INDEX_MANY, whose numbers are given. They wait for
- * memory together. */
-void mw__hints_first_many(const mw_locator *locator, const mw_cursor *cursor, const uint32_t *hints,
-                          const uint32_t *query, const mw_point *q, uint32_t n, uint32_t *t);
+/* Queries that begin together, at most MW_INDEX_MANY. */
+typedef struct mw_hinted {
+    const mw_locator *locator;
+    const mw_cursor *cursor;
+    const uint32_t *hints; /* of the whole batch                                    */
+    const uint32_t *query; /* the numbers of these queries in it                    */
+    const mw_point *q;     /* their points                                          */
+    uint32_t n;            /* how many there are                                    */
+    const uint32_t *later; /* the hints of those after them, which are asked for    */
+    uint32_t later_count;
+} mw_hinted;
+
+/* mw__hint_first for each of them. They wait for memory together. */
+void mw__hints_first_many(const mw_hinted *hinted, uint32_t *t);
 
 /* Make the triangles that were found the hints of the next time; a query that found none keeps its
  * hint. */

@@ -73,7 +73,10 @@ static void schedule_take_hints(lane_schedule *s)
     const mw_interleaved *of = s->of;
     uint32_t which[READY], query[READY], tile[READY], count = 0;
     mw_point q[READY];
-    mw__hints_first_many(of->locator, of->cursor, of->queries->hints, s->query, s->q, s->ready_count, s->tile);
+    const uint32_t *hints = of->queries->hints, later = s->end - s->next;
+    mw__hints_first_many(&(mw_hinted){of->locator, of->cursor, hints, s->query, s->q, s->ready_count, &hints[s->next],
+                                      later < READY ? later : READY},
+                         s->tile);
     for (uint32_t i = 0; i < s->ready_count; i++) {
         if (MW_LIKELY(s->tile[i] != MW_NONE)) continue;
         which[count] = i;

@@ -10,7 +10,7 @@
  * it passes on coordinates that it has flipped (slip 5). It has to keep all of them normalised: the
  * known one always -c, the tested one sgn(A) times the test, and the last one |2A| less both. Here
  * sgn(A) is 1: the mesh turns clockwise triangles when it is created, so that all tiles are
- * counter-clockwise. Another departure: coordinates are rounded, and what is derived from them
+ * counter-clockwise. borrow/borrowed_coordinates.c has the walk over triangles as they are. Another departure: coordinates are rounded, and what is derived from them
  * takes the errors of all tiles before along. In exact arithmetic an edge is crossed only where its
  * coordinate is surely negative, and that coordinate is passed on with the most by which it may be
  * off added. So what is known in the next tile is a lower bound, what is derived from it an upper

@@ -1,6 +1,6 @@
-/* regular.c - the regular triangulation, or weighted Delaunay triangulation [Aurenhammer 1987; Edelsbrunner,
- * Shah 1996]: points are inserted in random rounds along a Hilbert curve. It uses nothing of the Delaunay
- * triangulation but that there are three points that are on no line. */
+/* regular.c - the regular triangulation, or weighted Delaunay triangulation [Aurenhammer 1987;
+ * Edelsbrunner, Shah 1996]: points are inserted in random rounds along a Hilbert curve. It uses
+ * nothing of the Delaunay triangulation but that there are three points that are on no line. */
 #include "mesh/point_order.h"
 #include "triangulate/constrained/brio.h"
 #include "triangulate/kinds/kind_maker.h"
@@ -9,25 +9,54 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The points in random rounds, each along the curve. NULL when out of memory or cancelled. */
-static uint32_t *regular_order(const mw_triangulation *t)
+/* The points along a curve, so that what lies close in the plane lies close in memory; slot i
+ * holds point number[i]. */
+typedef struct regular_points {
+    uint32_t *number, *order; /* order: of insertion, by slots */
+    mw_point *point;
+    double *weight;
+} regular_points;
+
+static void regular_points_release(regular_points *p)
 {
-    uint32_t n = t->point_count, *curve = mw__alloc(n, sizeof *curve), *order = NULL;
-    mw_job_span outer = mw__job_part(t->job, 0.1);
-    if (curve && mw__points_order(t->point, n, t->job, curve)) order = mw__brio_order(n);
-    mw__job_part_end(t->job, outer);
-    for (uint32_t i = 0; order && i < n; i++) order[i] = curve[order[i]];
-    free(curve);
-    return order;
+    free(p->number);
+    free(p->order);
+    free(p->point);
+    free(p->weight);
 }
 
-static bool regular_insert_all(mw_regular *r, const mw_triangulation *t, const uint32_t *order)
+/* False when out of memory or cancelled; to be released in any case. */
+static bool regular_points_make(regular_points *p, const mw_triangulation *t, const double *weights)
+{
+    uint32_t n = t->point_count;
+    *p = (regular_points){mw__alloc(n, sizeof *p->number), mw__brio_order(n), mw__alloc_lines(n, sizeof *p->point),
+                          mw__alloc(n, sizeof *p->weight)};
+    mw_job_span outer = mw__job_part(t->job, 0.1);
+    bool done = p->number && p->order && p->point && p->weight && mw__points_order(t->point, n, t->job, p->number);
+    mw__job_part_end(t->job, outer);
+    for (uint32_t i = 0; done && i < n; i++) {
+        p->point[i] = t->point[p->number[i]];
+        p->weight[i] = weights ? weights[p->number[i]] : 0;
+    }
+    return done;
+}
+
+/* Any triangle will do to begin with. */
+static void regular_begin(mw_regular *r, const mw_triangulation *t, const regular_points *p)
+{
+    uint32_t slot[3] = {0};
+    for (uint32_t i = 0; i < t->point_count; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            if (p->number[i] == t->tri[0].v[k]) slot[k] = i;
+    mw__regular_begin(r, slot[0], slot[1], slot[2]);
+}
+
+static bool regular_insert_all(mw_regular *r, const mw_triangulation *t, const regular_points *p)
 {
     mw__job_stage(t->job, "inserting weighted points", 0.8);
-    const uint32_t *v = t->tri[0].v;
-    mw__regular_begin(r, v[0], v[1], v[2]); /* any triangle will do */
+    regular_begin(r, t, p);
     for (uint32_t i = 0; i < t->point_count; i++) {
-        mw__regular_insert(r, order[i]);
+        mw__regular_insert(r, p->order[i]);
         if (!mw__job_step(t->job, i, t->point_count)) return false;
     }
     return true;
@@ -37,8 +66,13 @@ static bool regular_insert_all(mw_regular *r, const mw_triangulation *t, const u
 static void regular_collect(const mw_regular *r, mw_triangulation *t)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < r->facet_count; i++)
-        if (mw__regular_is_triangle(&r->facet[i])) t->tri[count++] = r->facet[i];
+    for (uint32_t i = 0; i < r->facet_count; i++) {
+        const mw_triangle *f = &r->facet[i];
+        if (!mw__regular_is_triangle(f)) continue;
+        mw_triangle *made = &t->tri[count++];
+        *made = *f;
+        for (uint32_t k = 0; k < 4; k++) made->v[k] = r->number[f->v[k]];
+    }
     t->tri_count = count;
 }
 
@@ -62,10 +96,10 @@ mw_status mw__make_regular(mw_triangulation *t, const mw_kind_options *options, 
     mw_regular r = {0};
     mw_status status = regular_check_weights(t, options->weights, error);
     if (status) return status;
-    uint32_t *order = regular_order(t);
+    regular_points p;
     uint8_t *hidden = mw__alloc(t->point_count, 1);
-    bool done = order && hidden && mw__regular_create(&r, t->point, options->weights, t->point_count) &&
-                regular_insert_all(&r, t, order);
+    bool done = regular_points_make(&p, t, options->weights) && hidden &&
+                mw__regular_create(&r, p.point, p.weight, p.number, t->point_count) && regular_insert_all(&r, t, &p);
     if (done) {
         regular_collect(&r, t);
         regular_tell_hidden(t, hidden);
@@ -75,6 +109,6 @@ mw_status mw__make_regular(mw_triangulation *t, const mw_kind_options *options, 
     }
     mw__regular_release(&r);
     free(hidden);
-    free(order);
+    regular_points_release(&p);
     return done ? MW_OK : mw__fail_memory(error);
 }
