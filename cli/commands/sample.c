@@ -58,6 +58,7 @@ static const option sample_options[] = {
 /* What the rows are made from. */
 typedef struct sampled_field {
     const double *values; /* one for each vertex; NaN where it is missing */
+    point_query_values at_points;
     int outside, missing;
     bool status;
 } sampled_field;
@@ -120,7 +121,7 @@ static bool sample_row(const point_query *q, const void *self, const double poin
     double value = NAN;
     uint32_t triangle = where->triangle;
     if (triangle != MW_NONE)
-        mw_interpolate(q->mesh, s->values, where, 1, &value);
+        value = point_query_value(&s->at_points, where);
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
         value = sample_value_outside(q, s, point, &triangle);
     bool missing = isnan(value) && triangle != MW_NONE;
@@ -195,9 +196,14 @@ static int sample_run(const void *settings, const char *const *operands)
     end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field, &choice);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);
-        end = point_query_run(&q, operands[1], answers, s->status ? "rt" : "r", sample_row, &rows);
+        rows.at_points.field = rows.values;
+        rows.at_points.at_points = malloc(QUERY_BLOCK_SIZE * sizeof(double));
+        q.values = &rows.at_points;
+        if (!rows.at_points.at_points) end = fail_memory();
     }
+    if (end == 0) end = point_query_run(&q, operands[1], answers, s->status ? "rt" : "r", sample_row, &rows);
     point_query_release(&q);
+    free(rows.at_points.at_points);
     return end;
 }
 

@@ -5,11 +5,11 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
-#include "cli/input/border_peel.h"
 #include "cli/input/constraint_file.h"
 #include "cli/input/missing_values.h"
 #include "cli/input/vertex_crs.h"
 #include "cli/input/vertex_table.h"
+#include "cli/output/border_peel.h"
 #include "cli/output/mesh_output.h"
 #include "cli/output/side_outputs.h"
 
@@ -21,7 +21,7 @@
 typedef struct triangulate_settings {
     common_settings common;
     vertex_crs_settings crs;
-    const char *columns, *classes, *constraints, *weight, *hidden;
+    const char *columns, *classes, *constraints, *boundary, *weight, *hidden;
     int kind, format, keep;
     uint32_t limit;
     double max_edge;
@@ -62,6 +62,9 @@ static const option triangulate_options[] = {
     {"strict", 0, OPTION_FLAG, offsetof(triangulate_settings, strict), NULL,
      "with --constraints, refuse a FILE that has rings of fewer than three different points; without it they are "
      "skipped with a warning",
+     NULL},
+    {"boundary", 0, OPTION_TEXT, offsetof(triangulate_settings, boundary), "FILE",
+     "keep what lies inside the polygons of FILE, whose sides become edges, with a vertex where they cross constraints",
      NULL},
     {"max-edge", 0, OPTION_LENGTH, offsetof(triangulate_settings, max_edge), "L",
      "peel triangles off the border while they have a border edge longer than L; constraints hold them (default: keep "
@@ -150,9 +153,9 @@ static void triangulate_warn_of_points(const triangulate_settings *s, const char
     for (size_t i = 0; i < w->vertices.points; i++) inside += used[i];
     free(used);
     if (2 * inside < w->vertices.points && w->vertices.points > 2)
-        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others; --keep hull keeps "
-                 "their triangles",
-                 points, w->vertices.points - inside, w->vertices.points, s->constraints);
+        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others%s", points,
+                 w->vertices.points - inside, w->vertices.points, s->boundary ? s->boundary : s->constraints,
+                 s->boundary ? "" : "; --keep hull keeps their triangles");
 }
 
 /* The library chooses the part to keep; but segments of a .poly bound a domain, as for Triangle. */
@@ -343,14 +346,17 @@ static int triangulate_refuse(const char *why)
 /* Refuse options that contradict each other. */
 static int triangulate_check_combination(const triangulate_settings *s, const char *points)
 {
-    if (!points && !s->constraints) return triangulate_refuse("wants POINTS, or --constraints FILE");
+    if (s->boundary && s->keep) return triangulate_refuse("--boundary tells what to keep: --keep cannot");
+    if (!points && !s->constraints && !s->boundary)
+        return triangulate_refuse("wants POINTS, or --constraints FILE, or --boundary FILE");
     if (!points && (s->columns || s->classes || s->crs.points))
         return triangulate_refuse("--columns, --class and --points-crs are about POINTS, which are missing");
-    if (!s->constraints && (s->keep || s->split || s->strict))
+    if (!s->constraints && !s->boundary && (s->keep || s->split || s->strict))
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
-    if (!s->constraints && s->crs.constraints) return triangulate_refuse("--constraints-crs is about --constraints");
-    if (s->constraints && s->kind != MW_KIND_DELAUNAY)
-        return triangulate_refuse("--constraints are for --kind delaunay only");
+    if (!s->constraints && !s->boundary && s->crs.constraints)
+        return triangulate_refuse("--constraints-crs is about --constraints");
+    if ((s->constraints || s->boundary) && s->kind != MW_KIND_DELAUNAY)
+        return triangulate_refuse("--constraints and --boundary are for --kind delaunay only");
     if (!s->weight && s->kind == MW_KIND_REGULAR) return triangulate_refuse("--kind regular wants --weight COLUMN");
     if ((s->weight || s->hidden) && s->kind != MW_KIND_REGULAR)
         return triangulate_refuse("--weight and --hidden are about --kind regular");
@@ -363,20 +369,54 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
 /* Refuse wrong settings before the work begins. */
 static int triangulate_check_settings(const triangulate_settings *s, const char *points)
 {
-    const char *output = s->common.output;
-    const char *inputs[2] = {points ? points : s->constraints, s->constraints};
-    const side_output hidden = {.option = "hidden", .path = s->hidden};
-    int end = triangulate_check_combination(s, points);
+    const char *output = s->common.output, *files[] = {points, s->constraints, s->boundary}, *inputs[3];
+    int count = 0, end = triangulate_check_combination(s, points);
     if (end == 0) end = vertex_crs_check(&s->crs);
-    if (end) return end;
-    end = mesh_output_check("triangulate", output, s->format);
-    if (end) return end;
-    if (s->constraints && mesh_output_is_node(output, s->format))
-        end = constraint_file_check_output(s->constraints, output);
-    if (end) return end;
-    end = files_check_output(output, inputs, points && s->constraints ? 2 : 1);
-    if (end == 0) end = side_outputs_check(&hidden, 1, output, inputs, 1);
+    for (int i = 0; i < 3; i++)
+        if (files[i]) inputs[count++] = files[i];
+    if (end == 0) end = mesh_output_check("triangulate", output, s->format);
+    for (int i = 1; i < 3 && end == 0; i++)
+        if (files[i] && mesh_output_is_node(output, s->format)) end = constraint_file_check_output(files[i], output);
+    if (end == 0) end = files_check_output(output, inputs, count);
+    const side_output hidden = {.option = "hidden", .path = s->hidden};
+    if (end == 0) end = side_outputs_check(&hidden, 1, output, inputs, count);
     return end || !s->hidden ? end : files_try_output(s->hidden, NULL);
+}
+
+/* A boundary counts as constraints, of which the inside is kept, with a vertex where some cross. */
+static triangulate_settings triangulate_settle(const triangulate_settings *given)
+{
+    triangulate_settings s = *given;
+    if (!s.boundary) return s;
+    if (!s.constraints) s.constraints = s.boundary;
+    s.keep = MW_KEEP_INSIDE;
+    s.split = true;
+    return s;
+}
+
+/* Refuse a boundary without polygons; but alone, the segments of a .poly bound, too. */
+static int triangulate_check_boundary(const triangulate_settings *s, const mw_constraint_file *boundary)
+{
+    bool alone = s->boundary == s->constraints;
+    if (!s->boundary || boundary->polygon_count > 0 || (alone && constraint_file_is_poly(boundary))) return 0;
+    complain("%s: holds no polygon, so it is no boundary", s->boundary);
+    return END_INPUT;
+}
+
+/* Read a boundary beside constraints, and put it to them. */
+static int triangulate_join_boundary(const triangulate_settings *s, const char *points, triangulate_work *w)
+{
+    mw_constraint_file boundary = {0};
+    const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
+    if (!s->boundary) return 0;
+    int end = constraint_file_read(s->boundary, options, &boundary);
+    if (end == 0) end = triangulate_check_boundary(s, &boundary);
+    if (end == 0)
+        end = vertex_crs_move_constraints(&s->common, s->boundary, &boundary, points ? points : s->constraints,
+                                          w->vertices.file.crs);
+    if (end == 0) end = constraint_file_join(&w->constraints, &boundary);
+    mw_constraint_file_release(&boundary);
+    return end;
 }
 
 static int triangulate_read_input(const triangulate_settings *s, const char *points, triangulate_work *w)
@@ -385,17 +425,19 @@ static int triangulate_read_input(const triangulate_settings *s, const char *poi
     int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
     if (end == 0 && s->constraints) end = constraint_file_read(s->constraints, options, &w->constraints);
+    if (end == 0 && s->boundary == s->constraints) end = triangulate_check_boundary(s, &w->constraints);
     if (end == 0) end = vertex_crs_join(&s->crs, &s->common, points, &w->vertices, s->constraints, &w->constraints);
+    if (end == 0 && s->boundary != s->constraints) end = triangulate_join_boundary(s, points, w);
     return end || !s->constraints ? end : vertex_table_append(&w->vertices, &w->constraints);
 }
 
 static int triangulate_run(const void *settings, const char *const *operands)
 {
-    const triangulate_settings *s = settings;
+    const triangulate_settings *given = settings, settled = triangulate_settle(given), *s = &settled;
     const char *points = operands[0];
     triangulate_work w = {.begin = monotonic_seconds()};
     bool temporary = false;
-    int end = triangulate_check_settings(s, points);
+    int end = triangulate_check_settings(given, points);
     if (end == 0) end = files_try_output(s->common.output, &temporary);
     if (end == 0) end = triangulate_read_input(s, points, &w);
     if (end == 0)
@@ -424,7 +466,7 @@ const command triangulate_command = {
         "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
         "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
-    .essential = "columns constraints max-edge class output",
+    .essential = "columns constraints boundary max-edge output",
     .settings_size = sizeof(triangulate_settings),
     .run = triangulate_run,
 };

@@ -1,9 +1,10 @@
 /* animation.c - writes animated PNG.
  *
- * Cairo writes each picture as a PNG of its own: IHDR, IDAT, ..., IEND. An animation has one IHDR, acTL with the number of
- * pictures, the IDAT of a picture for programs that show no animations, and of each picture fcTL (its size and
- * time) and its IDAT, renamed fdAT, with a number before the data. A picture is painted over the one before, and what has not
- * changed is transparent in it: that takes next to no room. */
+ * Cairo writes each picture as a PNG of its own: IHDR, IDAT, ..., IEND. An animation has one IHDR,
+ * acTL with the number of pictures, the IDAT of a picture for programs that show no animations,
+ * and of each picture fcTL (its size and time) and its IDAT, renamed fdAT, with a number before
+ * the data. A picture is painted over the one before, and what has not changed is transparent in
+ * it: that takes next to no room. */
 #include "cli/draw/animation.h"
 
 #include <string.h>
@@ -25,7 +26,7 @@ bool animation_named(const char *path)
 #include <stdlib.h>
 #include <zlib.h>
 
-/* --- chunks: length, type, data, checksum -------------------------------------------------------------------------- */
+/* --- chunks: length, type, data, checksum ----------------------------------------------------- */
 
 enum { SIGNATURE = 8, HEAD = 8, TAIL = 4, FRAME_CONTROL = 26 };
 
@@ -59,7 +60,7 @@ static void chunk_write(mw_output *out, const char *type, const unsigned char *f
     mw_output_write(out, tail, TAIL);
 }
 
-/* --- one picture ---------------------------------------------------------------------------------------------------- */
+/* --- one picture ------------------------------------------------------------------------------ */
 
 /* A PNG in memory. */
 typedef struct frame_png {
@@ -137,7 +138,7 @@ static const unsigned char *frame_png_chunk(const frame_png *png, size_t *at, co
     return NULL;
 }
 
-/* --- the file ------------------------------------------------------------------------------------------------------- */
+/* --- the file --------------------------------------------------------------------------------- */
 
 /* The head of the file, and a picture for those who show no animations. */
 static void animation_write_head(const animation *a, const frame_png *png, mw_output *out)

@@ -1,5 +1,5 @@
-/* animation.h - pictures that follow each other, in a file: animated PNG (APNG, the third edition of
- * PNG), drawn with Cairo. */
+/* animation.h - pictures that follow each other, in a file: animated PNG (APNG, the third edition
+ * of PNG), drawn with Cairo. */
 #ifndef MW_CLI_DRAW_ANIMATION_H
 #define MW_CLI_DRAW_ANIMATION_H
 
@@ -20,8 +20,9 @@ typedef struct animation {
     void *self;
 } animation;
 
-/* Write the pictures, to be shown again and again. Programs that know plain PNG only show the last one. The
- * file appears under its name when it is complete. Returns 0, or an exit code after a complaint. */
+/* Write the pictures, to be shown again and again. Programs that know plain PNG only show the last
+ * one. The file appears under its name when it is complete. Returns 0, or an exit code after a
+ * complaint. */
 int animation_write(const animation *a, const char *path);
 
 #endif

@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -120,4 +121,61 @@ int constraint_file_fail_crossing(const char *path, const mw_constraint_file *fi
     complain("%s: %s %" PRIu32 " crosses %s near %.9g %.9g; %s", path, what, one, second, at[0], at[1],
              split ? "others are so close there that rounding cannot part them" : "--split puts a vertex there");
     return END_INPUT;
+}
+
+/* --- joining --- */
+
+/* Append `more` items to an array of `count`. */
+static bool array_append(void *array, size_t count, const void *items, size_t more, size_t size)
+{
+    void **begin = array;
+    char *longer = realloc(*begin, (count + more + 1) * size);
+    if (!longer) return false;
+    if (more > 0) memcpy(longer + count * size, items, more * size);
+    *begin = longer;
+    return true;
+}
+
+/* The points of the boundary have no attributes: NaN. */
+static bool fields_extend(mw_constraint_file *c, size_t more)
+{
+    for (size_t f = 0; f < c->field_count; f++) {
+        double *longer = realloc(c->fields[f], (c->point_count + more + 1) * sizeof *longer);
+        if (!longer) return false;
+        c->fields[f] = longer;
+        for (size_t i = 0; i < more; i++) longer[c->point_count + i] = NAN;
+    }
+    return true;
+}
+
+static bool segments_append(mw_constraint_file *c, const mw_constraint_file *b)
+{
+    size_t count = c->segment_count, more = b->segment_count;
+    for (size_t i = 0; i < count; i++) c->polygon[i] = MW_NONE;
+    if (!array_append(&c->segments, 2 * count, b->segments, 2 * more, sizeof *c->segments) ||
+        !array_append(&c->polygon, count, b->polygon, more, sizeof *c->polygon) ||
+        !array_append(&c->record, count, b->record, more, sizeof *c->record))
+        return false;
+    for (size_t i = 2 * count; i < 2 * (count + more); i++) c->segments[i] += (uint32_t)c->point_count;
+    c->segment_count = count + more;
+    return true;
+}
+
+int constraint_file_join(mw_constraint_file *constraints, const mw_constraint_file *boundary)
+{
+    mw_constraint_file *c = constraints;
+    if (c->point_count + boundary->point_count > MW_MAX_VERTICES) {
+        complain("more than %u vertices", (unsigned)MW_MAX_VERTICES);
+        return END_RESOURCE;
+    }
+    if (!segments_append(c, boundary) || !fields_extend(c, boundary->point_count) ||
+        !array_append(&c->points, 3 * c->point_count, boundary->points, 3 * boundary->point_count, sizeof(double)) ||
+        !array_append(&c->hole_seeds, 2 * c->hole_seed_count, boundary->hole_seeds, 2 * boundary->hole_seed_count,
+                      sizeof(double)))
+        return fail_memory();
+    c->point_count += boundary->point_count;
+    c->hole_seed_count += boundary->hole_seed_count;
+    c->polygon_count = boundary->polygon_count;
+    c->has_z = c->has_z || boundary->has_z;
+    return 0;
 }

@@ -12,7 +12,8 @@ void csv_row_numbers(text *out, const double *values, size_t count)
     }
 }
 
-void csv_row_count(text *out, bool filled, uint32_t value)
+/* A mark, and a number behind it if `filled`. */
+static void row_add_count(text *out, char mark, bool filled, uint32_t value)
 {
     char digits[12];
     size_t at = sizeof digits;
@@ -22,8 +23,18 @@ void csv_row_count(text *out, bool filled, uint32_t value)
             value /= 10;
         } while (value);
     }
-    digits[--at] = ',';
+    digits[--at] = mark;
     text_bytes(out, digits + at, sizeof digits - at);
+}
+
+void csv_row_count(text *out, bool filled, uint32_t value)
+{
+    row_add_count(out, ',', filled, value);
+}
+
+void csv_row_count_more(text *out, uint32_t value)
+{
+    row_add_count(out, ' ', true, value);
 }
 
 void csv_row_double(text *out, bool filled, double value)

@@ -15,12 +15,14 @@ void csv_row_status(text *out, const char *status, uint32_t triangle);
 void csv_row_text(text *out, const char *cell);
 /* A number; an empty cell if not `filled`. */
 void csv_row_count(text *out, bool filled, uint32_t value);
+/* One more number in the same cell, behind a blank. */
+void csv_row_count_more(text *out, uint32_t value);
 void csv_row_double(text *out, bool filled, double value);
 /* The weights of the triangle's corners; empty cells for unknown weights (NaN), and if the triangle
  * is MW_NONE. */
 void csv_row_weights(text *out, uint32_t triangle, const double weight[3]);
-/* Write the cells from byte `begin` on as those of another table: its separator in place of commas, its
- * decimal mark in place of points. Texts in quotes stay as they are. */
+/* Write the cells from byte `begin` on as those of another table: its separator in place of
+ * commas, its decimal mark in place of points. Texts in quotes stay as they are. */
 void csv_row_adapt(text *out, size_t begin, char separator, char decimal);
 /* The end of the row. */
 void csv_row_end(text *out);

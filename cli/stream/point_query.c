@@ -249,6 +249,18 @@ typedef struct point_query_context {
     extent extent; /* of the points */
 } point_query_context;
 
+/* Interpolate the values of a block. */
+static mw_status point_query_interpolate(const point_query *q, const mw_location *answers, size_t count,
+                                         mw_error *error)
+{
+    point_query_values *v = q->values;
+    if (!v) return MW_OK;
+    const mw_value_table table = {.values = v->field, .type = MW_FLOAT64, .count = 1};
+    const mw_interpolate_options options = {.threads = q->settings->stream.common.threads};
+    v->first = answers;
+    return mw_interpolate_table(q->mesh, &table, answers, count, &options, v->at_points, error);
+}
+
 static int point_query_answer_block(void *self, const query_block *block, void *answers)
 {
     point_query_context *context = self;
@@ -272,6 +284,7 @@ static int point_query_answer_block(void *self, const query_block *block, void *
     };
     mw_status status = mw_locate_batch(context->query->locator, block->values, block->count, block->stride, &options,
                                        answers, &counters, &error);
+    if (status == MW_OK) status = point_query_interpolate(context->query, answers, block->count, &error);
     if (status != MW_OK) return fail_query(&error);
     location_statistics_add(&context->statistics, answers, block->count, &counters);
     extent_add(&context->extent, block->values, block->count, block->stride);

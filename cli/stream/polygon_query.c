@@ -29,12 +29,15 @@ static void counts_add(polygon_counts *c, const feature_hit *hits, size_t count,
 static void rows_write_list(const feature_hit *hits, size_t count, bool border, text *out)
 {
     bool first = true;
-    text_bytes(out, ",", 1);
     for (size_t i = 0; i < count; i++) {
         if (border && !hits[i].border) continue;
-        text_printf(out, first ? "%u" : " %u", (unsigned)hits[i].feature);
+        if (first)
+            csv_row_count(out, true, hits[i].feature);
+        else
+            csv_row_count_more(out, hits[i].feature);
         first = false;
     }
+    if (first) csv_row_count(out, false, 0);
 }
 
 static void rows_write_values(const polygon_rows *rows, const feature_hit *hits, size_t count, text *out)

@@ -61,13 +61,23 @@ static mw_triangulation_kind triangulation_kind_by_name(const char *name)
     return MW_KIND_COUNT;
 }
 
-/* triangulate(cls, points, duplicate_of, kind, limit, threads, progress): a mesh, the number of
+/* The weights of a regular triangulation; *view stays empty without any. 0, or -1 with an exception. */
+static int triangulation_get_weights(PyObject *weights, triangulation_input *in, Py_buffer *view)
+{
+    if (weights == Py_None || !buffer_get_packed(weights, sizeof(double), in->points.count, view))
+        return 0;
+    triangulation_release_input(in);
+    return -1;
+}
+
+/* triangulate(cls, points, duplicate_of, kind, weights, limit, threads, progress): a mesh, the number of
  * duplicates, and whether it is optimal */
 static PyObject *triangulation_of_kind(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
     mw_progress progress;
-    PyObject *function, *class, *points, *duplicates, *object;
+    PyObject *function, *class, *points, *duplicates, *weights, *object;
+    Py_buffer weight_view = {0};
     const char *name;
     mw_triangulation_kind kind;
     mw_kind_options options = {0};
@@ -76,17 +86,21 @@ static PyObject *triangulation_of_kind(PyObject *module, PyObject *args)
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOsO&O&O", &class, &points, &duplicates, &name, option_uint32,
-                          &options.limit, option_uint32, &options.threads, &function) ||
+    if (!PyArg_ParseTuple(args, "OOOsOO&O&O", &class, &points, &duplicates, &name, &weights,
+                          option_uint32, &options.limit, option_uint32, &options.threads,
+                          &function) ||
         (kind = triangulation_kind_by_name(name)) == MW_KIND_COUNT ||
-        triangulation_get_input(points, duplicates, &in))
+        triangulation_get_input(points, duplicates, &in) ||
+        triangulation_get_weights(weights, &in, &weight_view))
         return NULL;
+    options.weights = weight_view.buf;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_triangulate(kind, in.points.points, in.points.count, in.points.stride, &options,
                             in.duplicate_of.buf, &report, &mesh, &error);
     Py_END_ALLOW_THREADS
     triangulation_release_input(&in);
+    if (weight_view.buf) PyBuffer_Release(&weight_view);
     if (status) return errors_raise(state, &error);
     object = mesh_new(state, class, mesh);
     if (!object) return NULL;

@@ -117,7 +117,7 @@ class BorrowedMesh:
         ----------
         delaunay : scipy.spatial.Delaunay
             Triangles that SciPy has rounded may leave gaps along the hull, so points beyond a
-            border edge are looked for everywhere unless the check finds none.
+            border edge are looked for everywhere unless the check finds the mesh convex.
         check : bool, optional
             Look at all triangles first.
 

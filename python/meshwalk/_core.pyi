@@ -285,6 +285,7 @@ def triangulate(
     points: Buffer,
     duplicate_of: Buffer,
     kind: str,
+    weights: Buffer | None,
     limit: int,
     threads: int,
     progress: Progress | None,

@@ -90,10 +90,11 @@ def delaunay(points: ArrayLike, threads: int = 0, *, progress: Progress | None =
 
 def triangulate(
     points: ArrayLike,
-    kind: Literal["delaunay", "greedy", "min-weight", "min-max-angle"] = "delaunay",
+    kind: Literal["delaunay", "greedy", "min-weight", "min-max-angle", "regular"] = "delaunay",
     limit: int = 0,
     threads: int = 0,
     *,
+    weights: ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> Mesh:
     """Triangulation of points of any kind that the library has.
@@ -102,14 +103,18 @@ def triangulate(
     ----------
     points : array_like, shape (n, 2) or (n, 3)
         x, y of each point. A third column becomes the field ``"z"``.
-    kind : {"delaunay", "greedy", "min-weight", "min-max-angle"}, optional
+    kind : {"delaunay", "greedy", "min-weight", "min-max-angle", "regular"}, optional
         Which one: without a point in the circle of a triangle; of the shortest edge that crosses
-        none, again and again; of the least sum of edge lengths; of the least largest angle.
+        none, again and again; of the least sum of edge lengths; of the least largest angle;
+        regular, or weighted Delaunay.
     limit : int, optional
         How far the optimum is sought: for ``"min-weight"`` in faces of so many corners, for
         ``"min-max-angle"`` for so many points. 0 ends after about half a minute.
     threads : int, optional
         For the Delaunay triangulation that each kind begins with; 0 lets the library choose.
+    weights : array_like, shape (n,), optional
+        For ``"regular"``: the weight of each point, such as the square of the radius of a circle
+        round it. Points that others outweigh are hidden: vertices of no triangle.
     progress : callable, optional
         Called now and then with what is being done (str) and how much of it is done (from 0
         to 1), at most 300 times. An exception in it ends the call, as Ctrl-C does.
@@ -140,8 +145,11 @@ def triangulate(
     """
     rows, width = _arrays.vertices(points, "points", (2, 3))
     duplicate_of = np.empty(len(rows), np.uint32)
+    if weights is not None and kind != "regular":
+        raise ValueError("weights are for the kind 'regular'")
+    heavy = None if weights is None else _arrays.field(weights, "weights", len(rows))
     mesh, duplicates, optimal = _core.triangulate(
-        Mesh, rows[:, :2], duplicate_of, kind, limit, threads, progress
+        Mesh, rows[:, :2], duplicate_of, kind, heavy, limit, threads, progress
     )
     mesh._set_fields(rows[:, 2] if width == 3 else None, None)
     _warn(duplicates, duplicate_of)

@@ -1,9 +1,10 @@
 /* borrowed.h - the caller's arrays as a walk reads them. Private.
  *
- *            S             Numbers are never trusted: what names no triangle is no neighbour, and a triangle that names
- *           / \            no vertex cannot be read. A walk names the corners of a triangle A, B and S, whatever the
- *          /   \           orientation of the arrays: it came over the edge AB, and q lies strictly to the left of
- *         /  *q \          A -> B, as the triangle does. So a clockwise triangle costs it nothing. */
+ *            S             Numbers are never trusted: what names no triangle is no neighbour, and a
+ *           / \            triangle that names no vertex cannot be read. A walk names the corners
+ *          /   \           of a triangle A, B and S, whatever the orientation of the arrays: it
+ *         /  *q \          came over the edge AB, and q lies strictly to the left of A -> B, as the
+ *                          triangle does. So a clockwise triangle costs it nothing. */
 #ifndef MW_SRC_BORROW_BORROWED_H
 #define MW_SRC_BORROW_BORROWED_H
 
@@ -82,9 +83,9 @@ static MW_INLINE bool mw__borrowed_is_finite(const mw_borrowed_tile *tile)
  * counts, and whether the mesh is convex. A part of the job. */
 mw_status mw__borrowed_check(mw_borrowed *mesh, mw_job *job, mw_error *error);
 
-/* Do the triangles fill their convex hull? For a mesh in which the links of all triangles are right,
- * and that has `borders` edges without a neighbour, one of them that of triangle `first`, which has
- * an area, opposite to its corner `k`. */
+/* Do the triangles fill their convex hull? For a mesh in which the links of all triangles are
+ * right, and that has `borders` edges without a neighbour, one of them that of triangle `first`,
+ * which has an area, opposite to its corner `k`. */
 bool mw__borrowed_is_convex(const mw_borrowed *mesh, uint32_t first, uint32_t k, uint32_t borders);
 
 #endif

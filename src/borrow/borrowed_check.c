@@ -46,8 +46,8 @@ static const char *check_hint(const mw_borrowed *mesh, uint32_t t, const mw_borr
     return "; the neighbours would fit the other layout";
 }
 
-/* The neighbour opposite to corner k shares the edge, and says the same; *apex is its own corner off
- * the edge. */
+/* The neighbour opposite to corner k shares the edge, and says the same; *apex is its own corner
+ * off the edge. */
 static mw_status check_neighbour(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile, uint32_t k,
                                  uint32_t across, mw_point *apex, mw_error *error)
 {
@@ -79,7 +79,8 @@ static int check_flat_turn(const mw_borrowed *mesh, const mw_borrowed_tile *tile
     return side > 0 ? -1 : side < 0;
 }
 
-/* A flat triangle between neighbours lies between them: seen from each it goes round the same way. */
+/* A flat triangle between neighbours lies between them: seen from each it goes round the same way.
+ */
 static mw_status check_flat(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile, bool *pair,
                             mw_error *error)
 {
@@ -95,8 +96,8 @@ static mw_status check_flat(const mw_borrowed *mesh, uint32_t t, const mw_borrow
     return mw__fail_at(error, t, -1, "triangle %" PRIu32 " has no area, and its neighbours fold round it", t);
 }
 
-/* Neighbours lie on different sides of their edge: the higher one is asked, by both. A flat triangle
- * lies on neither. */
+/* Neighbours lie on different sides of their edge: the higher one is asked, by both. A flat
+ * triangle lies on neither. */
 static mw_status check_links(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile, double area,
                              mw_error *error)
 {

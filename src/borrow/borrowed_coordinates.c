@@ -1,17 +1,19 @@
-/* borrowed_coordinates.c - the barycentric walk [Sundareswara, Schrater 2003; thesis App. E, Alg. 3]
- * and the direct walk [thesis App. C, Alg. 1] over triangles of mixed orientation, none of which is
- * turned.
+/* borrowed_coordinates.c - the barycentric walk [Sundareswara, Schrater 2003; thesis App. E, Alg.
+ * 3] and the direct walk [thesis App. C, Alg. 1] over triangles of mixed orientation, none of
+ * which is turned.
  *
- *          t2            The coordinate b_i of q is the area that q makes with the edge opposite to t_i, over the area
- *         /  `           of the triangle. Clockwise triangles have both areas negative: the quotient is the same. The
- *        /    `   * q    direct walk does not divide. It needs the sign of the area, 2A, to know which way an orientation
- *      t0------t1        coordinate points: with sgn(A) it keeps all of them normalised (slip 5 of its pseudocode is that
- *                        it passes on values that it has flipped). The one of the edge just crossed is then known,
- *                        -c, whatever the orientation of the two triangles; one is tested, sgn(A) times the test; and the
- *                        last one is |2A| less both.
- * Rounding is taken care of as in walk/barycentric.c and walk/direct.c: an edge is crossed only where
- * its coordinate is surely negative. Triangles without an area have no coordinates: there both walks
- * end. */
+ *          t2            The coordinate b_i of q is the area that q makes with the edge opposite to
+ *         /  `           t_i, over the area of the triangle. Clockwise triangles have both areas
+ *        /    `   * q    negative: the quotient is the same. The direct walk does not divide. It
+ *      t0------t1        needs the sign of the area, 2A, to know which way an orientation
+ *                        coordinate points: with sgn(A) it keeps all of them normalised (slip 5 of
+ *                        its pseudocode is that it passes on values that it has flipped). The one
+ *                        of the edge just crossed is then known, -c, whatever the orientation of
+ *                        the two triangles; one is tested, sgn(A) times the test; and the last one
+ *                        is |2A| less both.
+ * Rounding is taken care of as in walk/barycentric.c and walk/direct.c: an edge is crossed only
+ * where its coordinate is surely negative. Triangles without an area have no coordinates: there
+ * both walks end. */
 #include "borrow/borrowed_walk.h"
 #include "walk/value.h"
 
@@ -26,8 +28,8 @@ static MW_INLINE double coordinate_sum(mw_borrowed_walk *w, const mw_borrowed_ti
     return area_value(&w->counts, tile->p[0], tile->p[1], tile->p[2], off, mw__borrowed_policy);
 }
 
-/* Over the edge opposite to corner k. MW_VERDICT_UNSURE where there is no neighbour: q surely lies beyond the
- * edge, but of what the mesh lacks there the remembering walk knows more. */
+/* Over the edge opposite to corner k. MW_VERDICT_UNSURE where there is no neighbour: q surely lies
+ * beyond the edge, but of what the mesh lacks there the remembering walk knows more. */
 static MW_INLINE mw_verdict coordinate_cross(mw_borrowed_walk *w, uint32_t k)
 {
     uint32_t next = mw__borrowed_across(w->mesh, w->t, k);

@@ -25,7 +25,8 @@ static mw_point outline_to(const outline_edge *e)
     return e->tile.p[e->b];
 }
 
-/* From a border edge to the next one: round the vertex where it ends. False where links are wrong. */
+/* From a border edge to the next one: round the vertex where it ends. False where links are wrong.
+ */
 static bool outline_step(const mw_borrowed *mesh, outline_edge *e)
 {
     for (uint32_t turns = 0; turns < mesh->tri_count; turns++) {

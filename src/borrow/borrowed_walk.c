@@ -1,13 +1,14 @@
 /* borrowed_walk.c - the remembering walk [Devillers, Pion, Teillaud 2002, sec. 3.2; thesis App. A,
  * sec. 2] over triangles of any orientation.
  *
- *            S            Only the first triangle is asked for its orientation. From then on the walk knows its corners
- *           / \     *q    by the edge AB that it came over, with q and the triangle strictly to its left. So A, B and S
- *          /   \          turn left, whichever way the arrays have them, and q is beyond BS where it lies to its right,
- *         A-----B         or beyond SA. Where it crosses BS, that edge, from S to B, is the next AB.
+ *            S            Only the first triangle is asked for its orientation. From then on the
+ *           / \     *q    walk knows its corners by the edge AB that it came over, with q and the
+ *          /   \          triangle strictly to its left. So A, B and S turn left, whichever way the
+ *         A-----B         arrays have them, and q is beyond BS where it lies to its right, or
+ *                         beyond SA. Where it crosses BS, that edge, from S to B, is the next AB.
  *
- * A triangle without an area is crossed like any other: q lies strictly beyond the edge that led there, and so beyond one
- * of the two others. */
+ * A triangle without an area is crossed like any other: q lies strictly beyond the edge that led
+ * there, and so beyond one of the two others. */
 #include "borrow/borrowed_walk.h"
 #include "walk/stochastic.h"
 

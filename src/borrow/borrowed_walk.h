@@ -5,8 +5,8 @@
 #include "borrow/borrowed.h"
 #include "walk/step.h"
 
-/* A walk, and the counts of its query. `counts` has only work and stage set, for the vocabulary that
- * all walks share. */
+/* A walk, and the counts of its query. `counts` has only work and stage set, for the vocabulary
+ * that all walks share. */
 typedef struct mw_borrowed_walk {
     const mw_borrowed *mesh;
     mw_point q;
@@ -25,15 +25,15 @@ static MW_INLINE void mw__borrowed_enter(mw_borrowed_walk *w, uint32_t t)
     w->counts.work->triangles[w->counts.stage]++;
 }
 
-/* From triangle w->t to the one that contains q, which is left in w->t: MW_VERDICT_FOUND. MW_VERDICT_LEFT: q lies
- * beyond an edge of w->t that has no neighbour. MW_VERDICT_OUT_OF_FUEL: links are wrong, or fuel has run out, or the
- * walk should begin where there is no area. It is the remembering walk; half of the fuel it tosses a
- * coin, so that it leaves any cycle. */
+/* From triangle w->t to the one that contains q, which is left in w->t: MW_VERDICT_FOUND.
+ * MW_VERDICT_LEFT: q lies beyond an edge of w->t that has no neighbour. MW_VERDICT_OUT_OF_FUEL:
+ * links are wrong, or fuel has run out, or the walk should begin where there is no area. It is the
+ * remembering walk; half of the fuel it tosses a coin, so that it leaves any cycle. */
 mw_verdict mw__borrowed_remembering(mw_borrowed_walk *w);
 
-/* The barycentric and the direct walk, as published for triangles of mixed orientation. They end with
- * MW_VERDICT_UNSURE in or near the triangle that contains q, where the remembering walk goes on; otherwise
- * as above. */
+/* The barycentric and the direct walk, as published for triangles of mixed orientation. They end
+ * with MW_VERDICT_UNSURE in or near the triangle that contains q, where the remembering walk goes
+ * on; otherwise as above. */
 mw_verdict mw__borrowed_barycentric(mw_borrowed_walk *w);
 mw_verdict mw__borrowed_direct(mw_borrowed_walk *w);
 

@@ -7,7 +7,8 @@
 bool mw__vertex_list_add(mw_vertex_list *list, uint32_t vertex)
 {
     if (list->count == list->capacity) {
-        uint32_t capacity = list->capacity ? 2 * list->capacity : 16;
+        uint32_t most = UINT32_MAX / 2, capacity = list->capacity ? 2 * list->capacity : 16;
+        if (list->capacity > most) capacity = UINT32_MAX;
         uint32_t *more = mw__realloc(list->vertex, capacity, sizeof *more);
         if (!more) return false;
         list->vertex = more;

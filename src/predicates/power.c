@@ -1,12 +1,12 @@
-/* power.c - the exact stage of the power test: the determinant of the rows x, y, x^2 + y^2 - w of a - d,
- * b - d, c - d; and the same on a line. */
+/* power.c - the exact stage of the power test: the determinant of the rows x, y, x^2 + y^2 - w of
+ * a - d, b - d, c - d; and the same on a line. */
 #include "predicates/power.h"
 
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-/* Expansions are exact for nonzero coordinates as for incircle, and for weights whose differences are
- * within the range of squares of these: multiples of 2^(-432 - 52), at most 2^508. */
+/* Expansions are exact for nonzero coordinates as for incircle, and for weights whose differences
+ * are within the range of squares of these: multiples of 2^(-432 - 52), at most 2^508. */
 #define LOW 0x1p-216
 #define HIGH 0x1p253
 #define WEIGHT_LOW 0x1p-432
@@ -111,8 +111,8 @@ double mw__power_exact(const mw_weighted_point p[4])
     return MW_LIKELY(power_has_expansions(p, 4)) ? power_with_expansions(p) : power_with_integers(p);
 }
 
-/* The line through (ta, la) and (tb, lb) passes d, where t is 0, at the height (la tb - lb ta) / (tb -
- * ta); d itself has the height 0. t is x or, on a vertical line, y. */
+/* The line through (ta, la) and (tb, lb) passes d, where t is 0, at the height (la tb - lb ta) /
+ * (tb - ta); d itself has the height 0. t is x or, on a vertical line, y. */
 int mw__power_on_line(const mw_weighted_point p[3])
 {
     power_big row[2];

@@ -1,8 +1,9 @@
 /* power.h - exact tests of weighted points. Private.
  *
  * A point x with weight w is lifted to the height |x|^2 - w. Three points that turn left lift to a
- * plane; a fourth is below it where it lies deeper in their power circle than its own weight. With equal
- * weights that is the circumcircle, and the test is incircle. Signs are right for all finite doubles. */
+ * plane; a fourth is below it where it lies deeper in their power circle than its own weight. With
+ * equal weights that is the circumcircle, and the test is incircle. Signs are right for all finite
+ * doubles. */
 #ifndef MW_SRC_PREDICATES_POWER_H
 #define MW_SRC_PREDICATES_POWER_H
 
@@ -13,17 +14,18 @@ typedef struct mw_weighted_point {
     double weight;
 } mw_weighted_point;
 
-/* Bound for the power test in terms of its permanent. As for incircle, but a lift is the sum of two
- * squares and a difference of weights: off by the factor (1 + u)^5 of the sum of their magnitudes. Its
- * product with a minor, rounded, is off by (10u + 41u^2 + ...) of the product of the permanents, which is
- * (10u + 60u^2 + ...) of the computed one. The sums make it 11u + 90u^2 + .... (11u + 160u^2)(1 - u)^2 is
- * more. Underflow as for incircle: the difference of weights has none. */
+/* Bound for the power test in terms of its permanent. As for incircle, but a lift is the sum of
+ * two squares and a difference of weights: off by the factor (1 + u)^5 of the sum of their
+ * magnitudes. Its product with a minor, rounded, is off by (10u + 41u^2 + ...) of the product of
+ * the permanents, which is (10u + 60u^2 + ...) of the computed one. The sums make it 11u + 90u^2 +
+ * .... (11u + 160u^2)(1 - u)^2 is more. Underflow as for incircle: the difference of weights has
+ * none. */
 #define MW_POWER_ERROR ((11.0 + 160.0 * 0x1p-53) * 0x1p-53)
 
 double mw__power_exact(const mw_weighted_point p[4]);
 
-/* For a, b, c counter-clockwise: > 0: d lies below the plane of a, b, c, each lifted; < 0: above; 0:
- * on it. */
+/* For a, b, c counter-clockwise: > 0: d lies below the plane of a, b, c, each lifted; < 0: above;
+ * 0: on it. */
 static MW_INLINE double mw__power(const mw_weighted_point p[4])
 {
     double x[3], y[3], lift[3], size[3], det = 0, permanent = 0, lifts = 0;
@@ -45,8 +47,8 @@ static MW_INLINE double mw__power(const mw_weighted_point p[4])
     return mw__power_exact(p);
 }
 
-/* For a and b at different places, and d on the line through them: 1: d lies below the line through the
- * lifted a and b; -1: above; 0: on it. Always exact. p: a, b, d. */
+/* For a and b at different places, and d on the line through them: 1: d lies below the line
+ * through the lifted a and b; -1: above; 0: on it. Always exact. p: a, b, d. */
 int mw__power_on_line(const mw_weighted_point p[3]);
 
 #endif

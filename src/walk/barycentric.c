@@ -4,8 +4,9 @@
  *         /  `           over the area of the tile, negative where q lies beyond that edge. Cross the edge of the
  *        /    `   * q    least one, if it is negative: here b0. Three tests a tile: two of the areas over edges, and
  *      t0------t1        that of the tile, since the coordinates add up to 1. Dividing by the signed area makes the
- *                        walk independent of the tile's orientation (all tiles are counter-clockwise here). borrow/borrowed_coordinates.c
- *                        has it over triangles of mixed orientation.
+ *                        walk independent of the tile's orientation. (All tiles are counter-clockwise
+ *                        here; borrow/borrowed_coordinates.c
+ *                        has it over triangles of mixed orientation.)
  * Departure from the printed pseudocode: the coordinates are rounded, and b2, a difference, even in
  * sign. In exact arithmetic an edge is crossed only where its coordinate is below zero by more than
  * all may be off; so q surely lies beyond it. Where the least coordinate is not, q is in the tile

@@ -253,6 +253,28 @@ for file in "$data"/*.poly "$data"/*.geojson*; do
     run check real.off; exits 0
     run info real.off; prints_line '^convex +yes$'
 done
+# A boundary cuts the triangulation, breaklines included; polygons among the constraints are edges then.
+for x in 0 1 2 3 4 5; do for y in 0 1 2 3 4 5; do echo "$x $y $((x + y))"; done; done >field.xyz
+printf '{"type":"Polygon","coordinates":[[[0.5,0.5],[4.5,0.5],[4.5,4.5],[0.5,4.5],[0.5,0.5]]]}' >edge.json
+printf '{"type":"LineString","coordinates":[[-1,2.25],[6,2.25]]}' >break.json
+printf '{"type":"Polygon","coordinates":[[[1.2,1.2],[1.8,1.2],[1.8,1.8],[1.2,1.2]]]}' >lake.json
+run triangulate field.xyz --boundary edge.json -o cut.ply; exits 0
+says '^meshwalk: field\.xyz: 20 of its 36 points lie outside of the polygons in edge\.json'
+run info cut.ply; prints_line '^area +16$'; prints_line '^holes +0$'; prints_line '^embedding +yes$'
+run_on $'0.6 0.6\n0.5 4.5\n0.4 2\n' sample cut.ply -; exits 0; prints $'x,y,z\n0.6,0.6,1.2\n0.5,4.5,5\n0.4,2,'
+run triangulate field.xyz --boundary edge.json --constraints break.json -o cut.ply; exits 0; prints_line '^added +2$'
+run info cut.ply; prints_line '^area +16$'
+run triangulate field.xyz --boundary edge.json --constraints lake.json -o cut.ply; exits 0
+run info cut.ply; prints_line '^area +16$'
+run triangulate --boundary edge.json -o cut.off; exits 0; run info cut.off; prints_line '^area +16$'
+run triangulate field.xyz --boundary edge.json --max-edge 0.1 -o cut.off; exits 0; prints_line '^peeled +0$'
+run triangulate field.xyz --boundary break.json -o no.off; refused 3 'break\.json: holds no polygon, so it is no boundary'
+run triangulate field.xyz --boundary edge.json --keep hull -o no.off; refused 2 '--keep cannot'
+run triangulate field.xyz --boundary edge.json --kind greedy -o no.off; refused 2 '--boundary are for --kind delaunay'
+run triangulate field.xyz --boundary absent.json -o no.off; refused 3 'absent\.json'
+run triangulate - --boundary - -o no.off; refused 2 'can be read once'
+absent no.off
+
 # A polygon that leaves out most points is remarked on.
 for x in 0 1 2 3 4 5; do for y in 0 1 2 3 4 5; do echo "$x $y 1"; done; done >many.xyz
 printf '{"type":"Polygon","coordinates":[[[0,0],[2,0],[2,2],[0,2],[0,0]]]}' >small.json

@@ -1,5 +1,6 @@
-/* test_borrow.c - location in arrays that stay the caller's: the answers are those of an ordinary mesh
- * and of brute force; arrays that are wrong are refused by the check, and do no harm without it. */
+/* test_borrow.c - location in arrays that stay the caller's: the answers are those of an ordinary
+ * mesh and of brute force; arrays that are wrong are refused by the check, and do no harm without
+ * it. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -64,7 +65,7 @@ static mw_borrowed *borrow(const foreign *f, mw_borrow_options options)
     return mesh;
 }
 
-/* --- answers ------------------------------------------------------------------------------------- */
+/* --- answers ---------------------------------------------------------------------------------- */
 
 static bool same(const mw_location *a, const mw_location *b)
 {
@@ -140,8 +141,8 @@ static void try_arrays(const arrays *a, uint64_t *random)
     mw_mesh_destroy(mesh);
 }
 
-/* Squares of points on integers (ties everywhere) and moved at random, of triangles that are scrambled
- * and turned round, whole, with holes, and in several pieces. */
+/* Squares of points on integers (ties everywhere) and moved at random, of triangles that are
+ * scrambled and turned round, whole, with holes, and in several pieces. */
 static void answers_are_those_of_a_mesh(void **state)
 {
     uint64_t random = environment_print_seed("borrow", 11);
@@ -210,7 +211,7 @@ static void flat_triangles_own_no_point(void **state)
     }
 }
 
-/* --- wrong arrays -------------------------------------------------------------------------------- */
+/* --- wrong arrays ----------------------------------------------------------------------------- */
 
 enum { ANY = -2 };
 
@@ -367,11 +368,11 @@ static void damage_does_no_harm(void **state)
     }
 }
 
-/* --- what the walks cost ------------------------------------------------------------------------- */
+/* --- what the walks cost ---------------------------------------------------------------------- */
 
-/* The coordinates of the barycentric and the direct walk do not depend on the orientation of triangles:
- * they visit the same triangles, whichever are clockwise, and make as many tests as published: three a
- * triangle, or two and one more in the first. */
+/* The coordinates of the barycentric and the direct walk do not depend on the orientation of
+ * triangles: they visit the same triangles, whichever are clockwise, and make as many tests as
+ * published: three a triangle, or two and one more in the first. */
 static void coordinates_are_independent_of_orientation(void **state)
 {
     enum { QUERIES = 200 };

@@ -100,6 +100,21 @@ def test_kinds(random: np.random.Generator) -> None:
         meshwalk.triangulate(points, "wild")  # type: ignore[arg-type]
 
 
+def test_regular() -> None:
+    square = [[0, 0], [8, 0], [8, 8], [0, 8], [4, 4], [4, 3]]
+    light = meshwalk.triangulate(square, "regular")
+    assert light.describe().delaunay
+    assert light.describe().unused_vertices == 0
+    heavy = meshwalk.triangulate(square, "regular", weights=[0, 0, 0, 0, 9, -1])
+    assert np.setdiff1d(np.arange(6), heavy.triangles).tolist() == [5]
+    with pytest.raises(meshwalk.InputError, match="weight of point 2 is not finite"):
+        meshwalk.triangulate(square, "regular", weights=[0, 0, np.nan, 0, 0, 0])
+    with pytest.raises(ValueError, match="weights"):
+        meshwalk.triangulate(square, "regular", weights=[0, 0])
+    with pytest.raises(ValueError, match="for the kind 'regular'"):
+        meshwalk.triangulate(square, weights=[0] * 6)
+
+
 def test_local_optima_are_warned_about(random: np.random.Generator) -> None:
     with pytest.warns(meshwalk.OptimumWarning, match="local optimum"):
         meshwalk.triangulate(random.uniform(size=(60, 2)), "min-max-angle", limit=5)

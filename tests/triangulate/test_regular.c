@@ -1,5 +1,5 @@
-/* test_regular.c - regular triangulations: no point lies below the plane of a triangle, each lifted by its weight, in exact
- * integers or rationals; the triangles fill the convex hull. */
+/* test_regular.c - regular triangulations: no point lies below the plane of a triangle, each
+ * lifted by its weight, in exact integers or rationals; the triangles fill the convex hull. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,9 +40,10 @@ static weighted weighted_lattice(uint32_t n, uint32_t side, int heaviest, uint64
     return w;
 }
 
-/* --- the oracle ---------------------------------------------------------------------------------- */
+/* --- the oracle ------------------------------------------------------------------------------- */
 
-/* The sign of the determinant of lifted points, in integers of 64 bits: coordinates and weights are below 2^12. */
+/* The sign of the determinant of lifted points, in integers of 64 bits: coordinates and weights
+ * are below 2^12. */
 static int lattice_power(const weighted *w, const uint32_t *t, uint32_t d)
 {
     int64_t x[3], y[3], z[3], sum = 0;
@@ -72,7 +73,8 @@ static bool lattice_contains(const weighted *w, const uint32_t *t, uint32_t d)
     return true;
 }
 
-/* No point below any triangle; each in one, so that the triangles fill the hull, as the mesh is convex and an embedding. */
+/* No point below any triangle; each in one, so that the triangles fill the hull, as the mesh is
+ * convex and an embedding. */
 static void expect_regular(const weighted *w, const mw_mesh *mesh)
 {
     mw_mesh_info info;
@@ -130,7 +132,7 @@ static void expect_told(const weighted *w, const mw_mesh *mesh, const uint8_t *h
     free(first);
 }
 
-/* --- tests --------------------------------------------------------------------------------------- */
+/* --- tests ------------------------------------------------------------------------------------ */
 
 static void lattices_are_regular(void **state)
 {
@@ -187,8 +189,8 @@ static void equal_weights_are_delaunay(void **state)
     }
 }
 
-/* Many points, in doubles: across each edge the vertex is not below, which is enough where all triangles fill the hull; and
- * each hidden point is not below the triangle that contains it. */
+/* Many points, in doubles: across each edge the vertex is not below, which is enough where all
+ * triangles fill the hull; and each hidden point is not below the triangle that contains it. */
 static void many_points_are_regular(void **state)
 {
     enum { N = 20000 };

@@ -1,6 +1,6 @@
-/* regular.c - the regular triangulation, or weighted Delaunay triangulation [Aurenhammer 1987; Edelsbrunner,
- * Shah 1996]: points are inserted in random rounds along a Hilbert curve. It uses nothing of the Delaunay
- * triangulation but that there are three points that are on no line. */
+/* regular.c - the regular triangulation, or weighted Delaunay triangulation [Aurenhammer 1987;
+ * Edelsbrunner, Shah 1996]: points are inserted in random rounds along a Hilbert curve. It uses
+ * nothing of the Delaunay triangulation but that there are three points that are on no line. */
 #include "mesh/point_order.h"
 #include "triangulate/constrained/brio.h"
 #include "triangulate/kinds/kind_maker.h"
@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The points along a curve, so that what lies close in the plane lies close in memory; slot i holds point number[i]. */
+/* The points along a curve, so that what lies close in the plane lies close in memory; slot i
+ * holds point number[i]. */
 typedef struct regular_points {
     uint32_t *number, *order; /* order: of insertion, by slots */
     mw_point *point;

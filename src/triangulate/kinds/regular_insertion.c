@@ -1,18 +1,20 @@
-/* regular_insertion.c - one more point in a regular triangulation [Bowyer 1981; Watson 1981; Edelsbrunner,
- * Shah 1996].
+/* regular_insertion.c - one more point in a regular triangulation [Bowyer 1981; Watson 1981;
+ * Edelsbrunner, Shah 1996].
  *
- * Lift each point x of weight w to the height |x|^2 - w. The triangulation is the lower hull of the lifted
- * points, seen from below. A new point p takes away the facets that its lifted point lies below: they are
- * connected, hold p, and see it, so the star of p fills their place. If the facet that holds p is not among them,
- * none is: p is hidden. Vertices that all facets are taken from are hidden by p.
+ * Lift each point x of weight w to the height |x|^2 - w. The triangulation is the lower hull of
+ * the lifted points, seen from below. A new point p takes away the facets that its lifted point
+ * lies below: they are connected, hold p, and see it, so the star of p fills their place. If the
+ * facet that holds p is not among them, none is: p is hidden. Vertices that all facets are taken
+ * from are hidden by p.
  *
- * Beyond an edge ab of the hull the ghost facet is the vertical plane through the lifted a and b: p is below
- * it where it lies beyond the edge, and on the line through the edge, where its lifted point lies below the line through
- * the lifted a and b. So two facets at one edge always agree about a point on the line through it, and no
- * facet of the star is flat.
+ * Beyond an edge ab of the hull the ghost facet is the vertical plane through the lifted a and b:
+ * p is below it where it lies beyond the edge, and on the line through the edge, where its lifted
+ * point lies below the line through the lifted a and b. So two facets at one edge always agree
+ * about a point on the line through it, and no facet of the star is flat.
  *
- * Points are found by walking. In a regular triangulation no walk goes round in a circle [Edelsbrunner 1990]; where
- * more than three lifted points lie on one plane, their triangles may be of any kind, so a coin is tossed. */
+ * Points are found by walking. In a regular triangulation no walk goes round in a circle
+ * [Edelsbrunner 1990]; where more than three lifted points lie on one plane, their triangles may
+ * be of any kind, so a coin is tossed. */
 #include "triangulate/kinds/regular_insertion.h"
 
 #include "base/random.h"
@@ -134,8 +136,8 @@ static uint32_t facet_find(mw_regular *r, uint32_t p)
 
 /* --- the cavity --- */
 
-/* The facets above p from facet `first` on, and the edges round them. Returns the number of facets; *edges
- * that of edges. */
+/* The facets above p from facet `first` on, and the edges round them. Returns the number of
+ * facets; *edges that of edges. */
 static uint32_t facets_dig(mw_regular *r, uint32_t first, uint32_t p, uint32_t *edges)
 {
     uint32_t count = 1, mark = p + 1;
@@ -183,7 +185,8 @@ static void facets_fill_star(mw_regular *r, uint32_t count, uint32_t edges, uint
 
 /* --- equal points --- */
 
-/* p lies in facet t and is hidden. If it equals a vertex in weight, too, it takes the place of that if it is lower. */
+/* p lies in facet t and is hidden. If it equals a vertex in weight, too, it takes the place of
+ * that if it is lower. */
 static void vertex_take_over(mw_regular *r, uint32_t t, uint32_t p)
 {
     uint32_t k = 0, v;

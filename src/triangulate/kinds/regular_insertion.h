@@ -4,9 +4,9 @@
 
 #include "mesh/mesh.h"
 
-/* Facets are triangles, and beyond each edge of the hull a ghost facet, one of whose vertices is MW_NONE, the
- * point at infinity. So every edge is linked. `user` of a facet: the point in whose cavity it was met
- * last, or FREED. */
+/* Facets are triangles, and beyond each edge of the hull a ghost facet, one of whose vertices is
+ * MW_NONE, the point at infinity. So every edge is linked. `user` of a facet: the point in whose
+ * cavity it was met last, or FREED. */
 typedef struct mw_regular {
     const mw_point *point;
     const double *weight;
@@ -32,8 +32,8 @@ void mw__regular_release(mw_regular *r);
 /* The first triangle, of three points that turn left. */
 void mw__regular_begin(mw_regular *r, uint32_t a, uint32_t b, uint32_t c);
 
-/* Insert a point. It is hidden if its lifted point lies on or above the surface; of equal points of equal
- * weight the lowest is a vertex. Points that it hides go. */
+/* Insert a point. It is hidden if its lifted point lies on or above the surface; of equal points
+ * of equal weight the lowest is a vertex. Points that it hides go. */
 void mw__regular_insert(mw_regular *r, uint32_t p);
 
 static MW_INLINE bool mw__regular_is_triangle(const mw_triangle *facet)

@@ -1,4 +1,4 @@
-#include "cli/input/border_peel.h"
+#include "cli/output/border_peel.h"
 #include "cli/frame/message.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* border_peel.h - --max-edge: takes long triangles off a triangulation, from its border inwards. */
-#ifndef MW_CLI_INPUT_BORDER_PEEL_H
-#define MW_CLI_INPUT_BORDER_PEEL_H
+#ifndef MW_CLI_OUTPUT_BORDER_PEEL_H
+#define MW_CLI_OUTPUT_BORDER_PEEL_H
 
 #include <meshwalk/meshwalk.h>
 
