@@ -203,7 +203,12 @@ def columns(array: NDArray[Any], kind: type[np.floating[Any]]) -> NDArray[Any]:
         size <= 1 or (step > 0 and step % table.itemsize == 0)
         for size, step in zip(table.shape, table.strides, strict=True)
     )
-    return table if forward else np.ascontiguousarray(table)
+    overlapping = (
+        table.shape[0] > 1
+        and lies_in_rows(table)
+        and table.strides[0] < table.itemsize * table.shape[1]
+    )
+    return table if forward and not overlapping else np.ascontiguousarray(table)
 
 
 def lies_in_rows(table: NDArray[Any]) -> bool:

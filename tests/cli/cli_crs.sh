@@ -2,6 +2,8 @@
 # Coordinate systems: where meshes and points tell theirs, and what keeps it.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
+# As in cli_vectors.sh: the leak checker may crash over the threads of GDAL.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
 # A comment of PLY, and .prj files beside: kept by what writes meshes.
 printf '%s\n' "$square" >square.off
@@ -53,9 +55,7 @@ run locate edited.ply none.csv; exits 0
 says 'none\.csv: warning: its coordinate system is not known, and edited\.ply is in EPSG:2056'
 run locate -q edited.ply none.csv; exits 0; says_nothing
 run locate --points-crs same edited.ply none.csv; exits 0; says_nothing
-run locate --points-crs EPSG:2056 edited.ply none.csv; exits 0; says_nothing
-run locate --points-crs EPSG:2056 edited.ply none.csv -o told.csv; exits 0; says_nothing
-holds "beside a table" grep -q 2056 told.prj
+run locate --crs EPSG:2056 --points-crs EPSG:2056 edited.ply none.csv; exits 0; says_nothing
 printf 'comment crs EPSG:2056\n' | sed -i '2r /dev/stdin' edited.ply # another; the first counts
 cp edited.ply noise.ply
 sed -i '0,/EPSG:2056/s//EPSG:99/' noise.ply
@@ -85,6 +85,8 @@ holds "no remark on what was told" test "$(grep -c longitudes "$logs/err")" == 0
 run locate --only-answers --points-crs EPSG:4326 berne.off gps.csv; exits 0
 prints_line '^7.438632421,46.951082725,inside,[01],0\.' # as they stand
 run sample --status --outside nearest --points-crs EPSG:4326 berne.off gps.csv; prints_line '^c,0,46,0,outside$'
+run locate --points-crs EPSG:2056 edited.ply none.csv -o told.csv; exits 0; says_nothing
+holds "beside a table" grep -q 2056 told.prj
 # The axes are longitude and latitude, easting and northing, whatever their definition says.
 printf '%s\n' 'E,N' '7.438632421,46.951082725' >en.csv
 for crs in EPSG:4326 urn:ogc:def:crs:EPSG::4326 OGC:CRS84 EPSG:4258; do

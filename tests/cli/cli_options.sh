@@ -2,6 +2,8 @@
 # Options: help, mistakes and their hints, strict numbers; help, manual pages and completion name the same options.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
+# As in cli_vectors.sh: the leak checker may crash over the threads of GDAL.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
 # All that the program lists: a new one is asked for its page and its completion, too.
 mapfile -t commands < <("$meshwalk" --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p')
