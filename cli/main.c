@@ -38,7 +38,8 @@ static int main_print_help(void)
               "Triangle .poly. Each also gzipped; '-' is standard input or output.",
               0);
     help_wrap(&t,
-              "Exit codes: 0 done; 1 done, but points have no answer and --strict was given; 2 wrong usage; 3 "
+              "Exit codes: 0 done; 1 done, but points have no answer and --strict was given, or check --fix left "
+              "defects; 2 wrong usage; 3 "
               "input unreadable or invalid; 4 out of memory, a limit, or output that cannot be written.",
               0);
     return files_write_text(NULL, &t);

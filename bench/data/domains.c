@@ -18,8 +18,9 @@ typedef struct star_polygon {
 #define ARMS 6
 #define ARM_WIDTH 0.12 /* radians, on either side */
 
-/* A compact star with narrow arms, as a town has along its roads: these make its hull large, and few lines between
- * two of its points leave it. Distances of the corners of a star without waves and arms are all about 1. */
+/* A compact star with narrow arms, as a town has along its roads: these make its hull large, and
+ * few lines between two of its points leave it. Distances of the corners of a star without waves
+ * and arms are all about 1. */
 typedef struct star_waves {
     double size[WAVES], phase[WAVES];
     double arm[ARMS], direction[ARMS];
@@ -129,8 +130,8 @@ static double star_hull_area(const star_polygon *s, double *hull)
 #define LENGTHS 300
 #define MOST_WAVES 100 /* drawn, until the last are taken as they are */
 
-/* The longer the arms, the less of its hull the outline fills. Arms that never leave as little of it as
- * wanted are drawn again. Returns the area of the hull. */
+/* The longer the arms, the less of its hull the outline fills. Arms that never leave as little of
+ * it as wanted are drawn again. Returns the area of the hull. */
 static double star_shape_outline(star_polygon *s, double share, double *hull, uint64_t *random)
 {
     for (int drawn = 0;; drawn++) {
@@ -195,8 +196,8 @@ static void domain_place_hole(holed_domain *d, size_t i, double area, uint64_t *
     star_move(s, p);
 }
 
-/* How dense points lie: the exponential of a sum of waves. In a town they stand close where there are many small
- * sites. */
+/* How dense points lie: the exponential of a sum of waves. In a town they stand close where there
+ * are many small sites. */
 #define DENSITY_WAVES 12
 #define DENSITY_DEVIATION 1.0 /* of the logarithm */
 #define DENSITY_MOST 2.0      /* times this: denser places are as dense as that */

@@ -1,9 +1,9 @@
 /* domains.h - meshes with pockets and holes to measure in, made from a seed.
  *
  * The outline is a star about the origin: corners at equal angles, their distances the exponential
- * of a sum of low waves, and a little noise, with narrow arms. Holes are smaller stars without arms, which
- * touch neither the outline nor each other. Points lie between them, closer in some parts than in others,
- * and the outline and the holes constrain their Delaunay triangulation. */
+ * of a sum of low waves, and a little noise, with narrow arms. Holes are smaller stars without
+ * arms, which touch neither the outline nor each other. Points lie between them, closer in some
+ * parts than in others, and the outline and the holes constrain their Delaunay triangulation. */
 #ifndef MW_BENCH_DATA_DOMAINS_H
 #define MW_BENCH_DATA_DOMAINS_H
 

@@ -148,7 +148,8 @@ static size_t strips_scan(double *points, size_t n, double step, const scan_lake
     return made;
 }
 
-/* Points are a little closer until there are enough; those too many are left out of the last strip. */
+/* Points are a little closer until there are enough; those too many are left out of the last
+ * strip. */
 void stand_in_strips(double *points, size_t n, uint64_t *random)
 {
     scan_lake lake[LAKES];

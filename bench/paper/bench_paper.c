@@ -22,7 +22,8 @@ static bool paper_encloses(const paper *p)
     return enclose == ENCLOSE_AUTO ? p->table->enclosed : enclose == ENCLOSE_YES;
 }
 
-/* One set, by the walks of the table, or by another one, whose name the result bears; nothing is published for that. */
+/* One set, by the walks of the table, or by another one, whose name the result bears; nothing is
+ * published for that. */
 static int paper_run_walk(paper *p, const dataset *data, const char *set, const char *walk, bool users_file)
 {
     char name[256];
@@ -84,7 +85,8 @@ static bool sizes_have(const size_t *sizes, size_t vertices)
     return !sizes[0];
 }
 
-/* Sets that stand in for the thesis' own, as large as these. `sizes` is empty, or has those that are wanted. */
+/* Sets that stand in for the thesis' own, as large as these. `sizes` is empty, or has those that
+ * are wanted. */
 static int paper_run_stand_ins(paper *p, const size_t *sizes)
 {
     const char *set;

@@ -21,8 +21,8 @@ void csv_row_double(text *out, bool filled, double value);
 /* The weights of the triangle's corners; empty cells for unknown weights (NaN), and if the triangle
  * is MW_NONE. */
 void csv_row_weights(text *out, uint32_t triangle, const double weight[3]);
-/* Write the cells from byte `begin` on as those of another table: its separator in place of commas, its
- * decimal mark in place of points. Texts in quotes stay as they are. */
+/* Write the cells from byte `begin` on as those of another table: its separator in place of
+ * commas, its decimal mark in place of points. Texts in quotes stay as they are. */
 void csv_row_adapt(text *out, size_t begin, char separator, char decimal);
 /* The end of the row. */
 void csv_row_end(text *out);

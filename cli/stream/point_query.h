@@ -31,7 +31,8 @@ int point_query_check_index(uint32_t cells, uint32_t layers);
 /* Add to a report how many points got which status. `self` is the command's own data. */
 typedef void point_query_tally(const void *self, report *r);
 
-/* Values at the points of a block. They are interpolated together, since each look-up waits for memory. */
+/* Values at the points of a block. They are interpolated together, since each look-up waits for
+ * memory. */
 typedef struct point_query_values {
     const double *field;      /* one for each vertex */
     double *at_points;        /* QUERY_BLOCK_SIZE of them, for the block that is being written */
@@ -58,8 +59,8 @@ typedef struct point_query {
     point_query_values *values; /* NULL: no values are asked for */
 } point_query;
 
-/* Write the answer for one point, each cell behind a comma. Returns false if there is none. `self` is
- * the command's own data. Several threads call this at the same time. */
+/* Write the answer for one point, each cell behind a comma. Returns false if there is none. `self`
+ * is the command's own data. Several threads call this at the same time. */
 typedef bool point_query_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
                              text *out);
 
@@ -74,16 +75,16 @@ int point_query_open(point_query *q, const point_query_settings *settings, const
                      point_query_load *load, const void *self);
 void point_query_release(point_query *q);
 
-/* The same in two steps, for a mesh that comes from elsewhere. First what is asked for is checked, before
- * long work: `inputs` are the files that are read. Then the mesh is prepared, which has to outlive the
- * query; `path` is the file that it comes from, and
- * `crs` the coordinate system that this tells, or NULL. */
+/* The same in two steps, for a mesh that comes from elsewhere. First what is asked for is checked,
+ * before long work: `inputs` are the files that are read. Then the mesh is prepared, which has to
+ * outlive the query; `path` is the file that it comes from, and `crs` the coordinate system that
+ * this tells, or NULL. */
 int point_query_begin(point_query *q, const point_query_settings *settings, const char *const *inputs, int count);
 int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, const char *crs);
 
-/* Write the header, then the row of every point with its answer, in order. `answers` are the names of
- * the answer's cells; NULL ends them; `kinds` tell what they hold, as in query_stream.h. Returns the exit
- * code. */
+/* Write the header, then the row of every point with its answer, in order. `answers` are the names
+ * of the answer's cells; NULL ends them; `kinds` tell what they hold, as in query_stream.h.
+ * Returns the exit code. */
 int point_query_run(const point_query *q, const char *points, const char *const *answers, const char *kinds,
                     point_query_row *row, const void *self);
 

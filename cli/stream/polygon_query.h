@@ -5,8 +5,8 @@
 #include "cli/input/polygon_file.h"
 #include "cli/stream/point_query.h"
 
-/* Read the polygons and answer every point, with all statuses and numbers if `details`. Returns the exit
- * code. */
+/* Read the polygons and answer every point, with all statuses and numbers if `details`. Returns
+ * the exit code. */
 int polygon_query_run(const point_query_settings *settings, const polygon_file_settings *polygons, const char *points,
                       bool details);
 

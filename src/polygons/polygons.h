@@ -1,15 +1,15 @@
 /* polygons.h - polygons that are ready for queries. Private.
  *
- * The rings are constraints of a triangulation. A segment that crosses another which is an edge already
- * stays whole from there on: it is a chord of each triangle that it passes through. On a side of all
- * its chords the triangle is covered by one set of polygons. The set that is stored is that of the
- * left sides of all chords, be there a place on all of them or not:
+ * The rings are constraints of a triangulation. A segment that crosses another which is an edge
+ * already stays whole from there on: it is a chord of each triangle that it passes through. On a
+ * side of all its chords the triangle is covered by one set of polygons. The set that is stored is
+ * that of the left sides of all chords, be there a place on all of them or not:
  *
  *          c
- *         / \ B          Chord k of polygon P parts the triangle. The stored set holds where a point is
- *        / k .           to the left of k; P is in or out of it the other way for points to the right.
- *       /  .  \          On k the point is on P's border. The side of each chord is an orient2d of the
- *      a .-----b         segment's own points, so nothing is rounded.
+ *         / \ B         Chord k of polygon P parts the triangle. The stored set holds where a point
+ *        / k .          is to the left of k; P is in or out of it the other way for points to the
+ *       /  .  \         right. On k the point is on P's border. The side of each chord is an orient2d
+ *      a .-----b        of the segment's own points, so nothing is rounded.
  *       A
  */
 #ifndef MW_SRC_POLYGONS_POLYGONS_H

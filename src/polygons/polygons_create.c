@@ -1,5 +1,5 @@
-/* polygons_create.c - polygons become ready for queries: their rings are forced into a triangulation;
- * those that cross others are followed through it; then each triangle gets its set. */
+/* polygons_create.c - polygons become ready for queries: their rings are forced into a
+ * triangulation; those that cross others are followed through it; then each triangle gets its set. */
 #include "base/options.h"
 #include "polygons/polygons_label.h"
 #include "triangulate/constrained/cdt.h"

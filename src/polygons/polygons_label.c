@@ -62,8 +62,8 @@ static int rank_compare(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* The set beyond an edge: of the triangle at the end of half-edge `into`, coming from set `from` over
- * `out`, or from outside the hull where that is MW_NONE. MW_NONE when out of memory. */
+/* The set beyond an edge: of the triangle at the end of half-edge `into`, coming from set `from`
+ * over `out`, or from outside the hull where that is MW_NONE. MW_NONE when out of memory. */
 static uint32_t labeller_cross(labeller *l, uint32_t from, uint32_t out, uint32_t into)
 {
     uint32_t t = mw__link_triangle(into), k = mw__link_edge(into);

@@ -1,5 +1,5 @@
-/* polygon_ranks.h - polygons as given have any numbers; their ranks count from 0, in the order of the
- * numbers. Private. */
+/* polygon_ranks.h - polygons as given have any numbers; their ranks count from 0, in the order of
+ * the numbers. Private. */
 #ifndef MW_SRC_TRIANGULATE_CONSTRAINED_POLYGON_RANKS_H
 #define MW_SRC_TRIANGULATE_CONSTRAINED_POLYGON_RANKS_H
 
@@ -11,8 +11,8 @@ typedef struct mw_polygon_ranks {
     uint32_t count;
 } mw_polygon_ranks;
 
-/* MW_ERROR_INPUT: a polygon whose rings are not closed, with a point where one ends; MW_ERROR_MEMORY.
- * m->twin is set. Release it in either case. */
+/* MW_ERROR_INPUT: a polygon whose rings are not closed, with a point where one ends;
+ * MW_ERROR_MEMORY. m->twin is set. Release it in either case. */
 mw_status mw__polygon_ranks_create(mw_polygon_ranks *ranks, const mw_cdt *m, mw_error *error);
 void mw__polygon_ranks_release(mw_polygon_ranks *ranks);
 

@@ -60,8 +60,8 @@ typedef struct mw_subsegment {
 mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *from, uint32_t *to,
                                            mw_subsegment *subsegment);
 
-/* Make the edge of a half-edge a subsegment. Returns its number, which is that of before if it is one
- * already. */
+/* Make the edge of a half-edge a subsegment. Returns its number, which is that of before if it is
+ * one already. */
 uint32_t mw__segment_insertion_mark(mw_segment_insertion *c, uint32_t half);
 
 /* What a segment meets on its way. */
