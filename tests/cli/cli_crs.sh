@@ -95,6 +95,9 @@ done
 printf '%s\n' 'E,N' 4125898.590,2651988.789 >laea.csv # this definition has the northing first
 run sample --status --points-crs EPSG:3035 berne.off laea.csv; exits 0; prints_line ',inside$'
 
+printf '%s\n' 'laenge;breite' '7,438632421;46,951082725' >german.csv
+run sample --status berne.off german.csv; exits 0; says 'taken as WGS 84'; prints_line '^7,438632421;46,951082725;[0-9]+,[0-9]+;inside$'
+
 # Two pairs of columns: the system of the points, or else of the mesh, calls for one.
 printf '%s\n' x,y,lon,lat 2600000,1200000,7.438632421,46.951082725 >both.csv
 cp square.off plain.off

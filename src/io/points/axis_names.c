@@ -23,6 +23,7 @@ static const mw_axis_names sets[] = {
     {.axis = {"x_utm", "y_utm", "z"}},
     {.axis = {"utm_easting", "utm_northing", "z"}},
     {.axis = {"rechtswert", "hochwert", "z"}},
+    {.axis = {"laenge", "breite", "z"}, .lonlat = 1},
 };
 
 const mw_axis_names *mw_axis_names_at(size_t i)
